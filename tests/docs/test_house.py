@@ -177,6 +177,11 @@ def test_the_oracle_imports_nothing_of_gapbeam():
     assert {path.parent.name for path in seen} == {"oracle", "checkers", "scenes"}
 
 
+def test_every_file_of_the_package_is_installed():
+    listed = set(re.findall(r"'(gapbeam/[\w/]+\.py)'", (TOP / "python" / "meson.build").read_text()))
+    assert listed == {path.relative_to(TOP / "python").as_posix() for path in (TOP / "python" / "gapbeam").rglob("*.py")}
+
+
 def test_dir_shows_what_users_use():
     assert gapbeam.solve
     assert dir(gapbeam) == sorted(gapbeam.__all__)

@@ -66,23 +66,29 @@ class Installation:
         return program
 
 
-def install(folder: Path, *options: str) -> Installation:
-    """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing."""
+def install(folder: Path, *options: str, like: Installation | None = None) -> Installation:
+    """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing.
+
+    What another installation beside that folder was built of is copied, so that only what the options change is compiled.
+    """
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
     prefix, build = folder / "prefix", folder / "build"
     setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", *options]
+    if like:
+        shutil.copytree(like.build, build, symlinks=True)
+        setup += ["--reconfigure"]
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
     return Installation(prefix, build)
 
 
-def install_once(folders, name: str, *options: str) -> Installation:
+def install_once(folders, name: str, *options: str, like: Installation | None = None) -> Installation:
     """Install in a temporary folder; the processes of `pytest -n` share it: who comes first builds, the others wait."""
     if "PYTEST_XDIST_WORKER" not in os.environ:
-        return install(folders.mktemp(name), *options)
+        return install(folders.mktemp(name), *options, like=like)
     import fcntl
 
     folder = folders.getbasetemp().parent / name
@@ -90,6 +96,6 @@ def install_once(folders, name: str, *options: str) -> Installation:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if (folder / "done").exists():
             return Installation(folder / "prefix", folder / "build")
-        found = install(folder, *options)
+        found = install(folder, *options, like=like)
         (folder / "done").touch()
         return found

@@ -15,11 +15,31 @@ from .installation import LANGUAGES, TOP, install_once
 
 
 @pytest.fixture(scope="session")
-def installed_openblas(tmp_path_factory):
-    """The library with PyPI's LAPACK, as it is built where the system has none; not optimized, which takes half the time."""
+def installed_openblas(installed, tmp_path_factory):
+    """The library with PyPI's LAPACK, as it is built where the system has none."""
     if find_spec("scipy_openblas32") is None:
         pytest.skip("scipy-openblas32 is not in this environment")
-    return install_once(tmp_path_factory, "openblas", "-Dlapack=scipy-openblas32", "-Doptimization=0", "-Dlanes=least")
+    return install_once(tmp_path_factory, "openblas", "-Dlapack=scipy-openblas32", like=installed)
+
+
+@pytest.fixture
+def wheel_with_openblas(tmp_path):
+    """A wheel with PyPI's LAPACK: of a copy of the build that `tests/run` made of the package, else built without optimization."""
+    pytest.importorskip("mesonpy")
+    pytest.importorskip("scipy_openblas32")
+    pytest.importorskip("numpy", minversion="2.1")  # for building; in the environment of tests/lowest it is older
+    made, build = TOP / ".venv" / "build" / "package", TOP / ".venv" / "build" / "openblas"
+    settings = ["lapack=scipy-openblas32", *(() if made.exists() else ("optimization=0", "lanes=least"))]
+    shutil.rmtree(build, ignore_errors=True)
+    if made.exists():
+        shutil.copytree(made, build, symlinks=True)
+    options = ["--no-deps", "--no-build-isolation", "--quiet", "-w", tmp_path, f"-Cbuild-dir={build}"]
+    options += [f"-Csetup-args=-D{one}" for one in settings]
+    done = subprocess.run([sys.executable, "-m", "pip", "wheel", *options, TOP], capture_output=True, text=True)
+    shutil.rmtree(build)
+    assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
+    (wheel,) = tmp_path.glob("gapbeam-*.whl")
+    return wheel
 
 
 def search_path(installation, library):
@@ -66,20 +86,14 @@ def test_library_brings_openblas_along(installed_openblas, tmp_path, python_digi
     assert digits_of_static_program(installed_openblas, tmp_path) == python_digits
 
 
-def test_wheel_brings_openblas_along(installed_openblas, tmp_path, python_digits):
+def test_wheel_brings_openblas_along(wheel_with_openblas, installed, tmp_path, python_digits):
     """The extensions look for it beside themselves, never in the folder of the build; the wheel asks for no other package."""
-    pytest.importorskip("mesonpy")
-    pytest.importorskip("numpy", minversion="2.1")  # for building; in the environment of tests/lowest it is older
-    options = ["--no-deps", "--no-build-isolation", "--quiet"]
-    options += [f"-Csetup-args=-D{option}" for option in ("lapack=scipy-openblas32", "optimization=0", "lanes=least")]
-    installed_openblas.run(sys.executable, "-m", "pip", "wheel", *options, "-w", tmp_path, TOP)
-    (wheel,) = tmp_path.glob("gapbeam-*.whl")
     unpacked = tmp_path / "unpacked"
-    zipfile.ZipFile(wheel).extractall(unpacked)
+    zipfile.ZipFile(wheel_with_openblas).extractall(unpacked)
     assert {path.name for path in unpacked.iterdir()} == {"gapbeam", f"gapbeam-{gapbeam.__version__}.dist-info"}
     extensions = sorted((unpacked / "gapbeam").glob("_*.so"))
     assert len(extensions) == 2
-    assert [search_path(installed_openblas, extension) for extension in extensions] == 2 * [["$ORIGIN"]]
+    assert [search_path(installed, extension) for extension in extensions] == 2 * [["$ORIGIN"]]
     assert (unpacked / "gapbeam" / "scipy_openblas.LICENSE.txt").exists()
     (metadata,) = unpacked.glob("gapbeam-*.dist-info/METADATA")
     assert "scipy-openblas32" not in metadata.read_text().partition("\n\n")[0]

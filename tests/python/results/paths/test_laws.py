@@ -1,4 +1,7 @@
-"""Supports with laws: closed forms, and thousands of random paths beside an independent one in fractions (`oracle/laws.py`)."""
+"""Supports with laws: closed forms, and random paths beside independent ones in fractions (`oracle/laws.py`, `oracle/history.py`).
+
+The family `laws` of the attack draws thousands of these scenes.
+"""
 
 import itertools
 import json
@@ -276,8 +279,8 @@ CRITICAL = {1489}
 """A law that falls exactly as steeply as the beam is stiff, to the last bit: the engine ends there in a mechanism."""
 
 
-def test_2000_softening_paths():
-    assert {seed for seed in range(2000) if not agree(law_scene(seed, "softening"))} <= CRITICAL
+def test_softening_paths():
+    assert {seed for seed in {*range(400), *CRITICAL} if not agree(law_scene(seed, "softening"))} <= CRITICAL
 
 
 def test_a_path_that_comes_round_ends():
@@ -301,22 +304,22 @@ def difference(step, state, which):
     )
 
 
-@pytest.mark.parametrize("follow_by", ["steps", "events"])
-def test_2000_hardening_scenes(follow_by):
+def test_hardening_scenes():
     wrong = []
-    for seed in range(2000):
+    for seed in range(400):
         scene = law_scene(seed, "hardening")
         exact = follow(scene)
-        result = gapbeam.solve({**scene, "analysis": {"follow": follow_by}})
-        if result.status != "solved" or difference(result.steps[-1], exact.end, exact.problem.which) > 1e-11:
-            wrong.append(seed)
+        for follow_by in ("steps", "events"):
+            result = gapbeam.solve({**scene, "analysis": {"follow": follow_by}})
+            if result.status != "solved" or difference(result.steps[-1], exact.end, exact.problem.which) > 1e-11:
+                wrong.append((seed, follow_by))
     assert wrong == []
 
 
 @pytest.mark.parametrize("family", ["plastic", "broken"])
-def test_500_histories(family):
+def test_histories(family):
     wrong = []
-    for seed in range(500):
+    for seed in range(150):
         scene = law_scene(seed, family)
         exact = history(scene)
         if exact.status != "solved":

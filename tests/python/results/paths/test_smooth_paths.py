@@ -299,7 +299,7 @@ def test_random_paths():
         landed = next(y for y, way, sign, _ in rows[first:] if way > 0 and sign > 0 and y[-1] >= turns[0])
         there = problem.state(landed, turns[0])
         released = set()
-        for at_limit in ("stop", "jump"):
+        for at_limit in ("stop", "jump") if turned % 4 == 0 else ("jump",):  # up to the limit both do the same
             other = gapbeam.solve(described(*scene, at_limit))
             limit = other.limits[0]
             assert limit.exact, seed
