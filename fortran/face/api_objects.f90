@@ -1,4 +1,4 @@
-!> What users of the Fortran interface hold: a prepared beam, its results, how good they are; and what its procedures refuse before
+!> The objects that users of the Fortran interface hold: a prepared beam, its results, how good they are; and what its procedures refuse before
 !> anything is done with them
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
