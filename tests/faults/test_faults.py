@@ -371,7 +371,7 @@ def test_a_beam_tips_at_a_position():
     assert least.state.fields(0.0).deflection == pytest.approx(-0.01, rel=1e-12)
     # What belongs to the state before has that one
     train = result.trains["t"]
-    before, after = (scheme for scheme, _ in train.ways[0].schemes(5.2))
+    before, after = (scheme for scheme, _ in train.traversals[0].schemes(5.2))
     assert [train.at(5.2, "right", scheme).opening[0] for scheme in (before, after)] == pytest.approx([0.0, 0.01], abs=1e-12)
     for row in result.envelope().supports:
         for quantity, kinds in row.items():

@@ -12,7 +12,7 @@ from ..scene.names import label
 if TYPE_CHECKING:
     from ..results.paths.ground_path import GroundEvent
     from ..results.paths.path import Event
-    from ..results.trains.ways import TrainEvent
+    from ..results.trains.traversals import TrainEvent
     from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .ways import TrainEvent
+from .traversals import TrainEvent
 
 if TYPE_CHECKING:
     from ..result import Result

@@ -20,7 +20,7 @@ from ..state.schemes import starting_scheme
 from ..state.smooth import SmoothLaws
 from ..state.step import Step
 from .tangents import NearTangents
-from .ways import NO_ANSWER
+from .traversals import NO_ANSWER
 
 if TYPE_CHECKING:
     from ...scene.trains import Course

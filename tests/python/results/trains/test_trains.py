@@ -127,7 +127,7 @@ def test_uniform_loads_between_distances():
     curves = envelope.fields
     assert (curves.largest["moment"][0], curves.largest_at["moment"][0]) == pytest.approx((16.5, 6.0), rel=1e-12)
     assert train.at(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
-    assert (train.ways[0].passage.ends[0, 0], train.ways[0].passage.ends[-1, 1]) == (0.0, 12.0)
+    assert (train.traversals[0].engine.ends[0, 0], train.traversals[0].engine.ends[-1, 1]) == (0.0, 12.0)
 
 
 def test_a_plank_tips(tmp_path, capsys):
@@ -163,8 +163,8 @@ def test_nothing_is_beyond_the_envelope(seed):
     train = result.trains["train 1"]
     envelope = train.envelope(np.linspace(0.0, result.scene.span_ends()[-1], 5))
     curves = envelope.fields
-    for way in train.ways:
-        passage, course = way.passage, way.course
+    for way in train.traversals:
+        passage, course = way.engine, way.course
         assert (passage.ends[1:, 0] == passage.ends[:-1, 1]).all()
         for position in (course.from_, course.to, *rng.uniform(course.from_, course.to, 12)):
             which = np.flatnonzero((passage.ends[:, 0] <= position) & (position <= passage.ends[:, 1]))
@@ -201,8 +201,8 @@ def test_nothing_is_beyond_the_envelope(seed):
 
 def test_ranges_of_positions():
     def ends(**train):
-        way = gapbeam.solve(simple(10.0, (0.0, 1.0), (2.0, 1.0), **train)).trains["train 1"].ways[-1]
-        return way.passage.ends[0, 0], way.passage.ends[-1, 1]
+        way = gapbeam.solve(simple(10.0, (0.0, 1.0), (2.0, 1.0), **train)).trains["train 1"].traversals[-1]
+        return way.engine.ends[0, 0], way.engine.ends[-1, 1]
 
     assert ends() == (0.0, 12.0)
     assert ends(both_directions=True) == (-2.0, 10.0)
@@ -344,7 +344,7 @@ def test_together(seed):
     envelope = together.envelope()
     for name, row in alone.envelope().extremes.items():
         assert {kind: e and e.value for kind, e in row.items()} == {k: e and e.value for k, e in envelope.extremes[name].items()}
-    for way in together.ways:
+    for way in together.traversals:
         course, end = way.course, float(gapbeam.read_scene(made).span_ends()[-1])
         for position in rng.uniform(course.from_, course.to, 6):
             loads = [*made["loads"], *loads_of(merged, position, course.direction, end)]
@@ -394,7 +394,7 @@ def test_axial_loads_do_not_meet_trains(seed):
     for k, value in ((count, right - 3.0), (count + 1, -right)):
         reaction = train.envelope().supports[k]["reaction"]
         assert [reaction[kind].value for kind in ("max", "min")] == pytest.approx([value, value], rel=1e-12)
-    state = train.at(plain.ways[0].course.to / 2)
+    state = train.at(plain.traversals[0].course.to / 2)
     assert state.fields(length * 0.9).axial_force == pytest.approx(-right, rel=1e-12)
 
 
@@ -564,3 +564,9 @@ def test_the_end_of_the_beam_as_the_sum_of_its_spans() -> None:
     assert line.values == pytest.approx(0.0, abs=1e-12)
     with pytest.raises(ValueError, match=r"x: the beam goes from 0 to 19\.47, got 19\.5"):
         result.envelope(x=[19.5])
+
+
+def test_old_names_warn():
+    train = gapbeam.solve(simple(10.0, (0.0, 1.0))).trains["train 1"]
+    with pytest.warns(DeprecationWarning, match="called traversals"):
+        assert train.ways == train.traversals

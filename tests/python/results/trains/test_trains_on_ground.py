@@ -98,7 +98,7 @@ def assert_nothing_beyond(made, result, positions, x):
     found = result.trains["train 1"] if "name" not in train else result.trains[train["name"]]
     envelope = found.envelope(x)
     curves, end = envelope.fields, float(result.scene.span_ends()[-1])
-    for way in found.ways:
+    for way in found.traversals:
         course = way.course
         for position in (course.from_, course.to, *(course.from_ + (course.to - course.from_) * np.asarray(positions))):
             loads = [*made["loads"], *loads_of(train, position, course.direction, end)]
@@ -196,7 +196,7 @@ def test_events():
     assert train.at(closes.position).reaction[0] == pytest.approx(0.0, abs=1e-10)
     # The mirrored train meets the mirrored events in the same order
     mirrored = rail(supports=[{**rail()["supports"][0], "x": 5.0}], trains=[{**rail()["trains"][0], "both_directions": True}])
-    back = gapbeam.solve(mirrored).trains["bogie"].ways[1]
+    back = gapbeam.solve(mirrored).trains["bogie"].traversals[1]
     assert [(event.support, event.event) for event in back.events] == [(event.support, event.event) for event in train.events]
     assert [12.0 - event.position for event in back.events] == pytest.approx([event.position for event in train.events], abs=1e-9)
 

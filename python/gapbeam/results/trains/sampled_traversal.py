@@ -24,10 +24,10 @@ from ..state.kinks import EVENTS, what_happens
 from .changes import neighbours
 from .grid import grid_step, places_of_jumps, places_of_kinks
 from .influence import influence_line
-from .searched import Searched
+from .sampled_members import SampledMember
 from .states import SHEAR, Placed, TrainLoads
 from .tops import Straight, Unrolled
-from .ways import Gap, TrainEvent, word_of
+from .traversals import Gap, TrainEvent, word_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,7 +89,7 @@ class Limit(NamedTuple):
     position: float
 
 
-class SearchedWay:
+class SampledTraversal:
     """A train that has gone over the beam in one direction.
 
     Parameters
@@ -132,33 +132,33 @@ class SearchedWay:
         self.solves = self.loads.solves
 
     def compressions(self, struts: Struts, tension: np.ndarray) -> Iterator[Compression | None]:
-        """Go through the largest compressions beside the Euler load, a position after the other, as `TrainWay.compressions`."""
+        """Go through the largest compressions beside the Euler load, one a position, as `ExactTraversal.compressions`."""
         for run in self.runs:
             for state in run.states:
                 if state.status == SOLVED:
                     here = type(struts)(state.beam)
                     yield here.of_step(self._scene, state.step, tensions(state.beam, state.step))
 
-    def members(self, train: TrainResult, combination: str | None) -> list[Searched]:
+    def members(self, train: TrainResult, combination: str | None) -> list[SampledMember]:
         """Give what an envelope is made of.
 
         Parameters
         ----------
         train : TrainResult
-            Whose way it is.
+            Whose traversal it is.
         combination : str or None
             Name of the combination.
 
         Returns
         -------
-        list of Searched
+        list of SampledMember
         """
-        return [Searched(train, self, combination)]
+        return [SampledMember(train, self, combination)]
 
     def influence(
         self, state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str
     ) -> np.ndarray:
-        """Give an influence line, as `TrainWay.influence`."""
+        """Give an influence line, as `ExactTraversal.influence`."""
         return influence_line(state, what, x, chosen, places, side)
 
     def ruler(self, low: float, high: float) -> Unrolled | Straight:
