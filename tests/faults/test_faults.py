@@ -385,8 +385,8 @@ def test_forces_where_the_beam_can_move_freely():
     made = read(HERE / "B3_neutral_positions.json")
     result = gapbeam.solve(made)
     (train,) = result.trains.values()
-    assert [gap.status for gap in train.gaps] == ["no-equilibrium", "no-equilibrium", "solved"]
-    assert (train.gaps[-1].from_, train.gaps[-1].to) == pytest.approx((9.2, 12.6), rel=1e-12)
+    assert [gap.status for gap in train.unstable_positions] == ["no-equilibrium", "no-equilibrium", "solved"]
+    assert (train.unstable_positions[-1].from_, train.unstable_positions[-1].to) == pytest.approx((9.2, 12.6), rel=1e-12)
     extremes = result.envelope().extremes
     assert extremes["deflection"] == extremes["rotation"] == {"max": None, "min": None}
     largest = extremes["moment"]["max"]

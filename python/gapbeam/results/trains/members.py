@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..state.ground import FreeSpan
     from ..state.step import Step
     from .trains import TrainResult
-    from .traversals import ExactTraversal, Gap
+    from .traversals import ExactTraversal, UnstablePositions
 
 OF_FORCES = (*(one.name for one in QUANTITIES if one.by_equilibrium), "reaction", "couple")
 """What is unique where the beam can move freely without work of the loads."""
@@ -137,7 +137,7 @@ class Member:
     ----------
     combination, train, direction : str or None
         Of what.
-    gaps : list of Gap
+    unstable_positions : list of UnstablePositions
         Positions that are not solved.
     """
 
@@ -146,7 +146,7 @@ class Member:
 
     def __init__(self, combination: str | None) -> None:
         self.combination = combination
-        self.gaps: list[Gap] = []
+        self.unstable_positions: list[UnstablePositions] = []
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """Give the largest (0) or smallest (1) values of a field, all that tie."""
@@ -193,7 +193,7 @@ class Passing(Member):
 
     def __init__(self, train: TrainResult, traversal: ExactTraversal, combination: str | None = None):
         super().__init__(combination)
-        self.train, self.direction, self.gaps = train.name, traversal.course.direction, traversal.gaps
+        self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
         self._train, self._traversal = train, traversal
         self._fields, self._supports = traversal.extremes
 

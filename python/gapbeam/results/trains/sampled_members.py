@@ -35,7 +35,7 @@ class SampledMember(Member):
 
     def __init__(self, train: TrainResult, traversal: SampledTraversal, combination: str | None):
         super().__init__(combination)
-        self.train, self.direction, self.gaps = train.name, traversal.course.direction, traversal.gaps
+        self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
         self._train, self._traversal = train, traversal
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:

@@ -27,7 +27,7 @@ from .influence import influence_line
 from .sampled_members import SampledMember
 from .states import SHEAR, Placed, TrainLoads
 from .tops import Straight, Unrolled
-from .traversals import Gap, TrainEvent, word_of
+from .traversals import TrainEvent, UnstablePositions, word_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -115,7 +115,7 @@ class SampledTraversal:
         The states, in ascending order.
     events : list of TrainEvent
         In the order in which they happen.
-    gaps : list of Gap
+    unstable_positions : list of UnstablePositions
         Positions that are not solved.
     solves : int
         Linear solves of these, without those for extremes.
@@ -273,10 +273,10 @@ class SampledTraversal:
         raise EngineError(f"{where} are too many to be told apart", Status.NOT_CONVERGED)
 
     def _read(self, cells: list[list[Placed]]) -> None:
-        """Runs, events and gaps from all states."""
+        """Runs, events and unstable positions from all states."""
         narrow = NEXT_TO * self.loads.beam.places.end
         self.runs: list[Run] = []
-        self.gaps: list[Gap] = []
+        self.unstable_positions: list[UnstablePositions] = []
         events: list[TrainEvent] = []
         last: Placed | None = None
         missing: list[Placed] = []
@@ -306,7 +306,7 @@ class SampledTraversal:
         back = self.course.direction == LEFT
         self.events = events[::-1] if back else events
         if back:
-            self.gaps.reverse()
+            self.unstable_positions.reverse()
 
     def _fill_short_runs(self) -> None:
         """Solve in the middle between two changes with nothing between: two states do not tell how values bend."""
@@ -320,7 +320,8 @@ class SampledTraversal:
 
     def _note_gap(self, states: list[Placed]) -> None:
         first, last = states[0], states[-1]
-        self.gaps.append(Gap(first.position, last.position, first.reason, self.course.direction, word_of(first.status)))
+        found = UnstablePositions(first.position, last.position, first.reason, self.course.direction, word_of(first.status))
+        self.unstable_positions.append(found)
 
     def _changes(self, below: Placed, above: Placed) -> list[TrainEvent]:
         """What changes between two neighbours, in the direction of the train."""

@@ -40,7 +40,7 @@ from .envelope import TrainEnvelope, places_along, places_given
 from .members import Member, fields_of
 from .neutral import loaded
 from .sampled_traversal import SampledTraversal
-from .traversals import ExactTraversal, Gap, TrainEvent
+from .traversals import ExactTraversal, TrainEvent, UnstablePositions
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -146,9 +146,15 @@ class TrainResult:
         return [event for traversal in self.traversals for event in traversal.events]
 
     @property
-    def gaps(self) -> list[Gap]:
+    def unstable_positions(self) -> list[UnstablePositions]:
         """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
-        return [gap for traversal in self.traversals for gap in traversal.gaps]
+        return [one for traversal in self.traversals for one in traversal.unstable_positions]
+
+    @property
+    def gaps(self) -> list[UnstablePositions]:
+        """Give the same as `unstable_positions`, by the name that it had."""
+        warnings.warn("gaps of a train are called unstable_positions", DeprecationWarning, stacklevel=2)
+        return self.unstable_positions
 
     @property
     def solves(self) -> int:

@@ -65,7 +65,7 @@ class TrainEvent:
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class UnstablePositions:
     """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
 
     Attributes
@@ -195,7 +195,7 @@ class ExactTraversal:
         return found
 
     @cached_property
-    def gaps(self) -> list[Gap]:
+    def unstable_positions(self) -> list[UnstablePositions]:
         """Positions that are not solved."""
         p, found = self.engine, []
         reasons: list[Any] = []
@@ -212,7 +212,7 @@ class ExactTraversal:
             elif word == "solved":
                 reason += "; the forces are"
             reasons.append((status, motion, word))
-            found.append(Gap(start, end, reason, self.course.direction, word))
+            found.append(UnstablePositions(start, end, reason, self.course.direction, word))
         return found[::-1] if self.course.direction == LEFT else found
 
     def schemes(self, position: float) -> list[tuple[np.ndarray, float]]:
