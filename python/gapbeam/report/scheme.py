@@ -1,4 +1,4 @@
-"""The history of the working scheme (which supports act) over the load, and its events, as rows of text."""
+"""The history of the contact state (which supports act) over the load, and its events, as rows of text."""
 
 from __future__ import annotations
 

@@ -154,7 +154,7 @@ class TrainLoads:
     beam : Beam
         The beam.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     course : Course
         The train.
     near : float

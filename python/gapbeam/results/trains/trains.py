@@ -142,7 +142,7 @@ class TrainResult:
 
     @property
     def events(self) -> list[TrainEvent]:
-        """Every change of the working scheme at its exact position, in the order in which they happen."""
+        """Every change of the contact state at its exact position, in the order in which they happen."""
         return [event for traversal in self.traversals for event in traversal.events]
 
     @property
