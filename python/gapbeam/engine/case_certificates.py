@@ -31,7 +31,7 @@ def case_certificates(
     beam : Beam
         The beam.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     factors : numpy.ndarray
         Factor of every load, cases by loads.
     closed, status : numpy.ndarray of int

@@ -27,7 +27,7 @@ def case_extremes(
     beam : Beam
         Without ground.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     factors, varied
         As for `solve_cases`, moduli as they are.
     closed, status : numpy.ndarray of int

@@ -95,7 +95,7 @@ def solve_combinations(
     settlements : numpy.ndarray or None
         Further movement of every support, combinations by supports of the scene; None where nothing moves.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     closed : numpy.ndarray of int
         Where the searches start: supports of the engine, or combinations by supports.
     piece, distance : numpy.ndarray, optional

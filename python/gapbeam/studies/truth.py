@@ -30,7 +30,7 @@ class Truth:
     closed : numpy.ndarray of bool
         Which supports act.
     right : bool
-        Whether the working scheme given was right.
+        Whether the contact state given was right.
     """
 
     deflection: tuple[np.ndarray, np.ndarray]
@@ -105,7 +105,7 @@ def solve_exactly(beam: MeshedBeam, closed: np.ndarray | None = None) -> Truth:
             if not wrong:
                 return Truth(_pairs(w), _pairs(m), _pairs(r), closed, change == 0)
             closed[wrong if change < MOST_CHANGES // 2 else wrong[:1]] ^= True
-    raise ArithmeticError("no working scheme satisfies the contact conditions exactly")
+    raise ArithmeticError("no contact state satisfies the contact conditions exactly")
 
 
 def _pairs(values: list[Decimal]) -> tuple[np.ndarray, np.ndarray]:

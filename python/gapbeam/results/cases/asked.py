@@ -25,7 +25,7 @@ class Asked(Record):
     beam : Beam
         The prepared beam.
     rule : str
-        How working schemes are found.
+        How contact states are found.
     factors : numpy.ndarray
         Cases by loads.
     closed : numpy.ndarray of int
