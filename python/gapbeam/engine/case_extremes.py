@@ -31,7 +31,7 @@ def case_extremes(
     factors, varied
         As for `solve_cases`, moduli as they are.
     closed, status : numpy.ndarray of int
-        Working schemes, cases by supports of the engine; 0 where a case is solved.
+        Contact states, cases by supports of the engine; 0 where a case is solved.
     nodes : tuple of numpy.ndarray
         Deflection, moments left and right of the nodes, cases by nodes.
     names : collection of str

@@ -60,7 +60,7 @@ class Combined(Record):
     status : numpy.ndarray of int
         0 solved, 1 no equilibrium, above 10 the code of an error.
     closed : numpy.ndarray of int
-        Working schemes, combinations by supports of the engine.
+        Contact states, combinations by supports of the engine.
     at_supports : numpy.ndarray
         Reaction, deflection, opening and couple (rows) of the scene's supports, combinations by 4 by supports.
     extremes, places : numpy.ndarray

@@ -185,7 +185,7 @@ def _states(result: Result, dots: bool) -> list[Step]:
 def _note(result: Result) -> str:
     """Say what the marks of events mean."""
     kinds = {event.event for event in result.events if event.support is not None}
-    law = "squares, it passes a kink of its law" if kinds - {"closes", "opens", "turns"} else ""
+    law = "squares, it passes a breakpoint of its law" if kinds - {"closes", "opens", "turns"} else ""
     return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if kinds else "", law]))
 
 

@@ -16,7 +16,7 @@ from .meshes import MeshedBeam
 DIGITS = 80
 """Decimal digits carried."""
 MOST_CHANGES = 100
-"""Working schemes tried before giving up."""
+"""Contact states tried before giving up."""
 
 
 @dataclass
@@ -72,7 +72,7 @@ def solve_exactly(beam: MeshedBeam, closed: np.ndarray | None = None) -> Truth:
     beam : MeshedBeam
         The beam.
     closed : numpy.ndarray of bool, optional
-        Working scheme to begin with; default all closed.
+        Contact state to begin with; default all closed.
 
     Returns
     -------

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 NO_ANSWER = {
     NOT_UNIQUE: "the beam can move freely, without work of the loads: its position is not unique",
     Status.INDETERMINATE: "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart",
-    Status.NOT_CONVERGED: "no unique answer: the working scheme could not be settled in the precision at hand",
+    Status.NOT_CONVERGED: "no unique answer: the contact state could not be settled in the precision at hand",
 }
 """Why positions are not solved where the beam does not move along a line."""
 
