@@ -206,6 +206,7 @@ def _parser() -> argparse.ArgumentParser:
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
+    run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
     run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
     run.set_defaults(command=_run)
 
@@ -288,7 +289,10 @@ def _run(arguments: argparse.Namespace) -> int:
     for option in ("--csv", "--path"):
         if option in outputs and option not in contents:
             say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
-    return SOLVED if solved else NO_SOLUTION
+    exceeded = [name for name, one in result.utilisations.items() if one.ratio > 1.0] if arguments.limits else []
+    if exceeded:
+        say(NO_SOLUTION, f"beyond its limit: {', '.join(exceeded)}")
+    return SOLVED if solved and not exceeded else NO_SOLUTION
 
 
 def _check(arguments: argparse.Namespace) -> int:

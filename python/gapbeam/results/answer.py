@@ -12,7 +12,9 @@ from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
 from .envelopes.over_path import count_states, is_followed
+from .plausibility import doubts_of_scene
 from .state.ground import TOUCHING, joined
+from .utilisation import Utilisation, find_utilisations
 
 if TYPE_CHECKING:
     from .envelopes.envelope import Envelope, Extreme
@@ -298,6 +300,32 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     return lines
 
 
+def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
+    """Say how far the limits of the scene are used.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    used : dict of Utilisation
+        By `find_utilisations`.
+
+    Returns
+    -------
+    list of str
+        A line for each limit; none where the scene has none.
+    """
+    scene, lines = result.scene, []
+    for name, one in used.items():
+        unit = fmt.unit(scene, "stress") if name == "pressure" else fmt.shown_unit(scene, name)[0]
+        number = fmt.number if name == "pressure" else lambda value, _, name=name: fmt.shown(scene, name, value)
+        texts = [f"{number(abs(value), fmt.DIGITS)} {unit}".rstrip() for value in (one.value, one.limit)]
+        place = f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
+        mark = "EXCEEDED" if one.ratio > 1.0 else "within"
+        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {texts[0]} of {texts[1]} at {place}")
+    return lines
+
+
 def outcome_in_words(result: Result) -> list[str]:
     """Say whether the beam stands; nothing where all is well.
 
@@ -347,4 +375,6 @@ def answer(result: Result) -> list[str]:
     one_sided = any(item.side != "both" for item in result.scene.foundation)
     if one_sided and result.steps and result.stands and not result.scene.trains:
         lines += ground_in_words(result)
-    return [*lines, *values_in_words(result, envelope)]
+    lines += values_in_words(result, envelope)
+    lines += limits_in_words(result, find_utilisations(result, envelope))
+    return lines + doubts_of_scene(result, envelope)

@@ -68,6 +68,7 @@ def result_data(
         data["events"] = [event_data(event, scene) for event in result.events]
     if result.steps:
         data["lifted"] = lifted_data(result)
+        data |= limits_data(result)
         data["fields"] = columns
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
@@ -96,6 +97,23 @@ def lifted_data(result: Result) -> list[dict[str, Any]]:
     """
     supports = result.scene.supports
     return [{**one.to_dict(), **name_of(supports[one.support])} for one in result.lifted]
+
+
+def limits_data(result: Result) -> dict[str, Any]:
+    """Give how far the limits of the scene are used, as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+
+    Returns
+    -------
+    dict
+        Empty where the scene has no limits.
+    """
+    used = result.utilisations
+    return {"utilisations": {name: one.to_dict() for name, one in used.items()}} if used else {}
 
 
 def name_of(item: Any) -> dict[str, str]:

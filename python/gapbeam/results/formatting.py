@@ -199,7 +199,7 @@ UNITS = {one.name: one.unit for one in QUANTITIES} | {
     **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length"), "{length}"),
     **dict.fromkeys(("reaction", "force", "resultant"), "{force}"),
     "curvature": "1/{length}", "couple": "{force} {length}", "EI": "{force} {length}^2",
-    "uniform": "{force}/{length}", "k": "{force}/{length}^2",
+    "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
 SMALL = ("deflection", "opening", "sag", "gap", "set")

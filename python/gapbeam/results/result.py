@@ -22,6 +22,7 @@ from .trains.data import lost_positions
 from .trains.envelope import TrainEnvelope, places_given
 from .trains.members import Member
 from .trains.trains import Trains
+from .utilisation import Utilisation, find_utilisations
 
 
 class Result(States):
@@ -178,6 +179,11 @@ class Result(States):
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact, each where its opening is largest on the way, in a combination, under a train."""
         return lifted_supports(self, self.envelope()) if self.has_envelope else []
+
+    @property
+    def utilisations(self) -> dict[str, Utilisation]:
+        """How far the limits of the scene are used, by quantity; empty where there are none, or where nothing stands."""
+        return find_utilisations(self, self.envelope()) if self.scene.limits is not None and self.has_envelope else {}
 
     def __repr__(self) -> str:
         """Show the answer: outcome, what has no contact, the largest values."""

@@ -18,6 +18,7 @@ from .files import read_file
 from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
 from .ground_tables import is_table, least_and_most, settled
 from .laws import is_smooth, wrong_parameter
+from .limits import check_limits
 from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
@@ -118,6 +119,7 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
         _settle_foundations(scene)
         _check_foundations(scene)
     check_trains(scene)
+    check_limits(scene.limits, scene.beam.width, bool(len(scene.foundation)))
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
     if not scene.analysis.history:

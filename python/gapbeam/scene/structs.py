@@ -34,6 +34,7 @@ from msgspec import field
 from .ground_laws import GroundLaw
 from .ground_tables import Along
 from .laws import Law
+from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
 from .table import Count, NotNegative, Point, Positive, Side, Spans, Stretch, Table
 
@@ -70,6 +71,8 @@ class Beam(Table, forbid_unknown_fields=True):
         Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
+    width : float, optional
+        Width on the ground (length), by which pressures are set beside `limits.pressure`; it changes no result.
     """
 
     spans: Spans
@@ -77,6 +80,7 @@ class Beam(Table, forbid_unknown_fields=True):
     GA: Positive | list[Positive] = inf
     EA: Positive | list[Positive] = inf
     hinges: list[float] = []
+    width: Positive | None = None
 
 
 class Section(Stretch, kw_only=True, gc=False):
@@ -308,6 +312,8 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Combinations of load cases; without any there is one, all cases with factor 1.
     analysis : Analysis
         Load steps and rule.
+    limits : Limits, optional
+        What the design allows; report and JSON say how far it is used.
     """
 
     title: str = ""
@@ -320,6 +326,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     trains: list[Train] = []
     combinations: list[Combination] = []
     analysis: Analysis = field(default_factory=Analysis)
+    limits: Limits | None = None
 
     def span_ends(self) -> np.ndarray:
         """Place of every node, exact to the last digit.

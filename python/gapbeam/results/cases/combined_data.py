@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..data import SCHEMA, event_data, ground_data, lifted_data, limit_data, step_data
+from ..data import SCHEMA, event_data, ground_data, lifted_data, limit_data, limits_data, step_data
 from ..envelopes.over_path import is_followed
 from ..trains.data import trains_data
 
@@ -49,6 +49,7 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     if is_followed(result):
         data["history_extremes"] = result.history_extremes().to_history()
     data["lifted"] = lifted_data(result)
+    data |= limits_data(result)
     if result.has_envelope:
         data["envelope"] = result.envelope(points).to_dict()
     return data

@@ -52,7 +52,7 @@ def test_what_is_left_out_is_said(share):
     data = result.to_dict()
     assert "second order" in data["system"]["left_out"]
     assert data["system"]["compression"] == {"ratio": found.ratio, "force": found.force, "from": 0.0, "to": 1.0, "length": 1.0}
-    text = " ".join(report_text(result).split())
+    text = " ".join(report_text(result, verbose=True).split())
     assert f"effect of axial forces on bending: P L²/(π² EI) = {share:.4g}" in text
     assert ("remarks" in data) == ("comes near the Euler load" in text) == (share > 0.1)
 

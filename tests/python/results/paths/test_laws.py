@@ -369,7 +369,7 @@ def test_prepared_cases():
 
 def test_the_report_says_the_limit_first():
     lines = gapbeam.report.text.report_text(gapbeam.solve({**snap(), "title": "Snap"})).splitlines()
-    assert lines[:2] == ["Snap", "limit load at load factor 0.5: support 1 softens"]
+    assert lines[:2] == ["Snap", "Limit load at load factor 0.5: support 1 softens."]
     text = " ".join(" ".join(lines).split())
     assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text
 

@@ -1,0 +1,95 @@
+"""The answer in words: what lifts, the largest values, limits, plausibility."""
+
+import json
+
+import gapbeam
+import pytest
+import scenes
+from gapbeam.cli import main
+from gapbeam.report import report_text, to_json
+
+UNITS = {"force": "kN", "length": "m"}
+
+
+def spans(loads, **more):
+    supports = [scenes.at(k, side="below") for k in range(4)]
+    return {**scenes.scene([6.0, 6.0, 6.0], supports, loads, EI=1e4), "units": UNITS, **more}
+
+
+def test_what_lifts_is_said_first():
+    result = gapbeam.solve(spans([scenes.uniform(2.0, case="dead"), scenes.force(3.0, 160.0)]))
+    assert repr(result).splitlines()[1] == "Support 2 (x = 12) lifts off by 24.3 mm."
+    (one,) = result.lifted
+    assert (one.support, one.factor) == (2, 1.0)
+    assert one.opening == pytest.approx(0.0243, rel=1e-12)
+    assert json.loads(to_json(result))["lifted"] == [{"support": 2, "opening": one.opening, "factor": 1.0}]
+
+
+def test_nothing_lifts():
+    result = gapbeam.solve(spans([scenes.uniform(2.0)]))
+    assert result.lifted == []
+    assert repr(result).splitlines()[1] == "No support lifts off."
+
+
+def test_a_combination_is_named():
+    combinations = [{"name": "heavy", "factors": {"dead": 1.0, "live": 1.0}}, {"name": "empty", "factors": {"dead": 1.0}}]
+    result = gapbeam.solve(spans([scenes.uniform(2.0, case="dead"), scenes.force(3.0, 160.0)], combinations=combinations))
+    (one,) = result.lifted
+    assert (one.support, one.combination, one.factor) == (2, "heavy", None)
+    lines = repr(result).splitlines()
+    assert lines[1] == "2 of 2 combinations solved."
+    assert lines[2].endswith("lifts off by 24.3 mm (heavy).")
+    rows = report_text(result).partition("Reactions by combination")[2].splitlines()
+    assert next(row for row in rows if row.startswith("heavy")).split() == ["heavy", "71.5", "119.75", "0", "\u219124.3", "4.75"]
+
+
+def test_a_beam_that_cannot_stand_says_why():
+    result = gapbeam.solve(spans([scenes.force(3.0, -1.0)]))
+    assert result.lifted == []
+    assert repr(result).splitlines()[1].startswith("No equilibrium.")
+
+
+def test_limits_are_used_so_far(tmp_path, capsys):
+    limits = {"moment": 411.0, "shear": 50.25, "opening": 0.03}
+    made = spans([scenes.uniform(2.0, case="dead"), scenes.force(3.0, 160.0)], limits=limits)
+    result = gapbeam.solve(made)
+    used = result.utilisations
+    assert [used[name].ratio for name in ("moment", "shear", "opening")] == pytest.approx([0.5, 2.0, 0.81], rel=1e-12)
+    assert (used["shear"].x, used["opening"].support) == (6.0, 2)
+    assert any(line.startswith("Limit of shear") and "200% used, EXCEEDED" in line for line in report_text(result).splitlines())
+    assert json.loads(to_json(result))["utilisations"]["moment"] == used["moment"].to_dict()
+    scene = tmp_path / "a.json"
+    scene.write_text(json.dumps(made))
+    assert main(["run", str(scene), "--quiet"]) == 0
+    assert main(["run", str(scene), "--quiet", "--limits"]) == 1
+    assert "shear" in capsys.readouterr().err
+
+
+def test_a_pressure_per_area_needs_a_width():
+    ground = {"foundation": [{"k": 1e4, "side": "below"}], "limits": {"pressure": 150.0}}
+    made = {**scenes.scene([6.0], [], [scenes.uniform(30.0)], EI=1e5), **ground}
+    with pytest.raises(gapbeam.SceneError, match=r"beam\.width"):
+        gapbeam.solve(made)
+    made["beam"]["width"] = 1.5
+    assert gapbeam.solve(made).utilisations["pressure"].value == pytest.approx(20.0, rel=1e-12)
+    with pytest.raises(gapbeam.SceneError, match="no foundation"):
+        gapbeam.solve(spans([scenes.uniform(2.0)], limits={"pressure": 1.0}))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"EI": 10.0}, "beam.EI = 10"),
+        ({"EI": 1e15}, "beam.EI = 1e+15"),
+        ({"gap": 2.0}, "supports[2].gap = 2"),
+        ({"loads": []}, "loads is empty"),
+        ({}, None),
+    ],
+)
+def test_slips_are_named(change, words):
+    made = spans(change.get("loads", [scenes.uniform(2.0)]))
+    made["beam"]["EI"] = change.get("EI", 1e4)
+    made["supports"][2]["gap"] = change.get("gap", 0.0)
+    text = repr(gapbeam.solve(made))
+    assert ("?" in text or "empty" in text) == (words is not None)
+    assert words is None or words in text
