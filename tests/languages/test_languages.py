@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from gapbeam.base.errors import EngineError, SceneError
 from gapbeam.results.paths.branches import BranchPath
-from gapbeam.results.state.kinks import EVENTS
+from gapbeam.results.state.breakpoints import EVENTS
 from gapbeam.studies.meshes import gapped_spans
 from scenes import nodes_of, random_scene
 from scenes.curved import random_curved_scene

@@ -211,8 +211,8 @@ class History:
         of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump; n by 5.
     closed : numpy.ndarray of int
         Schemes, n by supports of the engine.
-    kinks : numpy.ndarray
-        The laws as they have become, n by 4 by supports of the engine, as `Beam.kinks`.
+    breakpoints : numpy.ndarray
+        The laws as they have become, n by 4 by supports of the engine, as `Beam.breakpoints`.
     limit_factors : numpy.ndarray
         Where the load could not go on.
     limits : numpy.ndarray of int
@@ -232,7 +232,7 @@ class History:
     along: np.ndarray
     about: np.ndarray
     closed: np.ndarray
-    kinks: np.ndarray
+    breakpoints: np.ndarray
     limit_factors: np.ndarray
     limits: np.ndarray
     others: np.ndarray

@@ -138,32 +138,32 @@ class Beam(Layout):
             return None
         return self.with_factors(c.load_codes[1, :-1].astype(float))
 
-    def with_kinks(self, kinks: np.ndarray) -> Beam:
+    def with_breakpoints(self, breakpoints: np.ndarray) -> Beam:
         """Make another beam: the same with the laws of its supports as they have become; itself if they have not changed.
 
         Parameters
         ----------
-        kinks : numpy.ndarray
+        breakpoints : numpy.ndarray
             As the attribute.
 
         Returns
         -------
         Beam
         """
-        if np.array_equal(kinks, self.kinks):
+        if np.array_equal(breakpoints, self.breakpoints):
             return self
-        handle, status, message = _engine.gblaws(self.handle, np.column_stack((kinks, np.zeros(4))), self.pieces)
+        handle, status, message = _engine.gblaws(self.handle, np.column_stack((breakpoints, np.zeros(4))), self.pieces)
         check_status(status, message)
         beam = object.__new__(type(self))
         beam.columns, beam.curves, beam._factors = self.columns, self.curves, self._factors
         beam._take(handle)
-        beam.__dict__["laws"] = self.laws  # which kinks they have stays
+        beam.__dict__["laws"] = self.laws  # which breakpoints they have stays
         return beam
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
-        kinks = self.kinks if self.has_laws else None
-        return _made_of, (self.columns, self.curves, self._factors, kinks)
+        breakpoints = self.breakpoints if self.has_laws else None
+        return _made_of, (self.columns, self.curves, self._factors, breakpoints)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -171,7 +171,7 @@ class Beam(Layout):
             return NotImplemented
         same = self.columns == other.columns and (self._factors is None) == (other._factors is None)
         same = same and (self._factors is None or np.array_equal(self._factors, other._factors))
-        return self is other or (same and (not self.has_laws or np.array_equal(self.kinks, other.kinks)))
+        return self is other or (same and (not self.has_laws or np.array_equal(self.breakpoints, other.breakpoints)))
 
     def solve(self, factor: float, rule: str, closed: np.ndarray) -> Solution:
         """Find the contact state at one load factor.
@@ -268,9 +268,9 @@ class Beam(Layout):
 
 
 def _made_of(
-    columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, kinks: np.ndarray | None
+    columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, breakpoints: np.ndarray | None
 ) -> Beam:
     """Make a beam that was pickled again."""
     beam = Beam(columns, curves)
     beam = beam if factors is None else beam.with_factors(factors)
-    return beam if kinks is None else beam.with_kinks(kinks)
+    return beam if breakpoints is None else beam.with_breakpoints(breakpoints)

@@ -66,23 +66,23 @@ class Layout:
 
     @property
     def numbers(self) -> np.ndarray:
-        """Number in the scene of every support of the engine: those across the beam that can carry, a law once a kink."""
+        """Number in the scene of every support of the engine: those across the beam that can carry, a law once a breakpoint."""
         return self._numbered[0]
 
     @property
-    def kinks(self) -> np.ndarray:
+    def breakpoints(self) -> np.ndarray:
         """Contact level, force, slope and slope before (rows) of every support of the engine, in its units."""
         return self._numbered[1]
 
     @cached_property
     def laws(self) -> dict[int, tuple[slice, int, int]]:
-        """Supports of the scene with a law: its kinks, kinks below the middle of the law, piece there, 0 if it is open."""
+        """Supports of the scene with a law: its breakpoints, how many are below its middle, piece there, 0 if it is open."""
         which = np.unique(self.columns.law_supports[:-1]) - 1
         first, last = (np.searchsorted(self.numbers, which, side=side) for side in ("left", "right"))
-        kinks = last - first
+        breakpoints = last - first
         both, gap = self.sides[which] == 0, self.columns.support[2, which]
         one_piece = both & (np.bincount(self.columns.law_supports[:-1], minlength=1)[which + 1] == 1) & (gap == 0.0)
-        middle = np.where(one_piece, 1, np.where(both, kinks // 2, 0))
+        middle = np.where(one_piece, 1, np.where(both, breakpoints // 2, 0))
         at_middle = (both & (gap == 0.0)).astype(int)
         rows = zip(map(slice, first.tolist(), last.tolist()), middle.tolist(), at_middle.tolist(), strict=True)
         return dict(zip(which.tolist(), rows, strict=True))

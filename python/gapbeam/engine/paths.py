@@ -72,16 +72,16 @@ def follow_history(beam: Beam, factors: np.ndarray, at_limit: str, most: int) ->
     Raises
     ------
     EngineError
-        More kinks at one factor than can be tried, or numbers out of range.
+        More breakpoints at one factor than can be tried, or numbers out of range.
     """
     sizes, status, message = _engine.gbhist(beam.handle, factors, AT_LIMIT[at_limit], most)
     check_status(status, message)
     count, limits, others, ending, solves = sizes.tolist()
-    along, about, closed, kinks, where, which, motion, ways, schemes = _engine.gbhget(
+    along, about, closed, breakpoints, where, which, motion, ways, schemes = _engine.gbhget(
         beam.handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1
     )
     return History(
-        along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(kinks, 2, 0)[:count, :, :-1], where[:limits],
+        along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(breakpoints, 2, 0)[:count, :, :-1], where[:limits],
         which.T[:limits], ways.T[:others], schemes.T[:others, :-1], ENDINGS[ending], motion if motion.any() else None, solves,
     )  # fmt: skip
 

@@ -88,6 +88,7 @@ def test_a_result_comes_back_from_pickling_the_same(result):
     assert copy.deepcopy(result) == result
 
 
+@pytest.mark.filterwarnings("ignore:kinks of laws are called breakpoints")
 @pytest.mark.parametrize("name", RESULTS)
 def test_arrays_are_read_only(name):
     fresh = RESULTS[name]()

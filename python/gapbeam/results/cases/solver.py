@@ -174,16 +174,16 @@ class CaseSolver(Pickled):
         return found
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
-        """Add up the columns of the kinks of laws, and add those of supports that can carry nothing."""
+        """Add up the columns of the breakpoints of laws, and add those of supports that can carry nothing."""
         columns = np.repeat(idle[:, None], len(self.supports), axis=1)
         columns[:, carries] = 0
         np.add.at(columns, (slice(None), carries), values)
         return columns
 
-    def _acts(self, support: int, kinks: np.ndarray) -> np.ndarray:
-        """Whether a support with a law acts, from the number of closed kinks."""
+    def _acts(self, support: int, breakpoints: np.ndarray) -> np.ndarray:
+        """Whether a support with a law acts, from the number of closed breakpoints."""
         _, middle, at_middle = self.beam.laws[support]
-        return (np.abs(kinks - middle) + at_middle > 0).astype(np.int32)
+        return (np.abs(breakpoints - middle) + at_middle > 0).astype(np.int32)
 
     def result(self, factors: np.ndarray, varied: Varied) -> Result:
         """Solve one case with all that there is to say of it, whether the beam would buckle or not.
@@ -218,7 +218,7 @@ class CaseSolver(Pickled):
 
 
 class WithLaws(CaseSolver):
-    """Cases of a beam on laws, each anew where its supports have other numbers: their kinks are made of these."""
+    """Cases of a beam on laws, each anew where its supports have other numbers: their breakpoints are made of these."""
 
     def _condense(self) -> None:
         split_loads(self.beam)

@@ -13,8 +13,8 @@ from ...base.records import Pickled, read_only
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
 from ...engine.paths import ENDINGS, follow_history
+from ..state.breakpoints import piece_of, what_happens
 from ..state.energy import bulge, work_of_loads
-from ..state.kinks import piece_of, what_happens
 from ..state.step import Step
 from .branch_segments import BranchSegment, Limit, OtherWay
 from .curved import CurvedPath
@@ -86,7 +86,7 @@ class BranchPath(Pickled):
         h = self._history
         before = h.closed[k - 1] if k else h.closed[k]
         return tuple(
-            OtherWay(DIRECTIONS[direction], index, tuple(self._between(before, h.other_schemes[j], h.kinks[k])))
+            OtherWay(DIRECTIONS[direction], index, tuple(self._between(before, h.other_schemes[j], h.breakpoints[k])))
             for j, (stretch, direction, index) in enumerate(h.others.tolist())
             if stretch == k + 1
         )
@@ -127,18 +127,18 @@ class BranchPath(Pickled):
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
         h = self._history
-        return self._between(h.closed[before], h.closed[after], h.kinks[after], h.kinks[before])
+        return self._between(h.closed[before], h.closed[after], h.breakpoints[after], h.breakpoints[before])
 
     def _between(
-        self, before: np.ndarray, after: np.ndarray, kinks: np.ndarray, kinks_before: np.ndarray | None = None
+        self, before: np.ndarray, after: np.ndarray, breakpoints: np.ndarray, breakpoints_before: np.ndarray | None = None
     ) -> list[tuple[int, str]]:
         """Supports to which something happens between two schemes."""
         beam, found = self._beam, {}
         for j in np.flatnonzero(before != after).tolist():
             i = int(beam.numbers[j])
             if i in beam.laws:
-                old = piece_of(beam, i, before, kinks if kinks_before is None else kinks_before)
-                found[i] = what_happens(old, piece_of(beam, i, after, kinks))
+                old = piece_of(beam, i, before, breakpoints if breakpoints_before is None else breakpoints_before)
+                found[i] = what_happens(old, piece_of(beam, i, after, breakpoints))
             else:
                 found[i] = "closes" if after[j] else "opens"
         return sorted((i, what) for i, what in found.items() if what)
@@ -284,7 +284,7 @@ class BranchPath(Pickled):
 
     def _beam_at(self, k: int) -> Beam:
         beam = self._beam if self._history.about[k, 0] else self._dead
-        return beam.with_kinks(self._history.kinks[k])
+        return beam.with_breakpoints(self._history.breakpoints[k])
 
     def _step(self, k: int, factor: float) -> Step:
         if self._curved is not None:

@@ -1,7 +1,7 @@
 """Stable paths beyond a bifurcation on smooth laws, and where the load stops growing along one of them.
 
-On polylines of equal laws that soften together the slopes on both sides of a kink decide what is stable, and these depend on
-where the kinks happen to be. Here the equations of `Arc` are followed on the laws themselves from the bifurcation on, by
+On polylines of equal laws that soften together the slopes on both sides of a breakpoint decide what is stable, and these depend on
+where the breakpoints happen to be. Here the equations of `Arc` are followed on the laws themselves from the bifurcation on, by
 pseudo-arclength (Keller 1977) with short steps.
 """
 

@@ -52,7 +52,7 @@ def compression_of(result: Result, step: Step, struts: Struts | None = None) -> 
     struts, tension = struts_of(beam) if struts is None else struts, tensions(beam, step)
     if not tension.min() < 0.0:
         return None
-    return struts.of_step(result.scene, step, tension, step.kinks if beam.has_laws else None)
+    return struts.of_step(result.scene, step, tension, step.breakpoints if beam.has_laws else None)
 
 
 def check_compression(result: Result) -> None:

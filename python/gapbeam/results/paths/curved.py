@@ -1,6 +1,6 @@
 """The path of a beam with smooth laws: found on their polylines, then put onto the laws themselves.
 
-On a polyline the path has a kink wherever a support passes one, which is nothing on the law. Only what happens is looked for
+On a polyline the path bends wherever a support passes a breakpoint, which is nothing on the law. Only what happens is looked for
 on the laws (`Arc`): where the load turns round, where the beam begins to give way to another side, where another support passes
 an end of its piece, and the load factors that are gone to. What is not found there stays as it is on the polylines, and says so.
 """
@@ -16,7 +16,7 @@ import numpy as np
 from ...base.errors import EngineError, Status
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
-from ..state.kinks import passed_kinks
+from ..state.breakpoints import passed_breakpoints
 from ..state.smooth import SmoothLaws
 from ..state.step import Step
 from .arc import Arc, LostError, State
@@ -106,13 +106,13 @@ class CurvedPath(PolylinePath):
             self._check(state, arc, indices)
         else:
             arc, h = self._arc(k, k, forward=False), self._rough
-            passed = passed_kinks(self._beam, h.closed[k], h.closed[k + 1], h.kinks[k])
-            # It may have been at the same kink at the start of the arc
+            passed = passed_breakpoints(self._beam, h.closed[k], h.closed[k + 1], h.breakpoints[k])
+            # It may have been at the same breakpoint at the start of the arc
             first = AWAY if abs(passed[0].margin(arc.at(0.0).solution)) < NEAR else 0.0
             state = arc.root(lambda state: passed[0].margin(state.solution), max(low, first) if first else low, first=first)
             # Not at the event itself, where a support may be on either side of it by rounding
             rate = arc.rate_beside(state.at, -1)
-            if max(abs(kink.margin(state.solution)) for kink in passed) > NEAR or not direction * rate > 0.0:
+            if max(abs(one.margin(state.solution)) for one in passed) > NEAR or not direction * rate > 0.0:
                 raise LostError
             self._check(state)
             leg, goal = h.about[k, 0], self._goal(h.about[k, 0])
@@ -169,7 +169,8 @@ class CurvedPath(PolylinePath):
             factors = np.append(factors, points[-1][-1])
         others = h.others[:, 0] <= k + 1
         cut = {
-            "closed": h.closed[kept], "kinks": h.kinks[kept], "others": h.others[others], "other_schemes": h.other_schemes[others],
+            "closed": h.closed[kept], "breakpoints": h.breakpoints[kept],
+            "others": h.others[others], "other_schemes": h.other_schemes[others],
             "limits": limits, "limit_factors": factors, "ending": "" if arrives else "ended", "motion": None,
         }  # fmt: skip
         self.history = replace(h, about=about, along=along, **cut)
@@ -270,7 +271,7 @@ class CurvedPath(PolylinePath):
             h.along[k, 1] = self._target
             keep = h.limits[:, 2] <= k
             self.history = replace(
-                h, along=h.along[: k + 1], about=h.about[: k + 1], closed=h.closed[: k + 1], kinks=h.kinks[: k + 1],
+                h, along=h.along[: k + 1], about=h.about[: k + 1], closed=h.closed[: k + 1], breakpoints=h.breakpoints[: k + 1],
                 limits=h.limits[keep], limit_factors=h.limit_factors[keep], ending="", motion=None,
             )  # fmt: skip
             self.runs = [*self.runs[:number], (first, k)]

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...engine.beam import NO_EQUILIBRIUM, Beam
 from ...engine.paths import follow_ground
-from ..state.kinks import EVENTS
+from ..state.breakpoints import EVENTS
 from ..state.motion import describe_motion
 from ..state.step import Step
 from .branches import Limit

@@ -12,7 +12,7 @@ from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
 from ...engine.paths import TURNS, follow_stretch
-from ..state.kinks import EVENTS, piece_of, what_happens
+from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.smooth import factor_on_curves
 from ..state.step import Step
 
@@ -186,12 +186,12 @@ class Path:
             name = EVENTS[event]
             if event != TURNS:
                 if numbers[k] in laws:
-                    before = piece_of(beam, numbers[k], closed, beam.kinks)
+                    before = piece_of(beam, numbers[k], closed, beam.breakpoints)
                 if beam.curves and factor > 0.0:
                     factor = factor_on_curves(beam, factor, closed, k)
                 closed[k] ^= 1
                 if numbers[k] in laws:
-                    name = what_happens(before, piece_of(beam, numbers[k], closed, beam.kinks))
+                    name = what_happens(before, piece_of(beam, numbers[k], closed, beam.breakpoints))
                 counted[i] = bool(name)
                 if name:
                     self._factors[i] = factor

@@ -10,7 +10,7 @@ from ...base.errors import EngineError
 from ...base.records import Pickled, read_only
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
-from ..state.kinks import passed_kinks
+from ..state.breakpoints import passed_breakpoints
 from ..state.smooth import SmoothLaws
 from .arc import Arc, LostError, Point, State
 
@@ -47,7 +47,7 @@ class PolylinePath(Pickled):
         self._dead = beam.with_dead_loads_alone() if 0 in h.about[:, 0] else None
         self._size = max(curve.scale() for _, curve in beam.curves), float(np.abs(h.along).max(initial=0.0))
         # Where no force falls there is one state only, and tangents lead to it
-        self._unique = bool((h.kinks[:, 2:] >= 0.0).all())
+        self._unique = bool((h.breakpoints[:, 2:] >= 0.0).all())
         self._points: dict[tuple[int, int], np.ndarray] = {}
         # Where a jump has landed, a stretch begins at the load factor of the limit
         landings = (h.limits[h.limits[:, 3] > 0, 3] - 1).tolist()
@@ -67,9 +67,9 @@ class PolylinePath(Pickled):
             return GIVEN_FACTOR
         if next_direction == 0:
             return UNKNOWN
-        if next_direction != direction and not np.array_equal(h.kinks[k], h.kinks[k + 1]):
+        if next_direction != direction and not np.array_equal(h.breakpoints[k], h.breakpoints[k + 1]):
             return UNKNOWN  # laws written anew where the load turns round
-        if passed_kinks(self._beam, h.closed[k], h.closed[k + 1], h.kinks[k]):
+        if passed_breakpoints(self._beam, h.closed[k], h.closed[k + 1], h.breakpoints[k]):
             return EVENT
         if direction != next_direction and ways == 1:
             return TURNS_ROUND
@@ -78,7 +78,7 @@ class PolylinePath(Pickled):
     def beam(self, k: int) -> Beam:
         """Give the beam with the laws of a stretch, smooth ones as polylines."""
         beam = self._beam if self._rough.about[k, 0] else self._dead
-        return beam.with_kinks(self._rough.kinks[k])
+        return beam.with_breakpoints(self._rough.breakpoints[k])
 
     def closed(self, k: int) -> np.ndarray:
         """Give the scheme of a stretch."""

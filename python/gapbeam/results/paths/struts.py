@@ -27,8 +27,8 @@ from ...scene.ground_laws import (
     varies,
 )
 from ...scene.ground_tables import least_between
+from ..state.breakpoints import piece_of
 from ..state.ground import TOUCHING, Contact
-from ..state.kinks import piece_of
 from .compression import Compression, larger
 
 if TYPE_CHECKING:
@@ -53,30 +53,30 @@ class Struts:
         self._hinges = set(places.node_points[places.kinds == 1].tolist())
         self._known: dict[tuple[bytes, ...], list[tuple[int, int, float]]] = {}
 
-    def acting(self, closed: np.ndarray, kinks: np.ndarray | None = None) -> np.ndarray:
+    def acting(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> np.ndarray:
         """Tell which supports of the engine belong to one of the scene that resists: what yields or is broken does not."""
         beam, acts = self.beam, (closed != 0) & self._carries
         for number, (group, _, _) in beam.laws.items() if beam.has_laws else ():
-            acts[group] = piece_of(beam, number, closed, beam.kinks if kinks is None else kinks).slope > 0.0
+            acts[group] = piece_of(beam, number, closed, beam.breakpoints if breakpoints is None else breakpoints).slope > 0.0
         return acts
 
-    def stretches(self, closed: np.ndarray, kinks: np.ndarray | None = None) -> list[tuple[int, int, float]]:
+    def stretches(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> list[tuple[int, int, float]]:
         """Give first and last point and the length L of the stretches in a scheme.
 
         Parameters
         ----------
         closed : numpy.ndarray of int
             1 where a support of the engine acts.
-        kinks : numpy.ndarray, optional
+        breakpoints : numpy.ndarray, optional
             The laws of supports as they have become; default those of the beam.
 
         Returns
         -------
         list of (int, int, float)
         """
-        key = closed.tobytes(), b"" if kinks is None else kinks.tobytes()
+        key = closed.tobytes(), b"" if breakpoints is None else breakpoints.tobytes()
         if key not in self._known:
-            held = set(self._support_points[self.acting(closed, kinks)].tolist())
+            held = set(self._support_points[self.acting(closed, breakpoints)].tolist())
             self._known[key] = [
                 (a, b, float(self.x[b] - self.x[a]) * (1.0 if self._ends_stay(a, b, held) else 2.0))
                 for a, b in pairwise(sorted({0, len(self.x) - 1} | self._hinges | held))
@@ -88,7 +88,7 @@ class Struts:
         return {a, b} <= held or {a, b} <= self._hinges - held
 
     def largest(
-        self, closed: np.ndarray, tension: np.ndarray, EI: np.ndarray | None = None, kinks: np.ndarray | None = None
+        self, closed: np.ndarray, tension: np.ndarray, EI: np.ndarray | None = None, breakpoints: np.ndarray | None = None
     ) -> Compression | None:
         """Find the largest compression beside the Euler load without ground.
 
@@ -100,7 +100,7 @@ class Struts:
             Axial force of every piece.
         EI : numpy.ndarray, optional
             Bending stiffness of every piece, if it is not the beam's own.
-        kinks : numpy.ndarray, optional
+        breakpoints : numpy.ndarray, optional
             As for `stretches`.
 
         Returns
@@ -109,7 +109,7 @@ class Struts:
             None where nothing is compressed.
         """
         found, EI = None, self.EI if EI is None else EI
-        for a, b, length in self.stretches(closed, kinks):
+        for a, b, length in self.stretches(closed, breakpoints):
             force = -float(tension[a:b].min())
             if force > 0.0:
                 a, b, length = self._compressed(a, b, length, tension)
@@ -131,7 +131,7 @@ class Struts:
         ratio = force / critical if critical > 0.0 else np.inf
         return Compression(float(ratio), force, float(start), float(stop), length)
 
-    def of_step(self, scene: Scene, step: Step, tension: np.ndarray, kinks: np.ndarray | None = None) -> Compression | None:
+    def of_step(self, scene: Scene, step: Step, tension: np.ndarray, breakpoints: np.ndarray | None = None) -> Compression | None:
         """Find the largest compression of a state beside the Euler load.
 
         Parameters
@@ -142,7 +142,7 @@ class Struts:
             The state.
         tension : numpy.ndarray
             Axial force of every piece.
-        kinks : numpy.ndarray, optional
+        breakpoints : numpy.ndarray, optional
             As for `stretches`.
 
         Returns
@@ -150,13 +150,13 @@ class Struts:
         Compression or None
             None where nothing is compressed.
         """
-        return self.largest(step.closed, tension, kinks=kinks)
+        return self.largest(step.closed, tension, breakpoints=breakpoints)
 
 
 class GroundStruts(Struts):
     """The same on the ground, which keeps a beam from buckling where it acts."""
 
-    def of_step(self, scene: Scene, step: Step, tension: np.ndarray, kinks: np.ndarray | None = None) -> Compression | None:
+    def of_step(self, scene: Scene, step: Step, tension: np.ndarray, breakpoints: np.ndarray | None = None) -> Compression | None:
         """Find the largest compression of a state beside what supports and ground resist, as `Struts.of_step`."""
         pressure = float(np.abs(step.extremes()[0][:, FIELDS.index("pressure")]).max())
         zones = [

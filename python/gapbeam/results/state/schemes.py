@@ -55,8 +55,8 @@ def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarr
     """
     closed = np.ones(beam.supports, dtype=np.int32)
     if start is None:
-        for kinks, middle, _ in beam.laws.values() if beam.has_laws else ():
-            closed[kinks.start + max(middle, 1) : kinks.stop] = 0  # on its first piece
+        for breakpoints, middle, _ in beam.laws.values() if beam.has_laws else ():
+            closed[breakpoints.start + max(middle, 1) : breakpoints.stop] = 0  # on its first piece
         return closed
     one_sided = np.flatnonzero(beam.sides)
     of_all = np.ones(beam.scene_supports, dtype=np.int32)

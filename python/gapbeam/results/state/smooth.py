@@ -44,7 +44,7 @@ class SmoothLaws:
     Attributes
     ----------
     groups : list of slice
-        Their kinks in the engine.
+        Their breakpoints in the engine.
     nodes : numpy.ndarray of int
         Their nodes.
     side, gap, settlement : numpy.ndarray
@@ -191,15 +191,15 @@ class SmoothLaws:
         -------
         Beam
         """
-        units, kinks = beam.units, beam.kinks.copy()
+        units, breakpoints = beam.units, beam.breakpoints.copy()
         lines = np.array([
             scaled(deflection, -units.deflection),
             scaled(force * np.where(self.side == 0, 1, self.side), -units.force),
             *2 * [scaled(slope, units.deflection - units.force)],
         ])  # fmt: skip
         for i, group in enumerate(self.groups):
-            kinks[:, group] = lines[:, i, None]  # on both sides of all kinks
-        return beam.with_kinks(kinks)
+            breakpoints[:, group] = lines[:, i, None]  # on both sides of all breakpoints
+        return beam.with_breakpoints(breakpoints)
 
 
 def solve_on_curves(beam: Beam, factor: float, solution: Solution, rule: str = GIVEN) -> tuple[Beam, Solution]:
@@ -312,13 +312,13 @@ def factor_on_curves(beam: Beam, factor: float, closed: np.ndarray, support: int
     closed : numpy.ndarray of int
         The scheme before.
     support : int
-        Number of the support or kink in the engine.
+        Number of the support or breakpoint in the engine.
 
     Returns
     -------
     float
     """
-    node, contact = beam.places.support_nodes[support], beam.kinks[0, support]
+    node, contact = beam.places.support_nodes[support], beam.breakpoints[0, support]
     ordinary = int(beam.numbers[support]) not in beam.laws
     for _ in range(MOST_TANGENTS):
         tangent, here = solve_on_curves(beam, factor, beam.solve(factor, GIVEN, closed))

@@ -5,6 +5,7 @@ Signs: deflections positive downward, reactions upward, couples clockwise; at ax
 
 from __future__ import annotations
 
+import warnings
 from functools import cached_property
 from time import perf_counter
 from typing import NamedTuple
@@ -16,8 +17,8 @@ from ...engine.beam import SOLVED, Beam
 from ...engine.case_certificates import BOUNDED
 from ...engine.states import Solution
 from ...engine.units import bound_in_scene, scaled
+from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
-from .kinks import piece_of
 from .smooth import solve_on_curves, with_openings
 
 PLASTIC = 1
@@ -132,9 +133,15 @@ class Step(Pickled):
         return self.solution.at_supports[3]
 
     @property
+    def breakpoints(self) -> np.ndarray:
+        """The laws of the supports as they are in this state, as `Beam.breakpoints`."""
+        return self._beam.breakpoints
+
+    @property
     def kinks(self) -> np.ndarray:
-        """The laws of the supports as they are in this state, as `Beam.kinks`."""
-        return self._beam.kinks
+        """Give the same as `breakpoints`, by the name that it had."""
+        warnings.warn("kinks of laws are called breakpoints", DeprecationWarning, stacklevel=2)
+        return self.breakpoints
 
     @cached_property
     def set(self) -> np.ndarray:
@@ -145,8 +152,8 @@ class Step(Pickled):
         if len(which):
             first = np.searchsorted(beam.numbers, which)
             side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
-            contact = scaled(beam.kinks[0, first], beam.units.deflection)
-            slope = scaled(beam.kinks[2, first], beam.units.force - beam.units.deflection)
+            contact = scaled(beam.breakpoints[0, first], beam.units.deflection)
+            slope = scaled(beam.breakpoints[2, first], beam.units.force - beam.units.deflection)
             yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
             back = np.divide(self.reaction[which], slope, out=np.zeros(len(which)), where=slope > 0.0)
             now = np.where(yielded, self.deflection[which] - back, contact)
@@ -272,7 +279,7 @@ def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
     np.add.at(acting, beam.numbers, closed)
     states = np.where(beam.sides == 0, "bilateral", np.where(acting > 0, "closed", "open")).tolist()
     for k in beam.laws if beam.has_laws else ():
-        piece = piece_of(beam, k, closed, beam.kinks).number
+        piece = piece_of(beam, k, closed, beam.breakpoints).number
         states[k] = f"branch {piece}" if piece else "open"
     return tuple(states)
 

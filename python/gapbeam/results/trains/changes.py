@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ...engine.beam import SOLVED
 from ...engine.ground import zone_changes
-from ..state.kinks import EVENTS
+from ..state.breakpoints import EVENTS
 from .states import Placed, TrainLoads
 
 

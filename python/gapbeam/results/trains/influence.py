@@ -30,8 +30,8 @@ from ...scene.ground_tables import is_table
 from ...scene.loads import ForceLoad
 from ...scene.names import label
 from ...scene.structs import Foundation, Scene, Support
+from ..state.breakpoints import piece_of
 from ..state.ground import TOUCHING, Contact
-from ..state.kinks import piece_of
 from ..state.smooth import SmoothLaws
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def _slopes(state: TrainState, beam: Beam) -> list[float]:
     ]
     units = beam.units
     for k in beam.laws if beam.has_laws else ():
-        slope = piece_of(beam, k, state.closed, beam.kinks).slope
+        slope = piece_of(beam, k, state.closed, beam.breakpoints).slope
         found[k] = float(scaled(np.float64(slope), units.force - units.deflection))
     if beam.curves:
         laws = SmoothLaws(beam)

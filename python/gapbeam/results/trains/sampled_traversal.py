@@ -20,7 +20,7 @@ from ...engine.ground import zone_changes
 from ...scene.ground_laws import CubicGround
 from ...scene.trains import LEFT, Course
 from ..paths.compression_check import tensions
-from ..state.kinks import EVENTS, what_happens
+from ..state.breakpoints import EVENTS, what_happens
 from .changes import neighbours
 from .grid import grid_step, places_of_jumps, places_of_kinks
 from .influence import influence_line

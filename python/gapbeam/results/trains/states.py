@@ -13,8 +13,8 @@ from ...engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
 from ...engine.ground import zone_changes
 from ...engine.trains import NOT_UNIQUE
 from ...scene.columns import BY_X, DISTRIBUTED, FORCE
+from ..state.breakpoints import Piece, piece_of
 from ..state.ground import FreeSpan, size_of
-from ..state.kinks import Piece, piece_of
 from ..state.motion import SLIDES, describe_motion
 from ..state.schemes import starting_scheme
 from ..state.smooth import SmoothLaws
@@ -84,7 +84,7 @@ class Placed:
         np.add.at(acting, beam.numbers, solution.closed)
         found: list[Piece | None] = [Piece(min(count, 1), 0.0, 1) for count in acting.tolist()]
         for k in beam.laws.keys() - beam.smooth if beam.has_laws else ():
-            found[k] = piece_of(beam, k, solution.closed, beam.kinks)
+            found[k] = piece_of(beam, k, solution.closed, beam.breakpoints)
         if beam.curves:
             laws = SmoothLaws(beam)
             self.past, ways = laws.past_the_gap(laws.deflections(solution))

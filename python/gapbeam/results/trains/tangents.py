@@ -1,6 +1,6 @@
 """States of a train on smooth laws, found from those at positions near to them.
 
-A beam on a polyline instead of every curve has a hundred kinks a support, and is far from the state on the curves. Here every
+A beam on a polyline instead of every curve has a hundred breakpoints a support, and is far from the state on the curves. Here every
 curve is a line from the start: its tangent where the states nearest to a position say that the support will be. Laws that
 rise have but one state at a position, so it does not matter where the tangents begin (`smooth`).
 """

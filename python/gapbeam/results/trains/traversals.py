@@ -12,7 +12,7 @@ from ...base.errors import Status
 from ...engine.quantities import BENDING
 from ...engine.trains import NOT_UNIQUE, Extremes, Traversal
 from ...scene.trains import LEFT, Course
-from ..state.kinks import EVENTS
+from ..state.breakpoints import EVENTS
 from ..state.motion import SLIDES, describe_motion
 from .members import Neutral, Passing
 from .neutral import held_traversal, traversal_of

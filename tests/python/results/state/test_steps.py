@@ -201,3 +201,10 @@ def test_events_have_steps_too():
     assert all(a.state != b.state for a, b in pairwise(result.steps))
     assert result.history() == [(step.factor, step.state) for step in result.steps]
     assert result.steps[-2] == result.steps[len(result.steps) - 2]
+
+
+def test_the_old_name_of_breakpoints_warns():
+    made = {"beam": {"spans": [1.0], "EI": 1.0}, "supports": [{"node": 0, "law": [[1.0, 2.0]]}, {"node": 1}]}
+    step = gapbeam.solve(made).steps[-1]
+    with pytest.warns(DeprecationWarning, match="called breakpoints"):
+        assert (step.kinks == step.breakpoints).all()

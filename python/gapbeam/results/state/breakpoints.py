@@ -34,7 +34,7 @@ class Piece(NamedTuple):
     way: int
 
 
-def piece_of(beam: Beam, support: int, closed: np.ndarray, kinks: np.ndarray) -> Piece:
+def piece_of(beam: Beam, support: int, closed: np.ndarray, breakpoints: np.ndarray) -> Piece:
     """Give the acting piece of a law.
 
     Parameters
@@ -45,8 +45,8 @@ def piece_of(beam: Beam, support: int, closed: np.ndarray, kinks: np.ndarray) ->
         Number of the support in the scene, one of `Beam.laws`.
     closed : numpy.ndarray of int
         Scheme of the beam.
-    kinks : numpy.ndarray
-        As `Beam.kinks`, the laws as they have become.
+    breakpoints : numpy.ndarray
+        As `Beam.breakpoints`, the laws as they have become.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def piece_of(beam: Beam, support: int, closed: np.ndarray, kinks: np.ndarray) ->
     way = 1 if count >= middle else -1
     if support in beam.smooth:
         return Piece(min(number, 1), float(bool(number)), way)
-    slope = kinks[2, where.start + count - 1] if count else kinks[3, where.start]
+    slope = breakpoints[2, where.start + count - 1] if count else breakpoints[3, where.start]
     return Piece(number, float(slope) if number else 0.0, way)
 
 
@@ -97,7 +97,7 @@ def what_happens(before: Piece, after: Piece) -> str:
     return "hardens" if after.slope > before.slope else "yields"
 
 
-class Kink(NamedTuple):
+class Breakpoint(NamedTuple):
     """An end of the piece on which a support is.
 
     Attributes
@@ -105,7 +105,7 @@ class Kink(NamedTuple):
     node : int
         Its node.
     group : slice
-        Its kinks in the engine.
+        Its breakpoints in the engine.
     level, force : float
         Deflection and force there, in the engine's units.
     by_force : bool
@@ -130,7 +130,7 @@ class Kink(NamedTuple):
         return float(here / (np.abs(values).max() or 1.0))
 
 
-def passed_kinks(beam: Beam, before: np.ndarray, after: np.ndarray, kinks: np.ndarray) -> list[Kink]:
+def passed_breakpoints(beam: Beam, before: np.ndarray, after: np.ndarray, breakpoints: np.ndarray) -> list[Breakpoint]:
     """List what is passed between two schemes; along a smooth law only where it begins.
 
     Parameters
@@ -139,21 +139,21 @@ def passed_kinks(beam: Beam, before: np.ndarray, after: np.ndarray, kinks: np.nd
         The beam.
     before, after : numpy.ndarray of int
         The schemes.
-    kinks : numpy.ndarray
-        As `Beam.kinks`, with the first scheme.
+    breakpoints : numpy.ndarray
+        As `Beam.breakpoints`, with the first scheme.
 
     Returns
     -------
-    list of Kink
+    list of Breakpoint
     """
     found = []
     for j in np.flatnonzero(before != after).tolist():
         i, group, by_force = int(beam.numbers[j]), slice(j, j + 1), bool(before[j])
         if i in beam.laws:
-            group, piece = beam.laws[i][0], piece_of(beam, i, before, kinks)
-            if i in beam.smooth and piece.number == piece_of(beam, i, after, kinks).number:
+            group, piece = beam.laws[i][0], piece_of(beam, i, before, breakpoints)
+            if i in beam.smooth and piece.number == piece_of(beam, i, after, breakpoints).number:
                 continue
             by_force = bool(np.isinf(piece.slope))
         node, side = int(beam.places.support_nodes[j]), int(beam.sides[i]) or 1
-        found.append(Kink(node, group, float(kinks[0, j]), float(kinks[1, j]), by_force, side))
+        found.append(Breakpoint(node, group, float(breakpoints[0, j]), float(breakpoints[1, j]), by_force, side))
     return found
