@@ -1,5 +1,5 @@
-!> What users of the Fortran interface hold: a prepared beam, its results, how good they are; and what its procedures refuse before
-!> anything is done with them
+!> Objects of the Fortran interface: a prepared beam, its results, how good they are.
+!> And what its procedures refuse before anything is done with them.
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
