@@ -45,7 +45,7 @@ def head_of(path):
     elif path.suffix == ".c":
         words = re.sub(r"[/*]+", " ", text[: text.find("*/")])
     else:
-        words = "\n".join(line.removeprefix("!>").strip() for line in re.match(r"(?:!>.*\n)*", text)[0].splitlines())
+        words = "\n".join(line.lstrip("!>").strip() for line in re.match(r"(?:!.*\n)*", text)[0].splitlines())
     paragraph = " ".join(words.strip().partition("\n\n")[0].split())
     return re.split(r"(?<=[.:])\s", paragraph)[0].rstrip(".:")
 

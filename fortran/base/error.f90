@@ -16,7 +16,7 @@ module gapbeam_error
     integer, parameter :: gapbeam_bad_input = 11
     !> Error: a rigid stretch rests on more rigid supports than statics can tell apart
     integer, parameter :: gapbeam_indeterminate = 12
-    !> Error: the working scheme could not be settled in the precision at hand
+    !> Error: the contact state could not be settled in the precision at hand
     integer, parameter :: gapbeam_not_converged = 13
     !> Error: numbers left the range of double precision
     integer, parameter :: gapbeam_not_finite = 14
@@ -38,7 +38,7 @@ module gapbeam_error
         "no equilibrium: the loads push the beam along a free motion that no support resists", &
         "bad input: a number or an array makes no sense", &
         "a rigid stretch rests on more rigid supports than statics can tell apart", &
-        "the working scheme could not be settled in the precision at hand", &
+        "the contact state could not be settled in the precision at hand", &
         "numbers left the range of double precision", &
         "not enough memory", &
         "no beam has been prepared, or no state solved, in what was passed", &

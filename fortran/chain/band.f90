@@ -34,7 +34,7 @@ module gapbeam_band
     !> What factor_chain found
     integer, parameter :: band_ok = 0, band_mechanism = 1, band_needs_pivoting = 2, band_stopped = 3
 
-    !> A node as the working scheme at hand sees it
+    !> A node as the contact state at hand sees it
     type :: node_type
         !> plain, hinge or restrained
         integer :: kind = plain
@@ -81,7 +81,7 @@ module gapbeam_band
 
 contains
 
-    !> Factor the system of a working scheme, or factor anew what changes when some of its nodes have changed
+    !> Factor the system of a contact state, or factor anew what changes when some of its nodes have changed
     pure subroutine factor_chain(nodes, links, pivots, state, place, changed)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)

@@ -23,7 +23,7 @@ module gapbeam_foundation_chain
 
 contains
 
-    !> Factor the system of a working scheme
+    !> Factor the system of a contact state
     pure subroutine factor_foundation_chain(nodes, links, pivots, state, place)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)

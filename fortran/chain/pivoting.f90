@@ -19,7 +19,7 @@ contains
 
     !> Assemble, factor with pivoting, solve and refine
     subroutine solve_pivoting(nodes, links, rhs, answers, regular)
-        !> Nodes as the working scheme sees them, shape (0:n), and the links between them
+        !> Nodes as the contact state sees them, shape (0:n), and the links between them
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
         !> Right-hand side, shape (0:n)

@@ -16,7 +16,7 @@ contains
 
     !> Can the scheme be solved by three-moment equations: all deflections known but those of free tips
     pure function fits_three_moment(nodes) result(fits)
-        !> Nodes as the working scheme sees them, shape (0:n)
+        !> Nodes as the contact state sees them, shape (0:n)
         type(node_type), intent(in) :: nodes(0:)
         logical :: fits
         integer :: n, held

@@ -50,7 +50,7 @@ module gapbeam_scheme
 
 contains
 
-    !> Find the working scheme and its solution
+    !> Find the contact state and its solution
     subroutine find_scheme(beam, factor, rule, closed, work, outcome, error)
         !> The beam
         type(beam_type), intent(in) :: beam
@@ -58,7 +58,7 @@ contains
         real(wp), intent(in) :: factor
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
-        !> Start in, working scheme out, shape (size(beam%supports)); bilateral supports always act
+        !> Start in, contact state out, shape (size(beam%supports)); bilateral supports always act
         logical, intent(inout) :: closed(:)
         !> Loads in, solution and reactions out
         type(workspace_type), intent(inout) :: work
@@ -215,7 +215,7 @@ contains
             end if
             work%reference = displaced
         end do
-        call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the working scheme "// &
+        call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the contact state "// &
                          "could not be settled: give it a support that holds both ways, or check the loads")
 
     contains

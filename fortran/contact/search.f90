@@ -67,7 +67,7 @@ contains
         integer, intent(in) :: rule
         !> Give up (settled is false) at a mechanism, and before the least-index rule
         logical, intent(in) :: may_float
-        !> Start in, working scheme out
+        !> Start in, contact state out
         logical, intent(inout) :: closed(:)
         !> Loads in, solution out
         type(workspace_type), intent(inout) :: work
@@ -112,7 +112,7 @@ contains
             call refuse_scheme(beam, search%state, search%place, error)
         else if (work%solves > work%most_solves) then
             write (text, "(i0)") work%solves
-            call fatal_error(error, gapbeam_not_converged, "the working scheme was not found within "//trim(text)//" solves: "// &
+            call fatal_error(error, gapbeam_not_converged, "the contact state was not found within "//trim(text)//" solves: "// &
                              "follow the load by steps, or give supports and pieces of the beam stiffnesses that differ less")
         else
             call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings cannot be told from "// &

@@ -178,7 +178,7 @@ contains
         call restore_environment(environment)
     end subroutine solve_beam
 
-    !> Follow the load from factor 0 upwards: every change of the working scheme at its exact load factor; not of beams that
+    !> Follow the load from factor 0 upwards: every change of the contact state at its exact load factor; not of beams that
     !> solve_beam refuses; follow_ground is for beams on foundations
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared

@@ -16,7 +16,7 @@ module gapbeam_api_combinations
 contains
 
     !> Prepare another beam: every load times a factor, and supports that have moved further. Dead loads stay dead, in full with
-    !> their factor from the start; the load factor of solve_beam scales the others. Each combination has a working scheme of its
+    !> their factor from the start; the load factor of solve_beam scales the others. Each combination has a contact state of its
     !> own: results cannot be added up
     subroutine combine_loads(beam, factors, combined, error, settlements)
         !> Prepared

@@ -1,5 +1,5 @@
-!> Objects of the Fortran interface: a prepared beam, its results, how good they are.
-!> And what its procedures refuse before anything is done with them.
+!> The objects that users of the Fortran interface hold: a prepared beam, its results, how good they are; and what its procedures
+!> refuse before anything is done with them
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
@@ -20,7 +20,7 @@ module gapbeam_api_objects
 
     !> How a beam is solved
     type :: options_type
-        !> How the working scheme is found: gapbeam_rule_block changes many supports at once and always ends,
+        !> How the contact state is found: gapbeam_rule_block changes many supports at once and always ends,
         !> gapbeam_rule_single is the paper's rule
         integer :: rule = rule_block
     end type options_type

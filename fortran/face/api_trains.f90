@@ -66,7 +66,7 @@ module gapbeam_api_trains
     !> A train on its way over a beam
     type :: passing_type
         private
-        !> Changes of the working scheme, in the order in which they happen
+        !> Changes of the contact state, in the order in which they happen
         type(train_event_type), allocatable, public :: events(:)
         !> In the order in which they are met
         type(train_gap_type), allocatable, public :: gaps(:)
@@ -80,7 +80,7 @@ module gapbeam_api_trains
 
 contains
 
-    !> Move a train over a beam: every change of the working scheme at its exact position
+    !> Move a train over a beam: every change of the contact state at its exact position
     subroutine follow_train(beam, train, passing, error)
         !> Prepared; without foundations and laws whose state depends on the way of the load
         type(prepared_type), intent(in) :: beam

@@ -1,4 +1,4 @@
-!> The library about itself in C: version, texts of status codes, infinity.
+!> Version, texts of status codes and infinity of the library in C
 module gapbeam_capi_library
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_loc, c_null_char
     use gapbeam_error, only: status_codes, status_texts, unknown_status

@@ -1,4 +1,4 @@
-!> Common parts of the C interface: beams and states behind handles, options, errors and messages.
+!> Objects and conversions that the functions of the C interface share: beams and states behind handles, options, errors, messages
 module gapbeam_capi_objects
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_null_char, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &

@@ -174,7 +174,7 @@ subroutine ghsolv(beam, factor, rule, start, state, info)
     if (info == 0) info = solved%result%status
 end subroutine ghsolv
 
-! Follow the load from factor 0: every change of the working scheme at its exact load factor
+! Follow the load from factor 0: every change of the contact state at its exact load factor
 subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
     use gapbeam_error, only: error_type
     use gapbeam_events, only: event_type

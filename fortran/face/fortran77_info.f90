@@ -9,7 +9,8 @@ module gapbeam_fortran77_info
     private
     public :: find, address_of, number_of, info_of
 
-    !> The object behind a handle. INFO is left as it is where it is not 0, and is -place where the argument there is no such handle
+    !> The object behind a handle. INFO is -place where the argument there is no such handle; where it is not 0 before, nothing is
+    !> looked at
     interface find
         module procedure find_beam
         module procedure find_state
@@ -43,8 +44,10 @@ contains
         type(beam_handle), pointer, intent(out) :: object
         integer, intent(inout) :: info
 
+        nullify (object)
+        if (info /= 0) return
         call find_handle(address_of(number), object)
-        if (info == 0 .and. .not. associated(object)) info = -place
+        if (.not. associated(object)) info = -place
     end subroutine find_beam
 
     subroutine find_state(number, place, object, info)
@@ -53,8 +56,10 @@ contains
         type(state_handle), pointer, intent(out) :: object
         integer, intent(inout) :: info
 
+        nullify (object)
+        if (info /= 0) return
         call find_handle(address_of(number), object)
-        if (info == 0 .and. .not. associated(object)) info = -place
+        if (.not. associated(object)) info = -place
     end subroutine find_state
 
     subroutine find_history(number, place, object, info)
@@ -63,8 +68,10 @@ contains
         type(history_handle), pointer, intent(out) :: object
         integer, intent(inout) :: info
 
+        nullify (object)
+        if (info /= 0) return
         call find_handle(address_of(number), object)
-        if (info == 0 .and. .not. associated(object)) info = -place
+        if (.not. associated(object)) info = -place
     end subroutine find_history
 
     subroutine find_cases(number, place, object, info)
@@ -73,8 +80,10 @@ contains
         type(cases_handle), pointer, intent(out) :: object
         integer, intent(inout) :: info
 
+        nullify (object)
+        if (info /= 0) return
         call find_handle(address_of(number), object)
-        if (info == 0 .and. .not. associated(object)) info = -place
+        if (.not. associated(object)) info = -place
     end subroutine find_cases
 
     subroutine find_passing(number, place, object, info)
@@ -83,8 +92,10 @@ contains
         type(passing_handle), pointer, intent(out) :: object
         integer, intent(inout) :: info
 
+        nullify (object)
+        if (info /= 0) return
         call find_handle(address_of(number), object)
-        if (info == 0 .and. .not. associated(object)) info = -place
+        if (.not. associated(object)) info = -place
     end subroutine find_passing
 
     !> INFO for what a procedure of the Fortran interface ended with. What is not prepared is the second argument: the first is

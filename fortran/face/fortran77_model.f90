@@ -7,6 +7,7 @@ module gapbeam_fortran77_model
     use gapbeam_layers, only: parameters_of_law
     use gapbeam_scene, only: model_type, gapbeam_table_of_gap
     use gapbeam_input_error, only: of_supports, of_foundations, not_expected
+    use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_handles, only: new_beam
     use gapbeam_fortran77_info, only: number_of
@@ -32,7 +33,7 @@ contains
         type(error_type), allocatable :: error
         real(wp), allocatable :: ground(:, :), points(:, :)
         integer, allocatable :: owners(:)
-        integer :: stat
+        integer :: k, stat
 
         beam = 0
         ientry = 0
@@ -54,7 +55,12 @@ contains
         else
             ground(:6, :) = found(:, 1:nfound)
             ground(7, :) = iglaw(1:nfound)
-            ground(8:, :) = glaw(:, 1:nfound)
+            do k = 1, parameters_of_law
+                ! Those that a law does not have may hold anything
+                ground(7 + k, :) = merge(glaw(k, 1:nfound), 0.0_wp, has_parameter(iglaw(1:nfound), k))
+                ground(7 + parameters_of_law + k, :) = merge(glaw(parameters_of_law + k, 1:nfound), 0.0_wp, &
+                                                             has_parameter(iglaw(1:nfound), k))
+            end do
             owners(:nprof) = iprof(1:nprof)
             owners(nprof + 1:) = itab(1, 1:ntab)
             points(:2, :nprof) = aprof(:, 1:nprof)

@@ -1,4 +1,4 @@
-! What a solved state says, in Fortran 77: supports, fields, extremes, motion, certificate. Marshalling only; units, signs, handles
+! Values of a solved state in Fortran 77: supports, fields, extremes, motion, certificate. Marshalling only; units, signs, handles
 ! and INFO: see fortran77.f90. -2 is also a state in which nothing is solved, or that is not of this beam as it is now.
 
 ! Values at the supports

@@ -26,7 +26,7 @@
 !>     call get_contact(beam, result, zones, error)                              ! where the ground acts, and its force
 !>     call get_pressure(beam, result, [3d0], pressure, error)
 !>
-!> Combinations of load cases are beams of their own, each with a working scheme of its own:
+!> Combinations of load cases are beams of their own, each with a contact state of its own:
 !>
 !>     call combine_loads(beam, [1.35d0, 1.5d0], combined, error)                ! a factor for every load
 !>     call solve_beam(combined, 1d0, options_type(), result, error)

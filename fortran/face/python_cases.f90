@@ -63,7 +63,7 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     double precision, intent(in) :: factor(nd, nc), span(2, np, pc)
     double precision, intent(in), target :: supp(3, nv, vc)
     integer, intent(in) :: rule
-    ! Schemes: start in, working scheme out; of a case that is not solved all open, and its results are not numbers
+    ! Schemes: start in, contact state out; of a case that is not solved all open, and its results are not numbers
     integer, intent(inout) :: closed(ns, nc)
     ! In the scene's units: deflections and moments left and right of the nodes, reactions
     double precision, intent(inout), target :: w(nw, nc), ml(nl, nc), mr(nr, nc), react(nt, nc)

@@ -24,7 +24,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, sp
     ! EI and GA of every span; modulus of every foundation, negative: that of the scene
     double precision, intent(in), target :: span(2, np, nc), modul(nf, nc)
     integer, intent(in) :: rule
-    ! Schemes: start in, working scheme out, all open where there is none
+    ! Schemes: start in, contact state out, all open where there is none
     integer, intent(inout) :: closed(ns, nc)
     ! Places, as for GBVALU
     integer, intent(in) :: piece(nx)

@@ -1,7 +1,7 @@
 ! Single states for Python, in the manner of face/python.f90, which says what the arguments are. STATE is the handle of a solved
 ! state, FIELDS that of its fields at the pieces (gapbeam_state_handle)
 
-! Find the working scheme at one load factor and solve it
+! Find the contact state at one load factor and solve it
 subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, state, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_handle, only: handle_type, handle_of, report
@@ -10,10 +10,10 @@ subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, sta
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ns, nm
-    ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the working scheme (as along a path)
+    ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the contact state (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
-    ! Scheme: 1 closed, 0 open; start in, working scheme out
+    ! Scheme: 1 closed, 0 open; start in, contact state out
     integer, intent(inout) :: closed(ns + 1)
     ! 1 where the reaction or the opening is zero, so that the support may be closed or open
     integer, intent(out) :: undec(ns + 1)

@@ -31,7 +31,7 @@ contains
         type(lane_rounding_type), intent(in) :: rounding
         !> Factor of every load, shape (lanes, nload)
         real(wp), intent(in), contiguous :: factors(:, :)
-        !> Supports, working schemes and solutions with reactions
+        !> Supports, contact states and solutions with reactions
         type(pack_type), intent(inout) :: pack
         !> Room, shape (lanes, 0:n, kinds_of_movement)
         real(wp), intent(inout), contiguous :: moves(:, 0:, :)

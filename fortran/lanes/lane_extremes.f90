@@ -34,7 +34,7 @@ contains
         logical, intent(in) :: wanted(4)
         !> Factor of every load, shape (lanes, nload)
         real(wp), intent(in), contiguous :: factors(:, :)
-        !> Supports, working schemes and solutions
+        !> Supports, contact states and solutions
         type(pack_type), intent(inout) :: pack
         type(piece_pack_type), intent(inout) :: fields
         !> Maximum, its piece and the distance from that one's left end; the same of the minimum, shape (lanes, 6, 4)

@@ -28,7 +28,7 @@ contains
         type(lane_pieces_type), intent(in) :: pieces
         !> Factor of every load, shape (lanes, nload)
         real(wp), intent(in), contiguous :: factors(:, :)
-        !> Supports, working schemes and solutions
+        !> Supports, contact states and solutions
         type(pack_type), intent(inout) :: pack
         !> Loads and starts of the pieces
         type(piece_pack_type), intent(inout) :: fields

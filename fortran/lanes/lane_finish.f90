@@ -25,7 +25,7 @@ contains
         mr(:, n) = 0.0_wp
     end subroutine copy_moments
 
-    !> Solve working schemes as gapbeam_system does, refine the solutions once, and find reactions
+    !> Solve contact states as gapbeam_system does, refine the solutions once, and find reactions
     subroutine finish_pack(beam, method, pack, doubtful)
         type(lane_beam_type), intent(in) :: beam
         !> How all of them are to be solved, not 0

@@ -22,13 +22,13 @@ module gapbeam_lane_search
 
 contains
 
-    !> Find the working schemes of eight cases
+    !> Find the contact states of eight cases
     subroutine search_pack(beam, factors, pack, solves, method)
         !> What they have in common
         type(lane_beam_type), intent(in) :: beam
         !> Factor of every load, shape (lanes, nload)
         real(wp), intent(in), contiguous :: factors(:, :)
-        !> Supports, and starts of the searches in; loads and working schemes out
+        !> Supports, and starts of the searches in; loads and contact states out
         type(pack_type), intent(inout) :: pack
         !> Linear solves; how gapbeam_system solves the scheme, 0 where there is none
         integer, intent(out) :: solves(lanes), method(lanes)

@@ -83,7 +83,7 @@ module gapbeam_lane_types
         real(wp), allocatable :: turn(:, :)
         !> Has any case a couple at a node
         logical :: with_couples = .true.
-        !> Are w and ml, and the elimination in room, those of the working schemes
+        !> Are w and ml, and the elimination in room, those of the contact states
         logical :: is_solved = .false.
         !> Room for elimination and for sizes
         real(wp), allocatable :: room(:, :, :)

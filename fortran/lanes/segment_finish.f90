@@ -17,7 +17,7 @@ module gapbeam_segment_finish
 
 contains
 
-    !> Find the working scheme of a case and its solution
+    !> Find the contact state of a case and its solution
     subroutine solve_long_beam(beam, room, solves, doubtful)
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme, solution and reactions out, by nodes

@@ -24,7 +24,7 @@ module gapbeam_segment_search
 
 contains
 
-    !> Find the working scheme
+    !> Find the contact state
     subroutine search_segments(beam, room, solves, found)
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme and solution out

@@ -44,7 +44,7 @@ contains
         integer, intent(in) :: rule
         !> Are the solutions given, by solve_cases; else each case is solved once more
         logical, intent(in) :: given
-        !> Working schemes, and solutions as solve_cases gives them
+        !> Contact states, and solutions as solve_cases gives them
         integer, intent(in), contiguous :: closed(:, :)
         real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         !> The certificates, bounds in the scene's units, shape (certificate_numbers, ncase); of a case that is not solved as they

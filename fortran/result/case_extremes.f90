@@ -48,7 +48,7 @@ contains
         real(wp), intent(in) :: spans(:, :, :)
         !> rule_block or rule_single of gapbeam_search
         integer, intent(in) :: rule
-        !> Solutions: working schemes, deflections and moments as solve_in_lanes gives them
+        !> Solutions: contact states, deflections and moments as solve_in_lanes gives them
         integer, intent(in), contiguous :: closed(:, :)
         real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :)
         !> Which of deflection, rotation, moment and shear are asked for

@@ -196,7 +196,7 @@ contains
         end associate
     end function leave_room
 
-    !> Find the working scheme of a case and solve it
+    !> Find the contact state of a case and solve it
     subroutine solve_case(loads, factors, rule, beam, closed, work, status)
         !> By split_loads, and the factor of every load
         type(case_loads_type), intent(in) :: loads
@@ -205,7 +205,7 @@ contains
         integer, intent(in) :: rule
         !> The beam; its loads are replaced
         type(beam_type), intent(inout) :: beam
-        !> Start in, working scheme out
+        !> Start in, contact state out
         logical, intent(inout) :: closed(:)
         !> Workspace of the beam in, solution out
         type(workspace_type), intent(inout) :: work

@@ -20,7 +20,7 @@ module gapbeam_events
     !> Changes of the scheme followed at a time
     integer, parameter :: changes_at_a_time = 1000
 
-    !> A change of the working scheme
+    !> A change of the contact state
     type :: event_type
         !> Load factor at which it happens
         real(wp) :: factor
@@ -38,7 +38,7 @@ module gapbeam_events
 
 contains
 
-    !> Follow the load from factor 0 to `factor`: every change of the working scheme at its load factor. The state is that at
+    !> Follow the load from factor 0 to `factor`: every change of the contact state at its load factor. The state is that at
     !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
     subroutine follow_events(assembled, factor, rule, state, events, number, error)
         !> The beam

@@ -78,7 +78,7 @@ contains
         real(wp), intent(in) :: spans(:, :, :)
         !> Empty, or of earlier cases of this beam, with stiffnesses of their own or without as these are
         type(lane_room_type), intent(inout) :: room
-        !> Starts in, working schemes out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
+        !> Starts in, contact states out, where a case is done; 1 closed, shape (at least size(beam%supports), ncase)
         integer, intent(inout), contiguous :: closed(:, :)
         !> In the scene's units: deflections, moments left and right of the nodes, shape (n + 1, ncase); reactions, shape (at least
         !> size(beam%supports), ncase). Not wanted: without rows
@@ -199,7 +199,7 @@ contains
 
     end subroutine solve_in_lanes
 
-    !> Find the working schemes of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
+    !> Find the contact states of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
     !> their own searches, with the start that they have
     subroutine find_schemes(assembled, factors, settlements, supports, closed, solves)
         type(assembled_type), intent(in) :: assembled

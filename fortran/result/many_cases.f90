@@ -54,7 +54,7 @@ contains
         integer, intent(in) :: rule
         !> Empty, or of earlier cases of this beam
         type(case_room_type), intent(inout) :: room
-        !> Starts in, working schemes out, 1 closed; of a case that is not solved all open; shape (at least size(beam%supports),
+        !> Starts in, contact states out, 1 closed; of a case that is not solved all open; shape (at least size(beam%supports),
         !> ncase). Contiguous, as gfortran would copy all cases before it handed them on
         integer, intent(inout), contiguous :: closed(:, :)
         !> In the scene's units: deflections, moments left and right of the nodes, reactions, as many rows as of the schemes at

@@ -58,7 +58,7 @@ contains
         real(wp), intent(in) :: factors(:, :), values(:, :, :)
         !> Empty, or of earlier cases of this beam
         type(segments_type), intent(inout) :: segments
-        !> Starts in, working schemes out, where a case is done; 1 closed
+        !> Starts in, contact states out, where a case is done; 1 closed
         integer, intent(inout), contiguous :: closed(:, :)
         !> As for solve_in_lanes
         real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)

@@ -10,7 +10,7 @@ module gapbeam_train_events
     private
     public :: train_event_type, find_events
 
-    !> A change of the working scheme: position of the train, number of the support in the model, what it is from there on and what
+    !> A change of the contact state: position of the train, number of the support in the model, what it is from there on and what
     !> happens (gapbeam_pieces)
     type :: train_event_type
         real(wp) :: position = 0.0_wp

@@ -56,7 +56,7 @@ module gapbeam_extended_precision
 
 contains
 
-    !> Find the working scheme and its solution, whatever precision it takes; refused where other reactions would do as well, and
+    !> Find the contact state and its solution, whatever precision it takes; refused where other reactions would do as well, and
     !> where what came out does not stand its audit
     subroutine decide_scheme(beam, detail, factor, rule, closed, work, outcome, error, fault)
         !> The beam, and what its links are made of
@@ -104,7 +104,7 @@ contains
         call refuse_indeterminate(beam, closed, outcome%undecided, error)
     end subroutine decide_scheme
 
-    !> Find a working scheme and its solution
+    !> Find a contact state and its solution
     subroutine find_scheme_in_doubles(beam, detail, factor, rule, closed, work, outcome, error)
         !> As for decide_scheme
         type(beam_type), intent(in) :: beam
@@ -267,7 +267,7 @@ contains
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: factor
-        !> Start in, working scheme out
+        !> Start in, contact state out
         logical, intent(inout) :: closed(:)
         !> Supports that are at zero even so
         logical, intent(out) :: undecided(:)

@@ -34,7 +34,7 @@ module yardstick_beam
         real(wp), pointer, contiguous :: w(:) => null(), m(:) => null(), r(:) => null()
     end type answer_type
 
-    !> A way to solve a working scheme
+    !> A way to solve a contact state
     type, abstract :: method_type
     contains
         !> Solve one scheme
@@ -65,7 +65,7 @@ contains
         !> The beam and where its answer goes
         type(beam_type), intent(in) :: beam
         type(answer_type), intent(in) :: answer
-        !> The working scheme found, shape (0:n)
+        !> The contact state found, shape (0:n)
         logical, intent(out) :: closed(0:)
         !> Schemes solved
         integer, intent(out) :: solves

@@ -17,12 +17,12 @@ module yardstick_condensed
 
 contains
 
-    !> Solve a beam, its working scheme included
+    !> Solve a beam, its contact state included
     subroutine solve_condensed(beam, answer, closed, solves, status)
         !> The beam and where its answer goes
         type(beam_type), intent(in) :: beam
         type(answer_type), intent(in) :: answer
-        !> The working scheme, shape (0:n)
+        !> The contact state, shape (0:n)
         logical, intent(out) :: closed(0:)
         !> Linear solves
         integer, intent(out) :: solves

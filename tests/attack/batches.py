@@ -11,7 +11,7 @@ from scenes import random_scene
 from .family import Family, Verdict
 
 PROMISE = (
-    "Of many cases of a beam, with factors of loads and gaps by case, each has the status, working scheme and reactions of a scene "
+    "Of many cases of a beam, with factors of loads and gaps by case, each has the status, contact state and reactions of a scene "
     "of its own, the reactions are exact, and no case depends on the others"
 )
 NEAR = 1e-10
@@ -74,7 +74,7 @@ def compare(one, found, k):
         return []
     faults, step = [], direct.steps[-1]
     if not step.indifferent and not step.undecided and step.solution.closed.tolist() != found.closed[k].tolist():
-        faults.append("another working scheme than alone")
+        faults.append("another contact state than alone")
     size = max(np.abs(step.reaction).max(initial=0.0), 1e-9)
     alone = np.abs(found.reaction[k] - step.solution.reaction).max(initial=0.0)
     if not alone <= NEAR * size + 2 * step.bounds[1]:

@@ -1,4 +1,4 @@
-"""A scene in rational numbers: what a given working scheme gives, over the load factor, and whether anything can stand.
+"""A scene in rational numbers: what a given contact state gives, over the load factor, and whether anything can stand.
 
 The forms and their equations are those of `oracle/equilibrium.py`. Here no scheme is looked for by enumeration: the program's own
 scheme is solved exactly and its signs are read. Whether an equilibrium exists is decided without any scheme, from body to

@@ -46,7 +46,7 @@ def judge(made, seed=0):
         return Verdict("forces not unique" if error.status == Status.INDETERMINATE else "refused",
                        [] if error.status == Status.INDETERMINATE else [str(error)])  # fmt: skip
     train, verdict = result.trains["train"], Verdict(result.status)
-    for way in train.ways:
+    for way in train.traversals:
         low, high = way.course.from_, way.course.to
         dense = [low + (high - low) * (k + rng.random()) / POSITIONS for k in range(POSITIONS)]
         for position in dense:

@@ -84,12 +84,17 @@ def in_c(made, library):
 
 
 def in_fortran_77(made, library):
-    """A solve, and the state as it lies in the work arrays."""
+    """A solve, values at supports and fields, or the motion."""
     beam = F77Beam(library, made)
     if beam.info_:
         return beam.info_
     info = beam.solve(1.0)
-    return [info, beam.contact() if made.get("foundation") and info == 0 else []]
+    if info == NO_EQUILIBRIUM:
+        return [info, beam.motion()]
+    if info:
+        return info
+    x = np.linspace(0.0, float(np.sum(made["beam"]["spans"])), 9)
+    return [beam.at_supports(), beam.fields(x), beam.extremes(), beam.contact() if made.get("foundation") else []]
 
 
 def is_for_all(made):
@@ -125,7 +130,9 @@ def main(scenes, library=None):
                 calls["cases"] = (in_cases, made, cases)
             if library and is_for_all(made):
                 made = {"supports": [], "loads": [], **made}
-                calls |= {"C": (in_c, made, library), "Fortran 77": (in_fortran_77, made, library)}
+                calls["C"] = (in_c, made, library)
+                if hasattr(library.c, "ghprep_"):  # work arrays before 0.4
+                    calls["Fortran 77"] = (in_fortran_77, made, library)
             for what, call in calls.items():
                 print(json.dumps([name, what, digest(attempt(*call))]), flush=True)
 

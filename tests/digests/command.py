@@ -83,8 +83,10 @@ def read_digests(process, path):
 
 
 def changed(ours, theirs):
-    """What differs: scene and what of it."""
-    return sorted(key for key in ours.keys() | theirs.keys() if ours.get(key) != theirs.get(key))
+    """What differs: scene and what of it; ways that one of both does not have at all are not compared."""
+    ways = {what for _, what in ours} & {what for _, what in theirs}
+    keys = {key for key in ours.keys() | theirs.keys() if key[1] in ways}
+    return sorted(key for key in keys if ours.get(key) != theirs.get(key))
 
 
 def commit_beside():

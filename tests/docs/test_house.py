@@ -81,6 +81,11 @@ def modules_of(path, package=TOP / "python" / "gapbeam"):
                 yield found, node in tree.body
 
 
+def test_every_file_of_python_is_installed():
+    listed = re.findall(r"'(gapbeam/[\w/]+\.py)'", (TOP / "python" / "meson.build").read_text())
+    assert listed == sorted(path.relative_to(TOP / "python").as_posix() for path in (TOP / "python" / "gapbeam").rglob("*.py"))
+
+
 def test_no_installed_file_of_python_is_long():
     long = [path.name for path in (TOP / "python" / "gapbeam").rglob("*.py") if path.read_text().count("\n") > 400]
     assert long == []

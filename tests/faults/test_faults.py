@@ -371,7 +371,7 @@ def test_a_beam_tips_at_a_position():
     assert least.state.fields(0.0).deflection == pytest.approx(-0.01, rel=1e-12)
     # What belongs to the state before has that one
     train = result.trains["t"]
-    before, after = (scheme for scheme, _ in train.ways[0].schemes(5.2))
+    before, after = (scheme for scheme, _ in train.traversals[0].schemes(5.2))
     assert [train.at(5.2, "right", scheme).opening[0] for scheme in (before, after)] == pytest.approx([0.0, 0.01], abs=1e-12)
     for row in result.envelope().supports:
         for quantity, kinds in row.items():
@@ -385,8 +385,8 @@ def test_forces_where_the_beam_can_move_freely():
     made = read(HERE / "B3_neutral_positions.json")
     result = gapbeam.solve(made)
     (train,) = result.trains.values()
-    assert [gap.status for gap in train.gaps] == ["no-equilibrium", "no-equilibrium", "solved"]
-    assert (train.gaps[-1].from_, train.gaps[-1].to) == pytest.approx((9.2, 12.6), rel=1e-12)
+    assert [gap.status for gap in train.unstable_positions] == ["no-equilibrium", "no-equilibrium", "solved"]
+    assert (train.unstable_positions[-1].from_, train.unstable_positions[-1].to) == pytest.approx((9.2, 12.6), rel=1e-12)
     extremes = result.envelope().extremes
     assert extremes["deflection"] == extremes["rotation"] == {"max": None, "min": None}
     largest = extremes["moment"]["max"]

@@ -1,6 +1,6 @@
 """What a user would write instead of calling gapbeam: an active set in numpy and scipy, the yardstick for contact at scale.
 
-Cubic Hermite elements, all wrong supports switched at once, a banded Cholesky solve for every working scheme; plain, or
+Cubic Hermite elements, all wrong supports switched at once, a banded Cholesky solve for every contact state; plain, or
 incremental with a residual that is summed element by element. As short as such programs are: straight beams of one EI on elastic
 one-sided supports and pins, uniform loads and forces at nodes.
 """
@@ -19,7 +19,7 @@ MOST_SOLVES = 200
 
 
 class NoScheme(GapbeamError):
-    """A program gave up before it had a working scheme."""
+    """A program gave up before it had a contact state."""
 
 
 @dataclass
@@ -116,7 +116,7 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
         last = largest if same else np.inf
         closed = u[springs] > gap
     else:
-        raise NoScheme(f"the active set found no working scheme in {MOST_SOLVES} solves")
+        raise NoScheme(f"the active set found no contact state in {MOST_SOLVES} solves")
     acts = np.ones(len(at), dtype=bool)
     acts[elastic] = closed
     reaction = np.zeros(len(at))

@@ -29,7 +29,7 @@ def limits(batch: Batch) -> dict[str, float]:
     -------
     dict of float
         Seconds: to read loads (gaps and settlements where they vary) and write deflections, moments, reactions and states once; and
-        to do the operations of one working scheme, though most cases need several, without refinement.
+        to do the operations of one contact state, though most cases need several, without refinement.
     """
     spans = batch.q.shape[1]
     numbers = spans + 3 * (spans + 1) + (0 if batch.factors else 2 * (spans + 1))

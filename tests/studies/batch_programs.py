@@ -22,7 +22,7 @@ MOST_ROUNDS, TOGETHER = 200, 20
 BLOCK = 2000
 """Cases that numpy has in hand at a time, so that they stay in the cache."""
 MOST_SCHEMES = 4096
-"""Working schemes of which matrices are kept."""
+"""Contact states of which matrices are kept."""
 LOOP_MOST = 2000
 """Most cases that the loop in scipy is given."""
 
@@ -45,7 +45,7 @@ def _by_gapbeam(batch: Batch) -> Callable[[], Found]:
 def _search(level: np.ndarray, displaced: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]) -> tuple:
     """Switch what is wrong in all cases at once until every case is settled.
 
-    `displaced` gives deflections and rotations of cases whose numbers and working schemes it is told, nodes by cases.
+    `displaced` gives deflections and rotations of cases whose numbers and contact states it is told, nodes by cases.
     """
     closed = np.ones(level.shape, dtype=bool)
     w, turn = np.empty_like(level), np.empty_like(level)
@@ -117,14 +117,14 @@ def _eliminate(
 
 
 def _by_matrices(batch: Batch) -> Callable[[], Found]:
-    """Sort the cases by working scheme; one matrix for each scheme takes loads and levels to all results.
+    """Sort the cases by contact state; one matrix for each scheme takes loads and levels to all results.
 
     Refused with `NoScheme` where there are too many schemes to keep.
     """
     spans = batch.q.shape[1]
     nodes, weights, kept = spans + 1, 2 ** np.arange(spans - 1), {}
     if 2 ** (spans - 1) > MOST_SCHEMES:
-        raise NoScheme("too many working schemes")
+        raise NoScheme("too many contact states")
     unit = np.eye(spans + nodes)
     units = Batch(unit[:, :spans], unit[:, spans:], np.zeros((spans + nodes, nodes)), False)
 
@@ -166,7 +166,7 @@ def _by_matrices(batch: Batch) -> Callable[[], Found]:
 
 
 def _by_scipy(batch: Batch) -> Callable[[], Found]:
-    """Solve one case after the other by a banded Cholesky factorisation of every working scheme."""
+    """Solve one case after the other by a banded Cholesky factorisation of every contact state."""
     from scipy.linalg import solveh_banded
 
     def run() -> Found:

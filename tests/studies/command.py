@@ -62,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     _add_largest(kernel, 10**6, "nodes")
     schemes = add(
-        "schemes", _schemes, "linear solves until the working scheme is found",
+        "schemes", _schemes, "linear solves until the contact state is found",
         "Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
         "over thousands of supports, cold and warm, and of many spans. Takes some seconds.",
     )  # fmt: skip

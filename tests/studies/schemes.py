@@ -1,4 +1,4 @@
-"""How many linear solves it takes to find the working scheme: reference problems from all starts, fronts, scale."""
+"""How many linear solves it takes to find the contact state: reference problems from all starts, fronts, scale."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 COLUMNS = ("problem", "one-sided", "block", "single", "events", "closed", "time")
 """Headings of the table."""
 WORDS = (
-    "Linear solves until the working scheme is found: by the rule block, with few supports the largest number over all starting",
+    "Linear solves until the contact state is found: by the rule block, with few supports the largest number over all starting",
     "schemes, else from all supports closed; by single, the paper's rule, from all supports closed. events is the number of",
     "changes along the load from 0 to 1.",
     "A warm start is the scheme of a load that is smaller by 0.1, 1 or 10 %. Solves of a part of the beam count by the part's",
@@ -301,5 +301,5 @@ def table(rows: list[Row]) -> list[list[str]]:
     ]
 
 
-PAGE = Page("schemes", "Working schemes", WORDS, COLUMNS, texts=1)
+PAGE = Page("schemes", "Contact states", WORDS, COLUMNS, texts=1)
 """How the table is written and printed."""

@@ -174,14 +174,14 @@ class Beam(Layout):
         return self is other or (same and (not self.has_laws or np.array_equal(self.kinks, other.kinks)))
 
     def solve(self, factor: float, rule: str, closed: np.ndarray) -> Solution:
-        """Find the working scheme at one load factor.
+        """Find the contact state at one load factor.
 
         Parameters
         ----------
         factor : float
             Factor of the live loads.
         rule : {"block", "single", "given"}
-            How the working scheme is found; GIVEN where it is known.
+            How the contact state is found; GIVEN where it is known.
         closed : numpy.ndarray of int
             Starting scheme, one entry per support; left as it is.
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import mmap
 import os
 import threading
-from _thread import allocate_lock, start_new_thread
+from _thread import allocate_lock, interrupt_main, start_new_thread
 from collections.abc import Callable, Iterator
 from queue import SimpleQueue
 from time import perf_counter
@@ -168,7 +168,25 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
     return call
 
 
-class Handle(int):
+class Owned(int):
+    """A number by which the compiled layer knows something, which is freed with the last reference to the number."""
+
+    _drop: Callable
+
+    def __init_subclass__(cls, drop: Callable) -> None:
+        """Take the routine that frees one."""
+        cls._drop = staticmethod(drop)
+
+    def __del__(self, again: Callable = interrupt_main) -> None:
+        """Free it, also when Python ends and modules are gone; a Ctrl-C that comes just here is not lost."""
+        try:
+            if self:
+                self._drop(self)
+        except KeyboardInterrupt:
+            again()
+
+
+class Handle(Owned, drop=_engine.gbdrop):
     """A beam in the compiled layer, which is freed with the last reference to this number.
 
     Calls that go on after Ctrl-C keep theirs.
@@ -181,49 +199,25 @@ class Handle(int):
 
     has_curves = False
 
-    def __del__(self, drop: Callable = _engine.gbdrop) -> None:
-        """Free the beam, also when Python ends and modules are gone."""
-        if self:
-            drop(self)
 
-
-class Room(int):
+class Room(Owned, drop=_engine.gbleav):
     """What cases of a beam need in the compiled layer, which is freed with the last reference to this number.
 
     Calls at the same time need one each.
     """
 
-    def __del__(self, drop: Callable = _engine.gbleav) -> None:
-        """Free it, also when Python ends and modules are gone."""
-        if self:
-            drop(self)
 
-
-class StateHandle(int):
+class StateHandle(Owned, drop=_engine.gbsdro):
     """A solved state in the compiled layer, which is freed with the last reference to this number."""
 
-    def __del__(self, drop: Callable = _engine.gbsdro) -> None:
-        """Free the state, also when Python ends and modules are gone."""
-        if self:
-            drop(self)
 
-
-class FieldsHandle(int):
+class FieldsHandle(Owned, drop=_engine.gbfdro):
     """The fields of a state at the pieces, in the compiled layer; freed with the last reference to this number."""
 
-    def __del__(self, drop: Callable = _engine.gbfdro) -> None:
-        """Free the fields, also when Python ends and modules are gone."""
-        if self:
-            drop(self)
 
-
-class TrainHandle(int):
+class TrainHandle(Owned, drop=_engine.gbtdro):
     """A train in the compiled layer, which is freed with the last reference to this number."""
 
-    def __del__(self, drop: Callable = _engine.gbtdro) -> None:
-        """Free the train, also when Python ends and modules are gone."""
-        if self:
-            drop(self)
 
 
 def parts(count: int) -> Iterator[slice]:

@@ -31,11 +31,11 @@ def case_certificates(
     beam : Beam
         The beam.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     factors : numpy.ndarray
         Factor of every load, cases by loads.
     closed, status : numpy.ndarray of int
-        Working schemes, cases by supports of the engine; 0 where a case is solved.
+        Contact states, cases by supports of the engine; 0 where a case is solved.
     varied : Varied
         Numbers that differ from case to case.
     solutions : tuple of numpy.ndarray or None

@@ -27,11 +27,11 @@ def case_extremes(
     beam : Beam
         Without ground.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     factors, varied
         As for `solve_cases`, moduli as they are.
     closed, status : numpy.ndarray of int
-        Working schemes, cases by supports of the engine; 0 where a case is solved.
+        Contact states, cases by supports of the engine; 0 where a case is solved.
     nodes : tuple of numpy.ndarray
         Deflection, moments left and right of the nodes, cases by nodes.
     names : collection of str

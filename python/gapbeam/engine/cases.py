@@ -59,7 +59,7 @@ def solve_cases(
     factors : numpy.ndarray
         Factor of every load, cases by loads.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     closed : numpy.ndarray of int
         Starting scheme of all cases.
     varied : Varied, optional
@@ -111,7 +111,7 @@ class OneCase:
     beam : Beam
         With some loads, which are split, and so few nodes that a call is short.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
 
     Attributes
     ----------

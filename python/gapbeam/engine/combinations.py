@@ -60,7 +60,7 @@ class Combined(Record):
     status : numpy.ndarray of int
         0 solved, 1 no equilibrium, above 10 the code of an error.
     closed : numpy.ndarray of int
-        Working schemes, combinations by supports of the engine.
+        Contact states, combinations by supports of the engine.
     at_supports : numpy.ndarray
         Reaction, deflection, opening and couple (rows) of the scene's supports, combinations by 4 by supports.
     extremes, places : numpy.ndarray
@@ -95,7 +95,7 @@ def solve_combinations(
     settlements : numpy.ndarray or None
         Further movement of every support, combinations by supports of the scene; None where nothing moves.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     closed : numpy.ndarray of int
         Where the searches start: supports of the engine, or combinations by supports.
     piece, distance : numpy.ndarray, optional

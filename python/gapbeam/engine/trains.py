@@ -1,4 +1,4 @@
-"""A train on its way over a prepared beam: a handle in the compiled layer, and typed calls with it."""
+"""Traversal of a prepared beam by a train: a handle in the compiled layer, and typed calls with it."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Extremes(Record):
     sides: np.ndarray
 
 
-class Passage:
+class Traversal:
     """A train that has gone over a beam.
 
     Parameters

@@ -21,12 +21,12 @@ MOST_MARKS = 300
 MOST_POINTS = 40
 """Ends of segments up to which arrows show the direction of a path."""
 MARKERS = {"closes": ("o", "black"), "opens": ("o", "white"), "breaks": ("X", "black")}
-"""Markers and their faces; whatever else happens to a support is a kink of its law."""
+"""Markers and their faces; whatever else happens to a support is a breakpoint of its law."""
 KINK = ("s", "black")
 NOTES = {
     "closes": "circles: filled, the support closes; open, it opens",
     "breaks": "crosses: a support breaks",
-    "kink": "squares: a support passes a kink of its law",
+    "kink": "squares: a support passes a breakpoint of its law",
     "limit": "triangles: limit loads",
     "unstable": "dotted: unstable",
     "jump": "arrows: jumps",

@@ -42,7 +42,7 @@ MOST_ARROWS = 3
 CURVE = 100
 """Points about of a line that is curved, since a support has a smooth law."""
 MOST_DOTS = 40
-"""Load steps that are drawn each; of more those at which the working scheme changes, between which nothing bends."""
+"""Load steps that are drawn each; of more those at which the contact state changes, between which nothing bends."""
 DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
 NO_DOTS = tuple(pattern for pattern in DASHES if pattern != (1, 1.5))
 SHADES = ("0.0", "0.35", "0.5", "0.65")
@@ -185,12 +185,12 @@ def _states(result: Result, dots: bool) -> list[Step]:
 def _note(result: Result) -> str:
     """Say what the marks of events mean."""
     kinds = {event.event for event in result.events if event.support is not None}
-    law = "squares, it passes a kink of its law" if kinds - {"closes", "opens", "turns"} else ""
+    law = "squares, it passes a breakpoint of its law" if kinds - {"closes", "opens", "turns"} else ""
     return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if kinds else "", law]))
 
 
 def _bends(result: Result) -> list[int]:
-    """Find the steps at which lines may bend: with another working scheme than the one before or after."""
+    """Find the steps at which lines may bend: with another contact state than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
     every = last + 1 if result.beam.is_linear_between_events else max(1, last // CURVE)

@@ -1,4 +1,4 @@
-"""The history of the working scheme (which supports act) over the load, and its events, as rows of text."""
+"""The history of the contact state (which supports act) over the load, and its events, as rows of text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..scene.names import label
 if TYPE_CHECKING:
     from ..results.paths.ground_path import GroundEvent
     from ..results.paths.path import Event
-    from ..results.trains.ways import TrainEvent
+    from ..results.trains.traversals import TrainEvent
     from ..scene.structs import Scene
 
 #: State -> character; the second where the terminal knows only ASCII

@@ -140,12 +140,12 @@ def _events(say: Writer, result: "Result") -> None:
 
 def _gaps(say: Writer, envelope: "TrainEnvelope") -> None:
     """Positions that are not solved."""
-    if not envelope.gaps:
+    if not envelope.unstable_positions:
         return
     say.heading("Positions that are not solved, and not in what follows")
-    for member, gap in envelope.gaps[:MOST_GAPS]:
+    for member, gap in envelope.unstable_positions[:MOST_GAPS]:
         where = f"{visible(member.combination)}, " if member.combination else ""
         reason = gap.reason if gap.status != "solved" else f"{gap.reason}, and they are in what follows"
         say.line(f"{where}{visible(member.train)}, {gap.from_:.6g} to {gap.to:.6g}: {reason}.", "red")
-    if len(envelope.gaps) > MOST_GAPS:
-        say.line(f"... and {len(envelope.gaps) - MOST_GAPS} more; --json has all.", "dim")
+    if len(envelope.unstable_positions) > MOST_GAPS:
+        say.line(f"... and {len(envelope.unstable_positions) - MOST_GAPS} more; --json has all.", "dim")

@@ -68,7 +68,7 @@ class Result(States):
         beam : Beam
             Its beam.
         rule : str
-            How the working scheme is found.
+            How the contact state is found.
 
         Returns
         -------

@@ -28,7 +28,7 @@ def solve(
     source : Scene, mapping, str or path
         A scene built in Python, its data as dicts and lists, or the path of a ``.toml`` or ``.json`` file.
     rule : {"block", "single"}, optional
-        How the working scheme is found, instead of the scene's own ``analysis.rule``.
+        How the contact state is found, instead of the scene's own ``analysis.rule``.
     start : sequence of bool, optional
         Starting scheme of the first load step: one entry per one-sided support in the order of the scene, True =
         closed. Default: all closed. It changes the number of solves, not the answer.

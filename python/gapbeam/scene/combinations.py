@@ -42,7 +42,7 @@ class Plan:
     settlements : numpy.ndarray
         Further movement of every support, combinations by supports.
     scheme_of : tuple of (int or None)
-        The combination whose working scheme is taken, by number.
+        The combination whose contact state is taken, by number.
     trains : numpy.ndarray
         Factor of every train, combinations by trains.
     idle : tuple of str

@@ -216,7 +216,7 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
 
 
 class Combination(Table, forbid_unknown_fields=True, kw_only=True):
-    """Load cases that act together, each with a factor; solved in a working scheme of its own.
+    """Load cases that act together, each with a factor; solved in a contact state of its own.
 
     Parameters
     ----------

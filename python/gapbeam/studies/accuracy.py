@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 WORDS = (
     "The largest error of deflections, moments and reactions at all nodes, each relative to the largest true value of its kind,",
     "and the time of one solve. All methods solve the same beam of the same elements and give the same values at the same nodes.",
-    "Compiled methods go from plain arrays to answers; gapbeam.solve goes from a scene to answers inside Python. Working schemes",
+    "Compiled methods go from plain arrays to answers; gapbeam.solve goes from a scene to answers inside Python. Contact states",
     "are part of it: those of the engine by its own search, the others by switching all wrong supports (one at a time after 40",
     "solves, which ends most cycles). Marked (* or bold) is the Pareto front: no other method is both faster and more accurate on",
     "that beam; errors below 4e-16 are equal, and answers without a right digit do not count. The true values are decimals of 80",

@@ -1,7 +1,7 @@
 """Exact solution of a scene in rational numbers, to measure errors by.
 
 The unknowns are the deflection and the moments left and right of **every** place where anything changes: nothing is
-condensed, and sections, supports and loads are read from the scene, not from the engine's arrays. The working scheme is
+condensed, and sections, supports and loads are read from the scene, not from the engine's arrays. The contact state is
 taken from a result and its contact conditions are checked; where they fail, schemes are changed until they hold, which
 proves the solution right. Long beams are solved with decimals of `DIGITS` digits instead of fractions, which would
 grow with the number of places.
@@ -96,7 +96,7 @@ class Reference:
         self.level = [Fraction(s.settlement) + k * Fraction(s.gap) for s, k in zip(self.supports, self.sign, strict=True)]
 
     def solve(self, state: Sequence[str]) -> bool:
-        """Solve, starting from a working scheme.
+        """Solve, starting from a contact state.
 
         Parameters
         ----------
@@ -123,7 +123,7 @@ class Reference:
                     return change == 0
                 for i in wrong if change < 5 else wrong[:1]:
                     closed[i] = not closed[i]
-        raise ZeroDivisionError("no working scheme satisfies the contact conditions exactly")
+        raise ZeroDivisionError("no contact state satisfies the contact conditions exactly")
 
     def error(self, name: str, values: Sequence[float], scale: str = "", inner: slice = slice(None)) -> float:
         """Largest error of some values, relative to the largest true one.

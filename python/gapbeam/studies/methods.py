@@ -1,7 +1,7 @@
 """The ways to solve a meshed beam that the studies compare, timed side by side.
 
 All but `gapbeam.solve` are compiled and timed without Python: from plain arrays to deflections, moments and reactions of all
-nodes, working scheme included. `gapbeam.solve` is timed as users call it, from a scene to the fields at the same places.
+nodes, contact state included. `gapbeam.solve` is timed as users call it, from a scene to the fields at the same places.
 """
 
 from __future__ import annotations

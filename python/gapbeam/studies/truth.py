@@ -16,7 +16,7 @@ from .meshes import MeshedBeam
 DIGITS = 80
 """Decimal digits carried."""
 MOST_CHANGES = 100
-"""Working schemes tried before giving up."""
+"""Contact states tried before giving up."""
 
 
 @dataclass
@@ -30,7 +30,7 @@ class Truth:
     closed : numpy.ndarray of bool
         Which supports act.
     right : bool
-        Whether the working scheme given was right.
+        Whether the contact state given was right.
     """
 
     deflection: tuple[np.ndarray, np.ndarray]
@@ -72,7 +72,7 @@ def solve_exactly(beam: MeshedBeam, closed: np.ndarray | None = None) -> Truth:
     beam : MeshedBeam
         The beam.
     closed : numpy.ndarray of bool, optional
-        Working scheme to begin with; default all closed.
+        Contact state to begin with; default all closed.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def solve_exactly(beam: MeshedBeam, closed: np.ndarray | None = None) -> Truth:
             if not wrong:
                 return Truth(_pairs(w), _pairs(m), _pairs(r), closed, change == 0)
             closed[wrong if change < MOST_CHANGES // 2 else wrong[:1]] ^= True
-    raise ArithmeticError("no working scheme satisfies the contact conditions exactly")
+    raise ArithmeticError("no contact state satisfies the contact conditions exactly")
 
 
 def _pairs(values: list[Decimal]) -> tuple[np.ndarray, np.ndarray]:

@@ -143,7 +143,7 @@ def test_smooth_laws_are_drawn_as_curves(analysis):
 
 
 def test_lines_of_laws_without_limits_are_as_always():
-    """One more panel's words, and squares at the kinks."""
+    """One more panel's words, and squares at the breakpoints."""
     law = {"type": "hardening", "stiffness": 100.0, "limit": 1.0, "slope": 400.0}
     result = gapbeam.solve({
         "beam": {"spans": [1.0], "EI": 1.0},

@@ -1,4 +1,4 @@
-!> Parts of the search for the working scheme, each by itself
+!> Parts of the search for the contact state, each by itself
 program test_contact
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, infinite

@@ -1,4 +1,4 @@
-!> Working schemes: the paper's beam from every start, cycling, floating beams, free motions
+!> Contact states: the paper's beam from every start, cycling, floating beams, free motions
 program test_scheme
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, draw, draw_magnitude

@@ -25,11 +25,11 @@ class Asked(Record):
     beam : Beam
         The prepared beam.
     rule : str
-        How working schemes are found.
+        How contact states are found.
     factors : numpy.ndarray
         Cases by loads.
     closed : numpy.ndarray of int
-        Working schemes that were found, or where the searches start: cases by supports of the engine.
+        Contact states that were found, or where the searches start: cases by supports of the engine.
     varied : Varied
         Numbers of the scene that differ from case to case, settlements included.
     states : Combined or None

@@ -64,7 +64,7 @@ class Prepared(Pickled):
         factors : array_like, optional
             Factor of every load of the scene, in its order: one for all cases; or a row for each case. Default: all 1.
         start : sequence of bool, optional
-            Where the search for the working scheme starts: True (closed) or False for every support across the beam;
+            Where the search for the contact state starts: True (closed) or False for every support across the beam;
             default all closed. Every case starts from it, so its result does not depend on the other cases.
         settlements : mapping, optional
             Further movement of supports (length, positive downward), by name or number: one for all cases, or an array with
@@ -259,7 +259,7 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     source : Scene, mapping, str or path
         As for `gapbeam.solve`.
     rule : {"block", "single"}, optional
-        How working schemes are found, instead of the scene's own ``analysis.rule``.
+        How contact states are found, instead of the scene's own ``analysis.rule``.
 
     Returns
     -------

@@ -38,7 +38,7 @@ class Combinations(Pickled, Mapping[str, Result]):
     beam : Beam
         Made of the plan's scene, nothing combined.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     start : numpy.ndarray of int
         Where every search starts.
 
@@ -192,7 +192,7 @@ class Combinations(Pickled, Mapping[str, Result]):
                 return result
 
     def _in_scheme(self, k: int, other: int) -> Result:
-        """Solve with the working scheme of another combination."""
+        """Solve with the contact state of another combination."""
         plan, before = self._plan, self[other]
         if not before.stands:
             result = Result(plan.scene_of(k), self.beam_of(k), self._rule)

@@ -309,7 +309,7 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     beam : Beam
         Made of it.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     start : numpy.ndarray of int
         Where every search starts: no result depends on those before it.
 

@@ -103,8 +103,8 @@ def _with_trains(result: Result, struts: Struts) -> Iterator[tuple[str, Compress
     if not tension.min() < 0.0:
         return
     for name, train in result.trains.items():
-        for way in train.ways:
-            yield from ((f"with train {name} ", found) for found in way.compressions(struts, tension))
+        for traversal in train.traversals:
+            yield from ((f"with train {name} ", found) for found in traversal.compressions(struts, tension))
 
 
 def refused_cases(

@@ -1,4 +1,4 @@
-"""The load path: every change of the working scheme at its exact load factor."""
+"""The load path: every change of the contact state at its exact load factor."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ EVENTS_AT_A_TIME = 1000
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A change of the working scheme, or a turn of the beam.
+    """A change of the contact state, or a turn of the beam.
 
     Attributes
     ----------

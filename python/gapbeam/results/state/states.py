@@ -81,7 +81,7 @@ class States(Pickled):
 
     @property
     def events(self) -> list[Event] | list[GroundEvent]:
-        """Every change of the working scheme and of zones of contact with its load factor, following events."""
+        """Every change of the contact state and of zones of contact with its load factor, following events."""
         return [] if self.path is None else self.path.events
 
     @property
@@ -351,7 +351,7 @@ class States(Pickled):
         }
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:
-        """Follow the working scheme over the load.
+        """Follow the contact state over the load.
 
         Returns
         -------

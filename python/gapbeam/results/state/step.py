@@ -88,17 +88,17 @@ class Step(Pickled):
 
     @property
     def closed(self) -> np.ndarray:
-        """The working scheme: 1 where a support across the beam acts, 0 where it is open."""
+        """The contact state: 1 where a support across the beam acts, 0 where it is open."""
         return self.solution.closed if self._known is None else self._known.closed
 
     @property
     def seconds(self) -> float:
-        """Time it took to find the working scheme."""
+        """Time it took to find the contact state."""
         return self._solved[1] if self._known is None else self._known.seconds
 
     @property
     def solves(self) -> int:
-        """Linear solves it took to find the working scheme."""
+        """Linear solves it took to find the contact state."""
         return self.solution.solves if self._known is None else self._known.solves
 
     @property
@@ -167,7 +167,7 @@ class Step(Pickled):
         """Largest errors of deflections, rotations, moments and shears anywhere along the beam, and of the reactions.
 
         Deflections and rotations have none (None) where the beam is free to move, or where quadruple precision does not
-        confirm the working scheme; the others are infinite then.
+        confirm the contact state; the others are infinite then.
         """
         units = self._beam.units
         powers = dict(zip(BOUNDED, [*units.field, units.force], strict=True))
@@ -254,7 +254,7 @@ class Step(Pickled):
 
 
 def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
-    """Name the state of every support of the scene in a working scheme.
+    """Name the state of every support of the scene in a contact state.
 
     Parameters
     ----------

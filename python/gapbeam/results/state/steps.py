@@ -29,7 +29,7 @@ class Steps(Pickled, Sequence[Step]):
     beam : Beam
         The beam.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     """
 
     def __init__(self, beam: Beam, rule: str):
@@ -43,7 +43,7 @@ class Steps(Pickled, Sequence[Step]):
 
     @abstractmethod
     def closed(self, k: int) -> np.ndarray:
-        """Give the working scheme of a step.
+        """Give the contact state of a step.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class Steps(Pickled, Sequence[Step]):
         return (kept[k] if k in kept else self._make(k) for k in range(len(self)))
 
     def history(self) -> Iterator[tuple[float, tuple[str, ...]]]:
-        """Follow the working scheme over the load, without solving.
+        """Follow the contact state over the load, without solving.
 
         Yields
         ------
@@ -158,7 +158,7 @@ class LoadSteps(Steps):
         return (k + 1) / self._count
 
     def closed(self, k: int) -> np.ndarray:
-        """Give the working scheme of a step, as in `Steps`."""
+        """Give the contact state of a step, as in `Steps`."""
         return read_only(np.unpackbits(self._schemes[k], count=len(self._start)).astype(np.int32))
 
     def _before(self, k: int) -> np.ndarray:
@@ -207,7 +207,7 @@ class LoadSteps(Steps):
         return float(self._seconds[: self._solved].sum())
 
     def nearest(self, factor: float) -> np.ndarray:
-        """Give the working scheme of the step nearest to a load factor.
+        """Give the contact state of the step nearest to a load factor.
 
         Parameters
         ----------
@@ -268,7 +268,7 @@ class PathSteps(Steps):
         return self._at[k][1]
 
     def closed(self, k: int) -> np.ndarray:
-        """Give the working scheme of a step, as in `Steps`."""
+        """Give the contact state of a step, as in `Steps`."""
         return read_only(self._path.closed(self.segment(k)))
 
     def _make(self, k: int) -> Step:

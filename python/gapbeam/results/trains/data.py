@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .ways import TrainEvent
+from .traversals import TrainEvent
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -48,7 +48,7 @@ def lost_positions(trains: Trains) -> tuple[str, str] | None:
     status, reason : str
         Of the first at which the beam cannot stand, else of the first without a unique answer; None where all are solved.
     """
-    lost = [(train, gap) for train in trains.values() for gap in train.gaps if gap.status != "solved"]
+    lost = [(train, gap) for train in trains.values() for gap in train.unstable_positions if gap.status != "solved"]
     if not lost:
         return None
     train, gap = next((one for one in lost if one[1].status == "no-equilibrium"), lost[0])
@@ -79,7 +79,7 @@ def trains_data(result: Result) -> dict[str, Any]:
                 "events": [_event(event, result) for event in train.events],
                 "gaps": [
                     {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
-                    for gap in train.gaps
+                    for gap in train.unstable_positions
                 ],
                 "solves": train.solves,
             }

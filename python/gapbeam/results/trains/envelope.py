@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,6 +21,7 @@ from .members import OF_SUPPORTS, Member, TrainExtreme, fields_of
 
 if TYPE_CHECKING:
     from ..result import Result
+    from .traversals import UnstablePositions
 
 EQUAL = 2.0**-40
 """Share of a value by which ties differ at most."""
@@ -58,7 +60,7 @@ class TrainEnvelope:
         where nothing is solved.
     supports : list of dict
         The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
-    gaps : list of (Member, Gap)
+    unstable_positions : list of (Member, UnstablePositions)
         Positions that are not in it, as there the beam cannot stand.
     """
 
@@ -66,7 +68,13 @@ class TrainEnvelope:
         if not members:
             raise ValueError("envelope: no combination is solved, and no train acts in any")
         self._result, self.members, self._x, self._points = result, list(members), x, points
-        self.gaps = [(member, gap) for member in members for gap in member.gaps]
+        self.unstable_positions = [(member, one) for member in members for one in member.unstable_positions]
+
+    @property
+    def gaps(self) -> list[tuple[Member, UnstablePositions]]:
+        """Give the same as `unstable_positions`, by the name that it had."""
+        warnings.warn("gaps of trains are called unstable_positions", DeprecationWarning, stacklevel=2)
+        return self.unstable_positions
 
     @cached_property
     def extremes(self) -> dict[str, dict[str, TrainExtreme | None]]:

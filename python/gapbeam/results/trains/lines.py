@@ -16,7 +16,7 @@ from .states import SHEAR, Placed
 from .tops import Straight, Unrolled, highest, nearer, vertex
 
 if TYPE_CHECKING:
-    from .search import SearchedWay
+    from .sampled_traversal import SampledTraversal
 
 MOST_STEPS = 5
 """Polynomials after which the best state is taken; one or two do."""
@@ -27,7 +27,7 @@ class Lines:
 
     Parameters
     ----------
-    way : SearchedWay
+    traversal : SampledTraversal
         The states.
     x : numpy.ndarray
         The places.
@@ -37,21 +37,22 @@ class Lines:
         Fields of the engine.
     """
 
-    def __init__(self, way: SearchedWay, x: np.ndarray, left: np.ndarray, rows: list[int]):
-        self._way, self._x, self._left, self._rows = way, x, left, rows
+    def __init__(self, traversal: SampledTraversal, x: np.ndarray, left: np.ndarray, rows: list[int]):
+        self._traversal, self._x, self._left, self._rows = traversal, x, left, rows
         shape = 2, len(rows), len(x)
         self.best, self.at = np.full(shape, -np.inf), np.full(shape, np.nan)
-        self._tables = [np.array([self._values(state) for state in run.states]) for run in way.runs]
+        self._tables = [np.array([self._values(state) for state in run.states]) for run in traversal.runs]
         sizes = [np.abs(table).max(axis=(0, 2)) for table in self._tables]
         self._scale = np.max(sizes, axis=0) if sizes else np.ones(len(rows))
-        self._on_jump = np.isin(x, way.jumps)
+        self._on_jump = np.isin(x, traversal.jumps)
         self._passed: dict[float, Placed] = {}
         self._take_limits()
-        positions = [np.array([state.position for state in run.states]) for run in way.runs]
+        positions = [np.array([state.position for state in run.states]) for run in traversal.runs]
         for at, table in zip(positions, self._tables, strict=True):
             self._take_all(at, table)
         # The more is known, the fewer places may have more
-        for run, at, table in sorted(zip(way.runs, positions, self._tables, strict=True), key=lambda one: -np.abs(one[2]).max()):
+        tables = zip(traversal.runs, positions, self._tables, strict=True)
+        for run, at, table in sorted(tables, key=lambda one: -np.abs(one[2]).max()):
             self._climb(run.states, at, table)
         self.best[1] *= -1.0
 
@@ -76,8 +77,8 @@ class Lines:
     def _take_limits(self) -> None:
         """Consider shears between an axle and the support or force to which it comes."""
         row = self._rows.index(SHEAR)
-        for limit in self._way.limits:
-            here = np.flatnonzero((np.abs(self._x - limit.x) <= self._way.near) & (self._left == (limit.side == "left")))
+        for limit in self._traversal.limits:
+            here = np.flatnonzero((np.abs(self._x - limit.x) <= self._traversal.near) & (self._left == (limit.side == "left")))
             for k in here.tolist():
                 for i, sign in enumerate((1.0, -1.0)):
                     self._take(i, row, k, sign * limit.value, limit.position)
@@ -86,7 +87,7 @@ class Lines:
         """Find what is greater between the states of a run."""
         if len(states) < 2:
             return
-        ruler = self._way.ruler(states[0].position, states[-1].position)
+        ruler = self._traversal.ruler(states[0].position, states[-1].position)
         for k in range(len(self._x)):
             passed = self._pass(k, states)
             for start, stop in pairwise((float(at[0]), *passed, float(at[-1]))):
@@ -98,8 +99,8 @@ class Lines:
 
     def _pass(self, k: int, states: list[Placed]) -> dict[float, np.ndarray]:
         """Consider the positions at which axles stand at a place; give the fields on both sides of it at those inside a run."""
-        low, high, beside = states[0].position, states[-1].position, 4 * self._way.near
-        met = np.unique(self._x[k] - self._way.course.offset[states[0].acts])
+        low, high, beside = states[0].position, states[-1].position, 4 * self._traversal.near
+        met = np.unique(self._x[k] - self._traversal.course.offset[states[0].acts])
         passed = {}
         for position in met[(met >= low - beside) & (met <= high + beside)].tolist():
             at_end = states[0] if position <= low + beside else states[-1] if position >= high - beside else None
@@ -144,7 +145,7 @@ class Lines:
 
     def _state(self, position: float, like: Placed) -> Placed:
         if position not in self._passed:
-            self._passed[position] = self._way.loads.state(position, like.acts)
+            self._passed[position] = self._traversal.loads.state(position, like.acts)
         return self._passed[position]
 
     @np.errstate(over="ignore")  # beside the greatest number a forecast may be beyond it
@@ -191,7 +192,7 @@ class Lines:
                 return
             position = ruler.position(place)
             # Beside the birth of a zone all places are looked at in the same states
-            state = self._state(position, like) if at_end else self._way.loads.state(position, like.acts)
+            state = self._state(position, like) if at_end else self._traversal.loads.state(position, like.acts)
             if state.status != like.status:
                 return
             value = sign * float(state.values(self._x[[k]], self._left[[k]])[self._rows[row], 0])

@@ -10,7 +10,7 @@ import numpy as np
 from ...base.errors import EngineError
 from ...engine.beam import Beam
 from ...engine.quantities import BENDING, QUANTITIES
-from ...engine.trains import SIDES, Extremes, Passage
+from ...engine.trains import SIDES, Extremes, Traversal
 from ..envelopes.envelope import AT_SUPPORTS
 from ..envelopes.tables import KINDS
 from ..state.ground import size_of
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..state.ground import FreeSpan
     from ..state.step import Step
     from .trains import TrainResult
-    from .ways import Gap, TrainWay
+    from .traversals import ExactTraversal, UnstablePositions
 
 OF_FORCES = (*(one.name for one in QUANTITIES if one.by_equilibrium), "reaction", "couple")
 """What is unique where the beam can move freely without work of the loads."""
@@ -137,7 +137,7 @@ class Member:
     ----------
     combination, train, direction : str or None
         Of what.
-    gaps : list of Gap
+    unstable_positions : list of UnstablePositions
         Positions that are not solved.
     """
 
@@ -146,7 +146,7 @@ class Member:
 
     def __init__(self, combination: str | None) -> None:
         self.combination = combination
-        self.gaps: list[Gap] = []
+        self.unstable_positions: list[UnstablePositions] = []
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """Give the largest (0) or smallest (1) values of a field, all that tie."""
@@ -185,17 +185,17 @@ class Passing(Member):
     ----------
     train : TrainResult
         The train.
-    way : TrainWay
-        One of its ways.
+    traversal : ExactTraversal
+        One of its traversals.
     combination : str, optional
         Name of the combination.
     """
 
-    def __init__(self, train: TrainResult, way: TrainWay, combination: str | None = None):
+    def __init__(self, train: TrainResult, traversal: ExactTraversal, combination: str | None = None):
         super().__init__(combination)
-        self.train, self.direction, self.gaps = train.name, way.course.direction, way.gaps
-        self._train, self._way = train, way
-        self._fields, self._supports = way.extremes
+        self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
+        self._train, self._traversal = train, traversal
+        self._fields, self._supports = traversal.extremes
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
@@ -215,12 +215,12 @@ class Passing(Member):
 
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
-        return self._way.passage.curves(piece, distance)
+        return self._traversal.engine.curves(piece, distance)
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`: where the beam tips at a position, that before or that after it, whichever has the value."""
         states = []
-        for scheme, inside in self._way.schemes(extreme.position):
+        for scheme, inside in self._traversal.schemes(extreme.position):
             for position in (extreme.position, inside):
                 try:
                     states.append(self._train.at(position, self.direction, scheme))
@@ -237,16 +237,16 @@ class Neutral(Passing):
 
     Parameters
     ----------
-    train, way, combination
+    train, traversal, combination
         As of `Passing`.
-    held : Passage
+    held : Traversal
         On a beam that is kept from moving, by supports after its own.
     """
 
-    def __init__(self, train: TrainResult, way: TrainWay, combination: str | None, held: Passage):
+    def __init__(self, train: TrainResult, traversal: ExactTraversal, combination: str | None, held: Traversal):
         Member.__init__(self, combination)
-        self.train, self.direction = train.name, way.course.direction
-        self._train, self._way, self._held = train, way, held
+        self.train, self.direction = train.name, traversal.course.direction
+        self._train, self._traversal, self._held = train, traversal, held
         self._fields, self._supports = held.extremes()
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
@@ -268,7 +268,7 @@ class Neutral(Passing):
         try:
             return self._train.at(extreme.position, self.direction)
         except (EngineError, ValueError):  # the beam falls beside it, by rounding there
-            start, end, beside = self._held.ends[0, 0], self._held.ends[-1, 1], 4 * self._way.near
+            start, end, beside = self._held.ends[0, 0], self._held.ends[-1, 1], 4 * self._traversal.near
             return self._train.at(float(min(max(extreme.position, start + beside), end - beside)), self.direction)
 
     def is_unique(self, quantity: str) -> bool:

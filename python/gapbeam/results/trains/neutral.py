@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from ...base.errors import GapbeamError, Status
 from ...engine.beam import Beam, RefusalError
 from ...engine.states import Solution
-from ...engine.trains import Passage
+from ...engine.trains import Traversal
 from ...scene.columns import columns, curves
 from ...scene.loads import ForceLoad, UniformLoad
 from ...scene.structs import Scene, Support
@@ -27,7 +27,7 @@ AWAY = 2.0**-16
 """Share of the beam, or of its deflection, by which a support that holds nothing can be moved."""
 
 
-def passage_of(beam: Beam, course: Course, from_: float, to: float) -> Passage:
+def traversal_of(beam: Beam, course: Course, from_: float, to: float) -> Traversal:
     """Move a train over a beam.
 
     Parameters
@@ -41,14 +41,14 @@ def passage_of(beam: Beam, course: Course, from_: float, to: float) -> Passage:
 
     Returns
     -------
-    Passage
+    Traversal
 
     Raises
     ------
     EngineError
         No unique state exists at some position.
     """
-    return Passage(beam, course.offset, course.force, course.uniform, from_, to, course.direction == LEFT)
+    return Traversal(beam, course.offset, course.force, course.uniform, from_, to, course.direction == LEFT)
 
 
 def loaded(scene: Scene, course: Course, near: float, position: float) -> Scene:
@@ -82,7 +82,7 @@ def loaded(scene: Scene, course: Course, near: float, position: float) -> Scene:
     return replace(scene, loads=[*scene.loads, *loads], trains=[], combinations=[])
 
 
-def held_passage(scene: Scene, course: Course, near: float, from_: float, to: float) -> Passage | None:
+def held_traversal(scene: Scene, course: Course, near: float, from_: float, to: float) -> Traversal | None:
     """Move a train over a beam that can move freely, and is kept from it by supports that carry nothing.
 
     Parameters
@@ -98,7 +98,7 @@ def held_passage(scene: Scene, course: Course, near: float, from_: float, to: fl
 
     Returns
     -------
-    Passage or None
+    Traversal or None
         Its supports are those of the scene, and others after them; None where no such supports are found.
     """
     own = len(scene.supports)
@@ -106,14 +106,14 @@ def held_passage(scene: Scene, course: Course, near: float, from_: float, to: fl
         held = _hold(scene, course, near, from_ + (to - from_) / 2)
         if held is None:
             return None
-        passage = passage_of(_beam_of(held), course, from_, to)
-        if (passage.status != Status.SOLVED).any():
+        traversal = traversal_of(_beam_of(held), course, from_, to)
+        if (traversal.status != Status.SOLVED).any():
             return None
-        reactions = [np.abs(one.values[:, 0, : one.count[:, 0].min(), 0]).max() for one in passage.extremes()[1]]
+        reactions = [np.abs(one.values[:, 0, : one.count[:, 0].min(), 0]).max() for one in traversal.extremes()[1]]
     except (GapbeamError, RefusalError):
         return None
     load = max(np.abs(course.force).max(initial=0.0), *reactions)
-    return passage if max(reactions[own:]) <= NOTHING * load else None
+    return traversal if max(reactions[own:]) <= NOTHING * load else None
 
 
 def _hold(scene: Scene, course: Course, near: float, position: float) -> Scene | None:

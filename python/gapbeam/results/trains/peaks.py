@@ -15,7 +15,7 @@ from .states import Placed
 from .tops import Straight, Unrolled, highest, nearer, vertex
 
 if TYPE_CHECKING:
-    from .search import Limit, Run, SearchedWay
+    from .sampled_traversal import Limit, Run, SampledTraversal
 
 EQUAL = 2.0**-40
 """Share of a value by which ties differ at most."""
@@ -51,12 +51,12 @@ class Peak(NamedTuple):
     limit: Limit | None = None
 
 
-def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequence[Peak] = ()) -> list[Peak]:
+def find_peaks(traversal: SampledTraversal, value: Callable[[Placed], float], further: Sequence[Peak] = ()) -> list[Peak]:
     """Find the largest value over all positions.
 
     Parameters
     ----------
-    way : SearchedWay
+    traversal : SampledTraversal
         The states.
     value : callable
         A value of a state, smooth in the position between two changes.
@@ -68,15 +68,15 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
     list of Peak
         All that tie, in ascending order of the position; none where no position is solved.
     """
-    tables = [np.array([value(state) for state in run.states]) for run in way.runs]
+    tables = [np.array([value(state) for state in run.states]) for run in traversal.runs]
     known = [one.value for one in further] + [float(np.nanmax(table)) for table in tables if not np.isnan(table).all()]
     if not known:
         return []
     best = max(known)
     scale = max(abs(float(np.nanmax(np.abs(table)))) for table in tables if not np.isnan(table).all())
-    pairs = list(zip(way.runs, tables, strict=True))
+    pairs = list(zip(traversal.runs, tables, strict=True))
     most = max((float(_bends(run, table).max()) for run, table in pairs if len(table) > 2), default=abs(best))
-    step = _longest_step(way)
+    step = _longest_step(traversal)
     found, promising = list(further), []
     beside = {(id(one.limit.state), one.limit.side): one.value for one in further if one.limit is not None}
     for run, table in pairs:
@@ -85,22 +85,22 @@ def find_peaks(way: SearchedWay, value: Callable[[Placed], float], further: Sequ
         found += _tops(run, table, best - EQUAL * max(abs(best), scale))
         table = _with_limits(run, table, beside)
         width = run.states[-1].position - run.states[0].position
-        hills = _hills(run, table, most * (min(width / step, 1.0) if step > 0.0 else 0.0), _ruler(way, run))
+        hills = _hills(run, table, most * (min(width / step, 1.0) if step > 0.0 else 0.0), _ruler(traversal, run))
         promising += [(float(table[k]) + gain, run, table, k) for k, gain in hills if gain > 2.0**-46 * scale]
     for reach, run, table, k in sorted(promising, key=lambda one: -one[0]):
         if reach < best:
             break
-        foretold = _foretell(way, run, table, k)
+        foretold = _foretell(traversal, run, table, k)
         if foretold is not None and foretold.height + foretold.doubt < best - EQUAL * max(abs(best), scale):
             continue
-        top = _climb(way, run, table, k, value, foretold, ALIKE * scale)
+        top = _climb(traversal, run, table, k, value, foretold, ALIKE * scale)
         if (id(top.state), "right") in beside or (id(top.state), "left") in beside:
             continue  # it is one of those
         found.append(top)
         best = max(best, top.value)
     slack = EQUAL * max(abs(best), scale)
     ties = sorted((one for one in found if one.value >= best - slack), key=lambda one: one.state.position)
-    return _apart(ties, way)[:MOST_TIES]
+    return _apart(ties, traversal)[:MOST_TIES]
 
 
 def _with_limits(run: Run, table: np.ndarray, beside: Mapping[tuple[int, str], float]) -> np.ndarray:
@@ -153,13 +153,13 @@ class _Foretold(NamedTuple):
     doubt: float
 
 
-def _foretell(way: SearchedWay, run: Run, table: np.ndarray, k: int) -> _Foretold | None:
+def _foretell(traversal: SampledTraversal, run: Run, table: np.ndarray, k: int) -> _Foretold | None:
     """Top near a state of the polynomial through its neighbours; None where that has none.
 
     On foundations of two polynomials, one in the position and one in the angle: on one side of a change values are smooth in the
     position, on the other in its root, and what is right of that nobody knows beforehand.
     """
-    ruler = _ruler(way, run)
+    ruler = _ruler(traversal, run)
     found = [_top(run, table, k, one, ruler) for one in dict.fromkeys((ruler, Straight()))]
     if None in found:
         return None
@@ -185,18 +185,18 @@ def _top(run: Run, table: np.ndarray, k: int, measure: Unrolled | Straight, rule
     return None if other is None else _Foretold(float(ruler.angle(measure.position(place))), height, 4.0 * abs(height - other))
 
 
-def _ruler(way: SearchedWay, run: Run) -> Unrolled | Straight:
-    return way.ruler(run.states[0].position, run.states[-1].position)
+def _ruler(traversal: SampledTraversal, run: Run) -> Unrolled | Straight:
+    return traversal.ruler(run.states[0].position, run.states[-1].position)
 
 
 def _climb(
-    way: SearchedWay, run: Run, table: np.ndarray, k: int, value: Callable[[Placed], float], foretold: _Foretold | None,
+    traversal: SampledTraversal, run: Run, table: np.ndarray, k: int, value: Callable[[Placed], float], foretold: _Foretold | None,
     alike: float,
 ) -> Peak:  # fmt: skip
     """Go to the top near a state by polynomials, by parabolas, or by golden sections where they lead nowhere."""
     low, high = max(k - 1, 0), min(k + 1, len(table) - 1)
     near = range(max(low - 1, 0), min(high + 2, len(table)))
-    ruler = _ruler(way, run)
+    ruler = _ruler(traversal, run)
     places = {i: float(ruler.angle(run.states[i].position)) for i in near}
     heights = {places[i]: float(table[i]) for i in near}
     states = {places[i]: run.states[i] for i in near}
@@ -204,7 +204,7 @@ def _climb(
     width, best, last = right - left, places[k], np.inf
     acts = run.states[k].acts
     if foretold is not None and foretold.place not in states:
-        state = way.loads.state(ruler.position(foretold.place), acts)
+        state = traversal.loads.state(ruler.position(foretold.place), acts)
         if state.status == run.states[k].status:
             heights[foretold.place], states[foretold.place] = value(state), state
             if abs(heights[foretold.place] - foretold.height) <= alike:
@@ -227,7 +227,7 @@ def _climb(
         last = abs(place - best)
         if place in states or last <= SETTLED**2 * width:
             break
-        state = way.loads.state(ruler.position(place), acts)
+        state = traversal.loads.state(ruler.position(place), acts)
         if state.status != run.states[k].status:
             break
         heights[place], states[place] = value(state), state
@@ -241,9 +241,9 @@ def _climb(
     return Peak(heights[best], states[best])
 
 
-def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
+def _apart(ties: Sequence[Peak], traversal: SampledTraversal) -> list[Peak]:
     """Of ties at neighbouring states the one with the greatest value."""
-    step = _longest_step(way)
+    step = _longest_step(traversal)
     found: list[Peak] = []
     for one in ties:
         last = found[-1] if found else None
@@ -255,6 +255,7 @@ def _apart(ties: Sequence[Peak], way: SearchedWay) -> list[Peak]:
     return found
 
 
-def _longest_step(way: SearchedWay) -> float:
+def _longest_step(traversal: SampledTraversal) -> float:
     """The longest way between two states that follow each other."""
-    return max((b.position - a.position for run in way.runs for a, b in zip(run.states, run.states[1:], strict=False)), default=0.0)
+    pairs = ((a, b) for run in traversal.runs for a, b in zip(run.states, run.states[1:], strict=False))
+    return max((b.position - a.position for a, b in pairs), default=0.0)

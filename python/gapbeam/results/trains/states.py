@@ -20,7 +20,7 @@ from ..state.schemes import starting_scheme
 from ..state.smooth import SmoothLaws
 from ..state.step import Step
 from .tangents import NearTangents
-from .ways import NO_ANSWER
+from .traversals import NO_ANSWER
 
 if TYPE_CHECKING:
     from ...scene.trains import Course
@@ -154,7 +154,7 @@ class TrainLoads:
     beam : Beam
         The beam.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     course : Course
         The train.
     near : float

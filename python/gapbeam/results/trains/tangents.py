@@ -35,7 +35,7 @@ class NearTangents:
     beam : Beam
         With smooth laws.
     rule : {"block", "single"}
-        How working schemes are found.
+        How contact states are found.
     """
 
     def __init__(self, beam: Beam, rule: str):

@@ -2,7 +2,7 @@
 
 Positions are those of the first axle. The loads of the scene stay, dead and live ones in full. A state is that of supports that
 act one way, so superposition does not hold: at every position the right supports act. The engine follows them by polynomials in
-the position (`TrainWay`), but on foundations and with smooth laws, where there are none, `SearchedWay` does.
+the position (`ExactTraversal`), but on foundations and with smooth laws, where there are none, `SampledTraversal` does.
 
 >>> import gapbeam
 >>> result = gapbeam.solve({
@@ -17,6 +17,7 @@ the position (`TrainWay`), but on foundations and with smooth laws, where there 
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -38,8 +39,8 @@ from ..state.steps import LoadSteps
 from .envelope import TrainEnvelope, places_along, places_given
 from .members import Member, fields_of
 from .neutral import loaded
-from .search import SearchedWay
-from .ways import Gap, TrainEvent, TrainWay
+from .sampled_traversal import SampledTraversal
+from .traversals import ExactTraversal, TrainEvent, UnstablePositions
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -107,7 +108,7 @@ class TrainState(Step):
 
 
 class TrainResult:
-    """A train on its way over the beam.
+    """A train that goes over the beam.
 
     Attributes
     ----------
@@ -122,31 +123,43 @@ class TrainResult:
         self._result, self._joined = result, fitted(joined(result.scene.trains, i), float(result.scene.span_ends()[-1]))
 
     @cached_property
-    def ways(self) -> list[TrainWay] | list[SearchedWay]:
+    def traversals(self) -> list[ExactTraversal] | list[SampledTraversal]:
         """The train in every direction in which it goes."""
         result = self._result
         end = result.beam.places.end
         near = nearest(self._joined, end)
         try:
-            kind = TrainWay if result.beam.is_linear_between_events else SearchedWay
+            kind = ExactTraversal if result.beam.is_linear_between_events else SampledTraversal
             return [kind(result, course, near, self.name) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
 
     @property
-    def events(self) -> list[TrainEvent]:
-        """Every change of the working scheme at its exact position, in the order in which they happen."""
-        return [event for way in self.ways for event in way.events]
+    def ways(self) -> list[ExactTraversal] | list[SampledTraversal]:
+        """Give the same as `traversals`, by the name that it had."""
+        warnings.warn("ways of a train are called traversals", DeprecationWarning, stacklevel=2)
+        return self.traversals
 
     @property
-    def gaps(self) -> list[Gap]:
+    def events(self) -> list[TrainEvent]:
+        """Every change of the contact state at its exact position, in the order in which they happen."""
+        return [event for traversal in self.traversals for event in traversal.events]
+
+    @property
+    def unstable_positions(self) -> list[UnstablePositions]:
         """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
-        return [gap for way in self.ways for gap in way.gaps]
+        return [one for traversal in self.traversals for one in traversal.unstable_positions]
+
+    @property
+    def gaps(self) -> list[UnstablePositions]:
+        """Give the same as `unstable_positions`, by the name that it had."""
+        warnings.warn("gaps of a train are called unstable_positions", DeprecationWarning, stacklevel=2)
+        return self.unstable_positions
 
     @property
     def solves(self) -> int:
         """Linear solves."""
-        return sum(way.solves for way in self.ways)
+        return sum(traversal.solves for traversal in self.traversals)
 
     def envelope(self, x: Any = None) -> TrainEnvelope:
         """Largest and smallest values over all positions.
@@ -179,7 +192,7 @@ class TrainResult:
         -------
         list of Member
         """
-        return [member for way in self.ways for member in way.members(self, combination)]
+        return [member for traversal in self.traversals for member in traversal.members(self, combination)]
 
     def at(self, position: float, direction: str = RIGHT, scheme: np.ndarray | None = None) -> TrainState:
         """The state at a position of the train.
@@ -204,10 +217,10 @@ class TrainResult:
             Without equilibrium there, or the train does not go that way.
         """
         position = finite("position", position)
-        way = self._way(direction)
+        traversal = self._traversal(direction)
         # Extremes beside the end, where an axle has just left, are farther off
         position = at_ends(position, self._joined, direction, self._result.beam.places.end, POSITION_TOLERANCE)
-        scene = loaded(self._result.scene, way.course, way.near, position)
+        scene = loaded(self._result.scene, traversal.course, traversal.near, position)
         taken = columns(scene)
         result = self._result.another(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
         result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam) if scheme is None else scheme, 1)
@@ -215,7 +228,7 @@ class TrainResult:
         if fallen is not None:
             result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
             raise ValueError(f"position: {result.reason}")
-        return TrainState(result, position, way.course.direction)
+        return TrainState(result, position, traversal.course.direction)
 
     def influence(
         self, what: str, *, x: float, position: float, direction: str = RIGHT, places: Any = None, side: str = "right"
@@ -245,22 +258,22 @@ class TrainResult:
         ValueError
             A place outside the beam, no support there, no equilibrium at that position, or ground whose law is a curve.
         """
-        beam, way = self._result.beam, self._way(direction)
+        beam, traversal = self._result.beam, self._traversal(direction)
         if what not in (has_lines := (*fields_of(beam), "reaction")):
             raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
         state = self.at(position, direction)
         x = float(places_given(beam, [finite("x", x)])[0])
         places = places_along(beam) if places is None else places_given(beam, places, "places")
         at = self._result.scene.positions(self._result.scene.supports)
-        chosen = (np.abs(at - x) <= way.near) & beam.across
+        chosen = (np.abs(at - x) <= traversal.near) & beam.across
         if what == "reaction" and not chosen.any():
             raise ValueError(f"x: there is no support at x = {x:g}")
-        return Influence(places, way.influence(state, what, x, chosen, places, side))
+        return Influence(places, traversal.influence(state, what, x, chosen, places, side))
 
-    def _way(self, direction: str) -> TrainWay | SearchedWay:
-        for way in self.ways:
-            if way.course.direction == direction:
-                return way
+    def _traversal(self, direction: str) -> ExactTraversal | SampledTraversal:
+        for traversal in self.traversals:
+            if traversal.course.direction == direction:
+                return traversal
         if direction not in (RIGHT, LEFT):
             raise ValueError(f'direction: expected "right" or "left", got {shown(direction)}')
         raise ValueError(f"direction: train {self.name} goes to the right only; give both_directions = true")
@@ -287,7 +300,7 @@ class Trains(Mapping[str, TrainResult]):
     def pass_all(self) -> None:
         """Move all trains over the beam, so that what stands in the way of one is said at once."""
         for train in self._by_name.values():
-            train.ways  # noqa: B018
+            train.traversals  # noqa: B018
 
     def members(self, combination: str | None = None) -> list[Member]:
         """What an envelope is made of: every train in every direction.

@@ -1,4 +1,4 @@
-"""Combinations that take the working scheme of another one: with gaps, sides and settlements, beside rational numbers."""
+"""Combinations that take the contact state of another one: with gaps, sides and settlements, beside rational numbers."""
 
 import random
 

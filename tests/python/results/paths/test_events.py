@@ -1,4 +1,4 @@
-"""Events: the exact load factor of every change of the working scheme."""
+"""Events: the exact load factor of every change of the contact state."""
 
 import random
 

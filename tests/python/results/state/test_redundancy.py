@@ -110,7 +110,7 @@ def test_where_the_load_path_comes_to_it():
 
 def test_trains_and_foundations():
     made = scene([1.0, 1.0], three, [], **RIGID) | {"trains": [{"name": "t", "axles": [[0.0, 6.0]]}]}
-    (gap,) = gapbeam.solve(made).trains["t"].gaps
+    (gap,) = gapbeam.solve(made).trains["t"].unstable_positions
     assert (gap.from_, gap.to) == (0.0, 2.0)
     assert "statics can tell apart" in gap.reason
     made = scene([1.0, 1.0], three, [force(1.0, 6.0)], **RIGID)

@@ -127,7 +127,7 @@ def test_uniform_loads_between_distances():
     curves = envelope.fields
     assert (curves.largest["moment"][0], curves.largest_at["moment"][0]) == pytest.approx((16.5, 6.0), rel=1e-12)
     assert train.at(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
-    assert (train.ways[0].passage.ends[0, 0], train.ways[0].passage.ends[-1, 1]) == (0.0, 12.0)
+    assert (train.traversals[0].engine.ends[0, 0], train.traversals[0].engine.ends[-1, 1]) == (0.0, 12.0)
 
 
 def test_a_plank_tips(tmp_path, capsys):
@@ -137,12 +137,12 @@ def test_a_plank_tips(tmp_path, capsys):
         trains=[{"name": "man", "axles": [[0.0, 5.0]]}, {"name": "back", "axles": [[0.0, 5.0]], "both_directions": True}],
     )
     result = gapbeam.solve(made)
-    (gap,) = result.trains["man"].gaps
+    (gap,) = result.trains["man"].unstable_positions
     assert (gap.from_, gap.to) == pytest.approx((2.3, 3.0), rel=1e-14)
     assert "tips about the support at x = 2" in gap.reason
-    assert [gap.direction for gap in result.trains["back"].gaps] == ["right", "left"]
+    assert [gap.direction for gap in result.trains["back"].unstable_positions] == ["right", "left"]
     assert result.envelope().supports[0]["reaction"]["min"].value == pytest.approx(0.0, abs=1e-13)
-    assert len(result.envelope().gaps) == 3
+    assert len(result.envelope().unstable_positions) == 3
     with pytest.raises(ValueError, match=r"position: no equilibrium at position 2\.5 of train man"):
         result.trains["man"].at(2.5)
     assert "tips about" in report_text(result)
@@ -163,8 +163,8 @@ def test_nothing_is_beyond_the_envelope(seed):
     train = result.trains["train 1"]
     envelope = train.envelope(np.linspace(0.0, result.scene.span_ends()[-1], 5))
     curves = envelope.fields
-    for way in train.ways:
-        passage, course = way.passage, way.course
+    for way in train.traversals:
+        passage, course = way.engine, way.course
         assert (passage.ends[1:, 0] == passage.ends[:-1, 1]).all()
         for position in (course.from_, course.to, *rng.uniform(course.from_, course.to, 12)):
             which = np.flatnonzero((passage.ends[:, 0] <= position) & (position <= passage.ends[:, 1]))
@@ -201,8 +201,8 @@ def test_nothing_is_beyond_the_envelope(seed):
 
 def test_ranges_of_positions():
     def ends(**train):
-        way = gapbeam.solve(simple(10.0, (0.0, 1.0), (2.0, 1.0), **train)).trains["train 1"].ways[-1]
-        return way.passage.ends[0, 0], way.passage.ends[-1, 1]
+        way = gapbeam.solve(simple(10.0, (0.0, 1.0), (2.0, 1.0), **train)).trains["train 1"].traversals[-1]
+        return way.engine.ends[0, 0], way.engine.ends[-1, 1]
 
     assert ends() == (0.0, 12.0)
     assert ends(both_directions=True) == (-2.0, 10.0)
@@ -340,11 +340,11 @@ def test_together(seed):
     except gapbeam.EngineError:
         return
     assert together.events == alone.events
-    assert together.gaps == alone.gaps
+    assert together.unstable_positions == alone.unstable_positions
     envelope = together.envelope()
     for name, row in alone.envelope().extremes.items():
         assert {kind: e and e.value for kind, e in row.items()} == {k: e and e.value for k, e in envelope.extremes[name].items()}
-    for way in together.ways:
+    for way in together.traversals:
         course, end = way.course, float(gapbeam.read_scene(made).span_ends()[-1])
         for position in rng.uniform(course.from_, course.to, 6):
             loads = [*made["loads"], *loads_of(merged, position, course.direction, end)]
@@ -394,7 +394,7 @@ def test_axial_loads_do_not_meet_trains(seed):
     for k, value in ((count, right - 3.0), (count + 1, -right)):
         reaction = train.envelope().supports[k]["reaction"]
         assert [reaction[kind].value for kind in ("max", "min")] == pytest.approx([value, value], rel=1e-12)
-    state = train.at(plain.ways[0].course.to / 2)
+    state = train.at(plain.traversals[0].course.to / 2)
     assert state.fields(length * 0.9).axial_force == pytest.approx(-right, rel=1e-12)
 
 
@@ -408,12 +408,12 @@ def test_positions_without_a_unique_answer_are_gaps():
         "trains": [{"axles": [[0.0, 5.0]]}],
     }
     train = gapbeam.solve(made).trains["train 1"]
-    (gap,) = train.gaps
+    (gap,) = train.unstable_positions
     assert (gap.from_, gap.to) == pytest.approx((2.3, 6.0), rel=1e-14)
     assert gap.reason == "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart"
     assert train.envelope().supports[1]["reaction"]["max"].value == pytest.approx(7.75, rel=1e-14)
     made["trains"][0]["both_directions"] = True
-    assert [gap.direction for gap in gapbeam.solve(made).trains["train 1"].gaps] == ["right", "left"]
+    assert [gap.direction for gap in gapbeam.solve(made).trains["train 1"].unstable_positions] == ["right", "left"]
 
 
 def test_a_beam_that_slides_stands_at_no_position():
@@ -421,7 +421,7 @@ def test_a_beam_that_slides_stands_at_no_position():
     made["beam"]["EA"] = 1.0
     made["supports"].append({"node": 0, "direction": "axial", "stiffness": 0.0})
     crane = gapbeam.solve(made).trains["crane"]
-    (gap,) = crane.gaps
+    (gap,) = crane.unstable_positions
     assert (gap.from_, gap.to) == (0.0, 1.0)
     assert gap.reason == "no equilibrium: the beam slides along its axis, no axial support holds it"
     assert crane.envelope().extremes["moment"]["max"] is None
@@ -431,7 +431,7 @@ def test_a_law_that_holds_both_ways_resists_both_ways():
     """The motion is the one that the loads can bring about, so the gap ends where it does no work: 20 (9 - x) = 0.5 9**2/2."""
     supports = [at(0, side="below"), at(1, side="below"), at(2, law=[(0.005, 20.0), (0.03, 60.0)])]
     made = scene([6.0, 3.0], supports, [uniform(0.5, case="dead")]) | {"trains": [{"name": "t", "axles": [[0.0, -20.0]]}]}
-    (gap,) = gapbeam.solve(made).trains["t"].gaps
+    (gap,) = gapbeam.solve(made).trains["t"].unstable_positions
     assert (gap.from_, gap.to) == (0.0, pytest.approx(7.9875, rel=1e-14))
     assert "tips about the support at x = 9" in gap.reason
 
@@ -502,7 +502,7 @@ def test_tips_at_the_very_end(power):
     )  # fmt: skip
     # About the support at 2: the weight holds with 3/2, the second axle pushes with 2**power*(position - 5/2)
     first = 3.0 - 2.0**power / 3.0
-    gaps = gapbeam.solve(made).trains["train"].gaps
+    gaps = gapbeam.solve(made).trains["train"].unstable_positions
     assert (gaps[0].from_, gaps[0].to) == pytest.approx((first, 3.0), abs=1e-12) if gaps else 3.0 - first < 1e-12
 
 
@@ -564,3 +564,12 @@ def test_the_end_of_the_beam_as_the_sum_of_its_spans() -> None:
     assert line.values == pytest.approx(0.0, abs=1e-12)
     with pytest.raises(ValueError, match=r"x: the beam goes from 0 to 19\.47, got 19\.5"):
         result.envelope(x=[19.5])
+
+
+def test_old_names_warn():
+    train = gapbeam.solve(simple(10.0, (0.0, 1.0))).trains["train 1"]
+    with pytest.warns(DeprecationWarning, match="called traversals"):
+        assert train.ways == train.traversals
+    for one in (train, train.envelope()):
+        with pytest.warns(DeprecationWarning, match="called unstable_positions"):
+            assert one.gaps == one.unstable_positions == []

@@ -49,7 +49,7 @@ def tipping():
 def test_a_force_on_a_long_beam():
     result = gapbeam.solve(long_beam())
     train = result.trains["train 1"]
-    assert train.events == train.gaps == []
+    assert train.events == train.unstable_positions == []
     extremes = train.envelope().extremes
     assert extremes["moment"]["max"].value == pytest.approx(FORCE / (4 * BETA), rel=1e-13)
     assert extremes["moment"]["max"].x == pytest.approx(extremes["moment"]["max"].position, rel=1e-12)
@@ -83,7 +83,7 @@ def test_a_force_comes_onto_a_free_end():
 
 def test_where_a_plank_tips():
     result = gapbeam.solve(tipping())
-    first, last = result.trains["man"].gaps
+    first, last = result.trains["man"].unstable_positions
     assert (first.from_, first.to, last.from_, last.to) == pytest.approx((0.0, 2.0, 8.0, 10.0), abs=1e-8)
     assert "the beam tips about x = 4" in first.reason
     # Next to these positions hardly a zone is left, and values grow without bound
@@ -98,12 +98,12 @@ def assert_nothing_beyond(made, result, positions, x):
     found = result.trains["train 1"] if "name" not in train else result.trains[train["name"]]
     envelope = found.envelope(x)
     curves, end = envelope.fields, float(result.scene.span_ends()[-1])
-    for way in found.ways:
+    for way in found.traversals:
         course = way.course
         for position in (course.from_, course.to, *(course.from_ + (course.to - course.from_) * np.asarray(positions))):
             loads = [*made["loads"], *loads_of(train, position, course.direction, end)]
             state = gapbeam.solve({**made, "loads": loads, "trains": []})
-            inside = any(gap.from_ <= position <= gap.to for gap in way.gaps)
+            inside = any(gap.from_ <= position <= gap.to for gap in way.unstable_positions)
             assert (state.status != "solved" or state.steps[-1].indifferent) == inside
             if inside:
                 continue
@@ -196,7 +196,7 @@ def test_events():
     assert train.at(closes.position).reaction[0] == pytest.approx(0.0, abs=1e-10)
     # The mirrored train meets the mirrored events in the same order
     mirrored = rail(supports=[{**rail()["supports"][0], "x": 5.0}], trains=[{**rail()["trains"][0], "both_directions": True}])
-    back = gapbeam.solve(mirrored).trains["bogie"].ways[1]
+    back = gapbeam.solve(mirrored).trains["bogie"].traversals[1]
     assert [(event.support, event.event) for event in back.events] == [(event.support, event.event) for event in train.events]
     assert [12.0 - event.position for event in back.events] == pytest.approx([event.position for event in train.events], abs=1e-9)
 

@@ -24,10 +24,10 @@ from ..state.kinks import EVENTS, what_happens
 from .changes import neighbours
 from .grid import grid_step, places_of_jumps, places_of_kinks
 from .influence import influence_line
-from .searched import Searched
+from .sampled_members import SampledMember
 from .states import SHEAR, Placed, TrainLoads
 from .tops import Straight, Unrolled
-from .ways import Gap, TrainEvent, word_of
+from .traversals import TrainEvent, UnstablePositions, word_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,7 +89,7 @@ class Limit(NamedTuple):
     position: float
 
 
-class SearchedWay:
+class SampledTraversal:
     """A train that has gone over the beam in one direction.
 
     Parameters
@@ -115,7 +115,7 @@ class SearchedWay:
         The states, in ascending order.
     events : list of TrainEvent
         In the order in which they happen.
-    gaps : list of Gap
+    unstable_positions : list of UnstablePositions
         Positions that are not solved.
     solves : int
         Linear solves of these, without those for extremes.
@@ -132,33 +132,33 @@ class SearchedWay:
         self.solves = self.loads.solves
 
     def compressions(self, struts: Struts, tension: np.ndarray) -> Iterator[Compression | None]:
-        """Go through the largest compressions beside the Euler load, a position after the other, as `TrainWay.compressions`."""
+        """Go through the largest compressions beside the Euler load, one a position, as `ExactTraversal.compressions`."""
         for run in self.runs:
             for state in run.states:
                 if state.status == SOLVED:
                     here = type(struts)(state.beam)
                     yield here.of_step(self._scene, state.step, tensions(state.beam, state.step))
 
-    def members(self, train: TrainResult, combination: str | None) -> list[Searched]:
+    def members(self, train: TrainResult, combination: str | None) -> list[SampledMember]:
         """Give what an envelope is made of.
 
         Parameters
         ----------
         train : TrainResult
-            Whose way it is.
+            Whose traversal it is.
         combination : str or None
             Name of the combination.
 
         Returns
         -------
-        list of Searched
+        list of SampledMember
         """
-        return [Searched(train, self, combination)]
+        return [SampledMember(train, self, combination)]
 
     def influence(
         self, state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str
     ) -> np.ndarray:
-        """Give an influence line, as `TrainWay.influence`."""
+        """Give an influence line, as `ExactTraversal.influence`."""
         return influence_line(state, what, x, chosen, places, side)
 
     def ruler(self, low: float, high: float) -> Unrolled | Straight:
@@ -273,10 +273,10 @@ class SearchedWay:
         raise EngineError(f"{where} are too many to be told apart", Status.NOT_CONVERGED)
 
     def _read(self, cells: list[list[Placed]]) -> None:
-        """Runs, events and gaps from all states."""
+        """Runs, events and unstable positions from all states."""
         narrow = NEXT_TO * self.loads.beam.places.end
         self.runs: list[Run] = []
-        self.gaps: list[Gap] = []
+        self.unstable_positions: list[UnstablePositions] = []
         events: list[TrainEvent] = []
         last: Placed | None = None
         missing: list[Placed] = []
@@ -306,7 +306,7 @@ class SearchedWay:
         back = self.course.direction == LEFT
         self.events = events[::-1] if back else events
         if back:
-            self.gaps.reverse()
+            self.unstable_positions.reverse()
 
     def _fill_short_runs(self) -> None:
         """Solve in the middle between two changes with nothing between: two states do not tell how values bend."""
@@ -320,7 +320,8 @@ class SearchedWay:
 
     def _note_gap(self, states: list[Placed]) -> None:
         first, last = states[0], states[-1]
-        self.gaps.append(Gap(first.position, last.position, first.reason, self.course.direction, word_of(first.status)))
+        found = UnstablePositions(first.position, last.position, first.reason, self.course.direction, word_of(first.status))
+        self.unstable_positions.append(found)
 
     def _changes(self, below: Placed, above: Placed) -> list[TrainEvent]:
         """What changes between two neighbours, in the direction of the train."""

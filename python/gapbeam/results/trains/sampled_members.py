@@ -16,49 +16,49 @@ from .states import Placed
 
 if TYPE_CHECKING:
     from ..state.step import Step
-    from .search import SearchedWay
+    from .sampled_traversal import SampledTraversal
     from .trains import TrainResult
 
 
-class Searched(Member):
+class SampledMember(Member):
     """A train that goes over the beam in one direction, known at positions near to each other.
 
     Parameters
     ----------
     train : TrainResult
         The train.
-    way : SearchedWay
-        One of its ways.
+    traversal : SampledTraversal
+        One of its traversals.
     combination : str or None
         Name of the combination.
     """
 
-    def __init__(self, train: TrainResult, way: SearchedWay, combination: str | None):
+    def __init__(self, train: TrainResult, traversal: SampledTraversal, combination: str | None):
         super().__init__(combination)
-        self.train, self.direction, self.gaps = train.name, way.course.direction, way.gaps
-        self._train, self._way = train, way
+        self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
+        self._train, self._traversal = train, traversal
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
         column, sign = FIELDS.index(quantity), 1.0 - 2.0 * i
-        limits = [Peak(sign * one.value, one.state, one) for one in self._way.limits] if quantity == "shear" else []
-        found = find_peaks(self._way, lambda state: sign * float(state.extremes[0][i, column]), limits)
+        limits = [Peak(sign * one.value, one.state, one) for one in self._traversal.limits] if quantity == "shear" else []
+        found = find_peaks(self._traversal, lambda state: sign * float(state.extremes[0][i, column]), limits)
         ties = []
         for peak in found:
             if peak.limit is not None:
                 x, side, position = peak.limit.x, peak.limit.side, peak.limit.position
             else:
                 x = float(peak.state.extremes[1][i, column])
-                side, position = _side(peak.state, x, column, sign * peak.value), self._way.shown_position(peak.state)
+                side, position = _side(peak.state, x, column, sign * peak.value), self._traversal.shown_position(peak.state)
             ties.append(TrainExtreme(self, quantity, sign * peak.value, x, side, None, position))
         return ties
 
     def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_supports`."""
         row, sign = AT_SUPPORTS.index(quantity), 1.0 - 2.0 * i
-        found = find_peaks(self._way, lambda state: sign * float(state.at_supports[row, support]))
+        found = find_peaks(self._traversal, lambda state: sign * float(state.at_supports[row, support]))
         return [
-            TrainExtreme(self, quantity, sign * peak.value, None, None, support, self._way.shown_position(peak.state))
+            TrainExtreme(self, quantity, sign * peak.value, None, None, support, self._traversal.shown_position(peak.state))
             for peak in found
         ]
 
@@ -72,20 +72,20 @@ class Searched(Member):
             return size_of(state.free_span(foundation, quantity), quantity)
 
         found = []
-        for peak in find_peaks(self._way, value):
+        for peak in find_peaks(self._traversal, value):
             span = None if quantity == "resultant" else peak.state.free_span(foundation, quantity)
             if quantity == "resultant" or span is not None:
-                position = self._way.shown_position(peak.state)
+                position = self._traversal.shown_position(peak.state)
                 found.append(TrainExtreme(self, quantity, sign * peak.value, None, None, None, position, foundation, span))
         return found
 
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
-        beam = self._way.loads.beam
+        beam = self._traversal.loads.beam
         lengths = beam.places.pieces[piece - 1, 0]
         left = distance == lengths
         x = np.where(left, beam.places.point_x[piece], beam.places.point_x[piece - 1] + distance)
-        lines = Lines(self._way, x, left, [FIELDS.index(name) for name in fields_of(beam)])
+        lines = Lines(self._traversal, x, left, [FIELDS.index(name) for name in fields_of(beam)])
         return lines.best, lines.at
 
     def state_of(self, extreme: TrainExtreme) -> Step:

@@ -1,4 +1,4 @@
-"""The way of a train over a beam in one direction: its events, and positions that are not solved."""
+"""Traversal of a beam by a train in one direction: its events, and positions that are not solved."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 
 from ...base.errors import Status
 from ...engine.quantities import BENDING
-from ...engine.trains import NOT_UNIQUE, Extremes, Passage
+from ...engine.trains import NOT_UNIQUE, Extremes, Traversal
 from ...scene.trains import LEFT, Course
 from ..state.kinks import EVENTS
 from ..state.motion import SLIDES, describe_motion
 from .members import Neutral, Passing
-from .neutral import held_passage, passage_of
+from .neutral import held_traversal, traversal_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 NO_ANSWER = {
     NOT_UNIQUE: "the beam can move freely, without work of the loads: its position is not unique",
     Status.INDETERMINATE: "no unique answer: a rigid stretch rests on more rigid supports than statics can tell apart",
-    Status.NOT_CONVERGED: "no unique answer: the working scheme could not be settled in the precision at hand",
+    Status.NOT_CONVERGED: "no unique answer: the contact state could not be settled in the precision at hand",
 }
 """Why positions are not solved where the beam does not move along a line."""
 
@@ -65,7 +65,7 @@ class TrainEvent:
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class UnstablePositions:
     """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
 
     Attributes
@@ -88,23 +88,23 @@ class Gap:
     status: str
 
 
-class TrainWay:
+class ExactTraversal:
     """A train that has gone over the beam in one direction.
 
     Attributes
     ----------
     course : Course
         What it is.
-    passage : Passage
-        How it went.
+    engine : Traversal
+        As the engine followed it, by polynomials in the position.
     near : float
         Distance below which an axle is at the end of the beam.
     """
 
     def __init__(self, result: Result, course: Course, near: float, name: str):
         self.course, self.near, self._scene = course, near, result.scene
-        self.passage = passage_of(result.beam, course, course.from_, course.to)
-        p, supports = self.passage, self._scene.positions(self._scene.supports)
+        self.engine = traversal_of(result.beam, course, course.from_, course.to)
+        p, supports = self.engine, self._scene.positions(self._scene.supports)
         self.events = [
             TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)
             for position, (support, _, change) in zip(p.positions.tolist(), p.events.tolist(), strict=True)
@@ -113,7 +113,7 @@ class TrainWay:
     @property
     def solves(self) -> int:
         """Linear solves."""
-        return self.passage.solves
+        return self.engine.solves
 
     def influence(
         self, state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str
@@ -140,8 +140,8 @@ class TrainWay:
         numpy.ndarray
             What the force makes.
         """
-        piece, distance = self.passage.beam.find(np.array([x]), side == "left")
-        values = self.passage.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
+        piece, distance = self.engine.beam.find(np.array([x]), side == "left")
+        values = self.engine.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
         return values[(*BENDING, "reaction").index(what)]
 
     def members(self, train: TrainResult, combination: str | None) -> list[Passing]:
@@ -150,21 +150,21 @@ class TrainWay:
         Parameters
         ----------
         train : TrainResult
-            Whose way it is.
+            Whose traversal it is.
         combination : str or None
             Name of the combination.
 
         Returns
         -------
         list of Passing
-            The train on its way, and where the beam can move freely.
+            The train at all positions, and where the beam can move freely.
         """
         return [Passing(train, self, combination), *(Neutral(train, self, combination, one) for one in self.neutral.values())]
 
     @cached_property
     def extremes(self) -> tuple[Extremes, list[Extremes]]:
         """Largest and smallest fields, and the same of every support."""
-        return self.passage.extremes()
+        return self.engine.extremes()
 
     def compressions(self, struts: Struts, tension: np.ndarray) -> Iterator[Compression | None]:
         """Go through the largest compressions beside the Euler load, a scheme after the other.
@@ -180,24 +180,24 @@ class TrainWay:
         ------
         Compression or None
         """
-        solved = self.passage.closed[self.passage.status == Status.SOLVED]
+        solved = self.engine.closed[self.engine.status == Status.SOLVED]
         yield from (struts.largest(closed, tension) for closed in np.unique(solved, axis=0))
 
     @cached_property
-    def neutral(self) -> dict[tuple[float, float], Passage]:
+    def neutral(self) -> dict[tuple[float, float], Traversal]:
         """Positions at which the beam can move freely, and how the train goes there on a beam that is kept from it."""
-        p = self.passage
+        p = self.engine
         found = {}
         for (start, end), status in zip(p.ends.tolist(), p.status.tolist(), strict=True):
-            held = held_passage(self._scene, self.course, self.near, start, end) if status == NOT_UNIQUE else None
+            held = held_traversal(self._scene, self.course, self.near, start, end) if status == NOT_UNIQUE else None
             if held is not None:
                 found[start, end] = held
         return found
 
     @cached_property
-    def gaps(self) -> list[Gap]:
+    def unstable_positions(self) -> list[UnstablePositions]:
         """Positions that are not solved."""
-        p, found = self.passage, []
+        p, found = self.engine, []
         reasons: list[Any] = []
         for (start, end), status, motion in zip(p.ends.tolist(), p.status.tolist(), p.motion_of.tolist(), strict=True):
             if status == Status.SOLVED:
@@ -212,7 +212,7 @@ class TrainWay:
             elif word == "solved":
                 reason += "; the forces are"
             reasons.append((status, motion, word))
-            found.append(Gap(start, end, reason, self.course.direction, word))
+            found.append(UnstablePositions(start, end, reason, self.course.direction, word))
         return found[::-1] if self.course.direction == LEFT else found
 
     def schemes(self, position: float) -> list[tuple[np.ndarray, float]]:
@@ -220,7 +220,7 @@ class TrainWay:
 
         Beside each stands a position next to it at which it acts for sure.
         """
-        p, found, beside = self.passage, {}, 4 * self.near
+        p, found, beside = self.engine, {}, 4 * self.near
         for (start, end), status, closed in zip(p.ends.tolist(), p.status.tolist(), p.closed, strict=True):
             if status == Status.SOLVED and min(abs(position - start), abs(position - end)) <= beside:
                 inside = min(max(position, start + beside), max(end - beside, start))
