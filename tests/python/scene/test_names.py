@@ -27,7 +27,7 @@ def test_names_are_in_data_and_report():
     result = gapbeam.solve(made)
     assert [row["name"] for row in result.to_dict(1)["steps"][-1]["supports"]] == ["R-101", "R-102", "R-103"]
     assert [(event["support"], event["name"]) for event in result.to_dict(1)["events"]] == [(2, "R-103")]
-    text = report_text(result, 120)
+    text = report_text(result, 120, verbose=True)
     assert "1 R-102" in text
     assert "1 dead, 1 snow, 1 wind, 1 lifts" in text
     assert [event.support for event in result.events] == [2]
