@@ -90,6 +90,13 @@ install_package() {
     pip install -q --no-build-isolation --config-settings=build-dir=.venv/build/package ".${1:+[$1]}"
 }
 
+# Tells every ten seconds how far the build is.
+tell_progress() {
+    while sleep 10 >/dev/null 2>&1; do
+        say "... $(find .venv/build/package -name '*.o' 2>/dev/null | wc -l) files compiled"
+    done
+}
+
 set_up() {
     extras=$1
     base_python=${PYTHON:-python3}
@@ -98,8 +105,11 @@ set_up() {
     export PATH PIP_DISABLE_PIP_VERSION_CHECK=1
 
     if fingerprint | cmp -s - ".venv/installed-$extras"; then return; fi
-    say "building and installing the package${extras:+ and the tools to $extras it}"
-    install_package "$extras" || fail "it could not be built: the reason stands above."
+    say "building and installing the package${extras:+ and the tools to $extras it}, some two minutes on two cores"
+    tell_progress &
+    progress=$!
+    install_package "$extras" || { kill "$progress"; fail "it could not be built: the reason stands above."; }
+    kill "$progress"
     fingerprint >.venv/installed-
     fingerprint >".venv/installed-$extras"
 }
