@@ -29,7 +29,7 @@ module gapbeam_ground_energy
     !> two rounds; steps of a line search
     integer, parameter :: most_rounds = 200, most_for_nodes = 512, most_steps = 60
     !> Forces and slopes of nodes that are asked for at most: where stiffnesses lie hundreds of powers of ten apart no mesh settles
-    integer(int64), parameter :: most_asked = 2_int64**21
+    integer(int64), parameter :: most_asked = 2_int64**23
     !> Share of all forces that may be out of balance in the end
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
@@ -48,7 +48,7 @@ module gapbeam_ground_energy
 contains
 
     !> Find the deflections of least energy
-    subroutine find_least_energy(ground, factor, mesh, closed, solves, pressed, outcome, error)
+    subroutine find_least_energy(ground, factor, mesh, closed, solves, pressed, exhausted, outcome, error)
         !> The beam and its ground, and the load factor
         type(ground_type), intent(in) :: ground
         real(wp), intent(in) :: factor
@@ -58,6 +58,8 @@ contains
         logical, intent(inout) :: closed(:)
         !> Linear solves, and nodes at which ground that acts one way is pressed
         integer, intent(out) :: solves, pressed
+        !> Whether it was given up because nodes had been asked for so often that a finer mesh will hardly tell more
+        logical, intent(out) :: exhausted
         !> Solved or no equilibrium, with the motion of the nodes of the beam without ground
         type(outcome_type), intent(out) :: outcome
         !> As for find_scheme, or not settled
@@ -79,6 +81,7 @@ contains
         n = size(mesh%piece)
         solves = 0
         pressed = 0
+        exhausted = .false.
         call make_beam(ground, mesh, beam)
         call list_points(ground, mesh, points)
         allocate (own(size(closed)), w(0:n), asked(0:n), push(0:n), slope(0:n), modelled(0:n), step(0:n), change(0:n), load(0:n))
@@ -90,7 +93,8 @@ contains
         begun = .false.
         asked_for = 0
         do round = 1, most_rounds + min(n, most_for_nodes)
-            if (asked_for > most_asked) exit
+            exhausted = asked_for > most_asked
+            if (exhausted) exit
             call solve_model()
             if (allocated(error)) then
                 if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(proximal_weight)) return

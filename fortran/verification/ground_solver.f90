@@ -225,7 +225,7 @@ contains
 
         !> Solve on the first mesh, or on one that is finer where zones end
         subroutine solve_on_mesh()
-            logical :: refined
+            logical :: refined, exhausted
             integer :: again, solves
 
             refined = .true.
@@ -237,8 +237,10 @@ contains
             do again = 1, most_stiffer
                 call reserve_memory(for_solving, size(mesh%piece), size(closed) + size(mesh%piece), 0, error)
                 if (allocated(error)) return
-                call find_least_energy(ground, factor, mesh, closed, solves, pressed, outcome, error)
+                call find_least_energy(ground, factor, mesh, closed, solves, pressed, exhausted, outcome, error)
                 solution%solves = solution%solves + solves
+                ! One more mesh, and no others
+                if (exhausted) last = min(last, try + 1)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) return
                 call refine_mesh(ground, mesh, .true., refined)
                 if (.not. refined) return

@@ -229,7 +229,7 @@ contains
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         type(state_type) :: state
-        logical :: closed(0), refined
+        logical :: closed(0), refined, exhausted
         integer :: solves, pressed, try
         real(wp) :: off(3)
 
@@ -237,7 +237,7 @@ contains
         ground = ground_of(lowered)
         call begin_mesh(ground, mesh)
         do try = 1, 3
-            call find_least_energy(ground, 1.0_wp, mesh, closed, solves, pressed, outcome, error)
+            call find_least_energy(ground, 1.0_wp, mesh, closed, solves, pressed, exhausted, outcome, error)
             call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "the mesh holds it")
             call check(solves <= 10 .and. pressed > 20, "in a few rounds")
             call zones_of_mesh(ground, mesh, zones)
@@ -247,7 +247,7 @@ contains
             call check(refined, "a finer mesh")
         end do
         call check(off(1) < 0.1_wp .and. off(3) < 0.02_wp .and. off(3) < off(1), "nearer and nearer")
-        call find_least_energy(ground, -1.0_wp, mesh, closed, solves, pressed, outcome, error)
+        call find_least_energy(ground, -1.0_wp, mesh, closed, solves, pressed, exhausted, outcome, error)
         call check(.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium, "nothing holds it down on a mesh")
         call check(size(outcome%motion) == size(ground%pieces) + 1 .and. minval(outcome%motion) < -0.99_wp, "nor stops it")
         call lower([uniform_load(1.0_wp, 0.0_wp, 30.0_wp), point_force(-40.0_wp, x=25.0_wp)], lowered)
