@@ -28,7 +28,7 @@ def __getattr__(name: str) -> object:
     interface = import_module(f"{__name__}.interface")
     globals().update({key: getattr(interface, key) for key in ("__all__", *interface.__all__)})
     if name not in globals():
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise AttributeError(interface.no_such_name(name))
     return globals()[name]
 
 

@@ -2,7 +2,8 @@
 
 from importlib.metadata import version
 
-from .base.errors import EngineError, GapbeamError, SceneError, Status
+from .base.errors import EngineError, GapbeamError, SceneError, Status, UnsolvedError
+from .base.hints import missing
 from .batches import sample
 from .batches.batch import Batch
 from .batches.run import batch
@@ -15,6 +16,7 @@ from .results.state.fields import Fields
 from .results.state.step import Step
 from .results.state.system import System
 from .results.stepping import solve
+from .results.views.shown import Shown
 from .scene import (
     Analysis,
     AxialLoad,
@@ -33,10 +35,13 @@ from .scene import (
     UniformLoad,
     Units,
     read_scene,
+    replace,
     scene_schema,
 )
+from .show import display
 
 __version__ = version("gapbeam")
+Shown.display = display
 
 __all__ = [
     "Analysis",
@@ -68,11 +73,55 @@ __all__ = [
     "Train",
     "UniformLoad",
     "Units",
+    "UnsolvedError",
     "__version__",
     "batch",
     "prepare",
     "read_scene",
+    "replace",
     "sample",
     "scene_schema",
     "solve",
 ]
+
+MEANT = {
+    "pointload": "gapbeam.ForceLoad", "nodalload": "gapbeam.ForceLoad", "concentratedload": "gapbeam.ForceLoad",
+    "point": "gapbeam.ForceLoad", "force": "gapbeam.ForceLoad", "pointforce": "gapbeam.ForceLoad",
+    "udl": "gapbeam.UniformLoad", "distributedload": "gapbeam.UniformLoad or gapbeam.LinearLoad",
+    "lineload": "gapbeam.UniformLoad or gapbeam.LinearLoad", "trapezoidalload": "gapbeam.LinearLoad",
+    "triangularload": "gapbeam.LinearLoad", "pointmoment": "gapbeam.MomentLoad", "couple": "gapbeam.MomentLoad",
+    "temperatureload": "gapbeam.CurvatureLoad", "thermalload": "gapbeam.CurvatureLoad", "movingload": "gapbeam.Train",
+    "vehicle": "gapbeam.Train", "axle": "gapbeam.Train(axles=[(distance, force)])", "loadcase": "case = ... of a load",
+    "case": "case = ... of a load", "loadcombination": "gapbeam.Combination", "model": "gapbeam.Scene",
+    "system": "gapbeam.Scene", "structure": "gapbeam.Scene", "problem": "gapbeam.Scene", "span": "gapbeam.Beam(spans=[...])",
+    "bearing": "gapbeam.Support", "roller": "gapbeam.Support", "pin": "gapbeam.Support", "spring": "gapbeam.Support(stiffness=...)",
+    "hinge": "gapbeam.Beam(hinges=[x])", "winkler": "gapbeam.Foundation", "soil": "gapbeam.Foundation",
+    "ground": "gapbeam.Foundation", "load": "gapbeam.read_scene(path), or solve(path) at once",
+    "read": "gapbeam.read_scene(path)", "open": "gapbeam.read_scene(path)", "loads": "gapbeam.read_scene(mapping)",
+    "fromtoml": "gapbeam.read_scene(path)", "run": "gapbeam.solve", "analyze": "gapbeam.solve", "analyse": "gapbeam.solve",
+    "calculate": "gapbeam.solve", "plot": "result.plot()", "draw": "result.plot()", "show": "result.plot()",
+    "printreport": "result.report()", "summary": "result.report()", "envelope": "result.envelope()",
+    "montecarlo": "gapbeam.batch with columns of gapbeam.sample", "save": "scene.to_toml(path) or result.to_json(path)",
+    "error": "gapbeam.GapbeamError",
+}  # fmt: skip
+"""What to write for words of other programs, in lower case without underscores."""
+
+
+def no_such_name(name: str) -> str:
+    """Word that the package has no such name, and what was probably meant.
+
+    Parameters
+    ----------
+    name : str
+        What was asked for.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> no_such_name("PointLoad"), no_such_name("Suport")
+    ("gapbeam has no 'PointLoad'; use gapbeam.ForceLoad", "gapbeam has no 'Suport'; did you mean gapbeam.Support?")
+    """
+    return missing("gapbeam", name, __all__, MEANT, "gapbeam.")

@@ -50,6 +50,31 @@ class SceneError(GapbeamError, ValueError):
         return type(self), (self.place, self.problem)
 
 
+class UnsolvedError(GapbeamError):
+    """A result that is not solved, raised by its ``raise_for_status``.
+
+    Parameters
+    ----------
+    status : str
+        Of the result.
+    reason : str or None
+        Why.
+
+    Attributes
+    ----------
+    status, reason
+        As above.
+    """
+
+    def __init__(self, status: str, reason: str | None) -> None:
+        super().__init__(reason or status)
+        self.status, self.reason = status, reason
+
+    def __reduce__(self) -> tuple:
+        """Pickle as made."""
+        return type(self), (self.status, self.reason)
+
+
 class Status(IntEnum):
     """Status codes, the same as in Fortran, C and Fortran 77; above 10 they are errors."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
+from ..base.hints import Named
 from ..engine.beam import Beam
 from ..scene.structs import Scene
 from . import formatting as fmt
@@ -17,15 +18,15 @@ from .envelopes.hints import Hint, find_hints
 from .envelopes.over_path import PathEnvelope, is_followed
 from .state.arguments import whole
 from .state.fields import Fields
-from .state.states import States
 from .trains.data import lost_positions
 from .trains.envelope import TrainEnvelope, places_given
 from .trains.members import Member
 from .trains.trains import Trains
 from .utilisation import Utilisation, find_utilisations
+from .verbs import Verbs
 
 
-class Result(States):
+class Result(Verbs):
     """All load steps of a scene.
 
     It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
@@ -102,7 +103,7 @@ class Result(States):
     @property
     def combinations(self) -> Mapping[str, Result]:
         """Results of the combinations by name; empty where the scene has none."""
-        return {}
+        return Named("combination", without="the scene has none; ask the result itself")
 
     def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
         """Largest and smallest values: with trains over all their positions, else over the whole way of the load.

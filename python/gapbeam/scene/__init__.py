@@ -1,5 +1,6 @@
 """Scenes, read and checked: TOML, JSON or Python."""
 
+from .edited import replace
 from .limits import Limits
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
 from .places import POSITION_TOLERANCE, same_place
@@ -10,5 +11,5 @@ from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Su
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
     "Limits", "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "Train", "UniformLoad", "Units", "read_scene",
-    "same_place", "scene_schema",
+    "replace", "same_place", "scene_schema",
 ]  # fmt: skip

@@ -42,7 +42,8 @@ def read_file(path: Path) -> dict[str, Any]:
     """
     kind = path.suffix.lower()
     if kind not in (".toml", ".json"):
-        raise SceneError(str(path), f'a scene file ends in .toml or .json, not in "{path.suffix}"')
+        text = "; to read a text of TOML, give tomllib.loads(text)" if "=" in str(path) else ""
+        raise SceneError(str(path), f'a scene file ends in .toml or .json, not in "{path.suffix}"{text}')
     try:
         data = path.read_bytes()
     except FileNotFoundError:

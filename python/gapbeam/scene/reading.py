@@ -105,7 +105,9 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     if isinstance(source, str | os.PathLike):
         source = read_file(Path(source))
     if not isinstance(source, Scene | Mapping):
-        raise SceneError(f"expected a Scene, a mapping or the path of a file, got {shown(source)}")
+        again = "; to solve it again, give its scene" if hasattr(source, "scene") else ""
+        got = shown(source) if isinstance(source, list | tuple | float | int) else f"a {type(source).__name__}" if again else source
+        raise SceneError(f"expected a Scene, a mapping or the path of a file, got {got}{again}")
     source, tables = take_tables(source)
     source, arrays = take_arrays(source)
     scene = typed(source, Scene)

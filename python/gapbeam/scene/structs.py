@@ -25,12 +25,15 @@ array([ 0.,  6., 12.])
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from msgspec import field
 
+from ..base.files import write_files
+from .edited import to_data, to_toml
 from .ground_laws import GroundLaw
 from .ground_tables import Along
 from .laws import Law
@@ -327,6 +330,34 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     combinations: list[Combination] = []
     analysis: Analysis = field(default_factory=Analysis)
     limits: Limits | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data, by the keys of a file, what is as by default left out.
+
+        Returns
+        -------
+        dict
+            `read_scene` takes it.
+        """
+        return to_data(self)
+
+    def to_toml(self, path: str | os.PathLike | None = None) -> str:
+        """Write the scene as TOML.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            File to write as well.
+
+        Returns
+        -------
+        str
+            `read_scene` takes such a file.
+        """
+        text = to_toml(to_data(self))
+        if path is not None:
+            write_files({path: [text]})
+        return text
 
     def span_ends(self) -> np.ndarray:
         """Place of every node, exact to the last digit.

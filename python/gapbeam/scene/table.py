@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from msgspec import Meta, Struct, field
+from msgspec import Meta, Struct, StructMeta, field
 
+from ..base.hints import nearest
+from .synonyms import meant_by_key
 from .typed import plain
 
 # The limits are for editors; the Fortran layer enforces them.
@@ -17,7 +19,34 @@ Spans = Annotated[list[Positive], Meta(extra_json_schema={"minItems": 1})]
 Side = Literal["both", "below", "above"]
 
 
-class Table(Struct):
+class _Hinting(StructMeta):
+    """Tables that say what was probably meant, when they are made with a key that they have not."""
+
+    def __call__(cls, *args: Any, **keys: Any) -> Any:
+        """Make a table."""
+        try:
+            return StructMeta.__call__(cls, *args, **keys)
+        except TypeError as error:
+            raise TypeError(_problem(cls, args, keys) or str(error)) from None
+
+
+def _problem(cls: type[Struct], args: tuple, keys: dict[str, Any]) -> str | None:
+    """Say what is wrong with the keys of a table."""
+    known = list(cls.__struct_fields__)
+    wrong = next((key for key in keys if key not in known), None)
+    if wrong is not None:
+        near = nearest(wrong, known, 0.55)
+        place = "supports" if "settlement" in known else ""
+        hint = meant_by_key(wrong, known, place) or (f'did you mean "{near}"?' if near else f"there are {', '.join(known)}")
+        return f"{cls.__name__} has no {wrong!r}; {hint}"
+    most = len(cls.__match_args__)
+    if len(args) > most:
+        first = ", ".join(f"{key} = ..." for key in known[most : most + 2])
+        return f"{cls.__name__} takes {most or 'no'} values without a key; write {cls.__name__}({first})"
+    return None
+
+
+class Table(Struct, metaclass=_Hinting):
     """A table of a scene."""
 
     def __eq__(self, other: object) -> bool:

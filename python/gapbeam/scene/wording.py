@@ -14,6 +14,7 @@ import msgspec
 from msgspec import inspect
 
 from ..base.errors import SceneError
+from .synonyms import meant_by_key, meant_by_value
 
 UNFAVOURABLE = (
     "axles only where they are unfavourable are not available: where supports open, influence lines cannot be superposed, so such "
@@ -226,7 +227,8 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         return SceneError(_place(path), "keys are texts, one key here is not")
     for name, index in re.findall(r"\.(\w+)|\[(\d+)\]", path):
         if name == "type" and isinstance(kind := _core(kind), inspect.UnionType):
-            return SceneError(f"{place}.type", f"expected {_tags(kind)}, got {shown(value['type'])}")
+            return SceneError(f"{place}.type", f"expected {_tags(kind)}, got {shown(value['type'])}"
+                              + meant_by_value(f"{place}.type", value["type"], ""))  # fmt: skip
         kind = _inside(kind, value, name, int(index or 0))
         value = value[name] if name else value[int(index)]
         place += (f".{name}" if place else name) if name else f"[{index}]"
@@ -244,7 +246,7 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
     expected = _described(kind)
     if isinstance(value, int) and abs(value) > sys.float_info.max and "number" in expected and "whole" not in expected:
         return SceneError(place, beyond(as_text(value)))
-    return SceneError(place or "the scene", f"expected {expected}, got {shown(value)}")
+    return SceneError(place or "the scene", f"expected {expected}, got {shown(value)}{meant_by_value(place, value, expected)}")
 
 
 def _place(path: str) -> str:
@@ -379,6 +381,9 @@ def _unknown(kind: inspect.Type, value: Mapping, place: str) -> SceneError:
     where = f"{place}.{key_of(key)}" if place else key_of(key)
     if re.fullmatch(r"trains\[\d+\]", place) and key in NOT_BUILT:
         return SceneError(where, NOT_BUILT[key])
+    meant = meant_by_key(key, known, place)
+    if meant is not None and key.casefold() not in map(str.casefold, known):
+        return SceneError(where, f"unknown key; {meant}")
     folded = {name.casefold(): name for name in known}
     near = difflib.get_close_matches(key.casefold().strip("_ "), folded, n=1, cutoff=0.55)
     if near:

@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.errors import SceneError
+from ...base.hints import nearest
 from ...base.records import Pickled
 from ...engine.cases import OneCase
 from ...engine.combinations import Varied
-from ...scene.names import find
+from ...scene.names import cases_of, find
 from ...scene.reading import read_beam
 from ...scene.structs import Scene
-from ...scene.wording import key_of
+from ...scene.wording import choice, key_of, shown
 from ..result import Result
 from ..state.arguments import numbers, scheme
 from ..state.schemes import choose_rule
@@ -31,6 +32,8 @@ from .solver import CaseSolver, solver_of
 from .varied import Given, SupportArrays, base_values, cases_in, vary
 
 FLOAT = np.dtype(float)
+VARIED = ("gap", "settlement", "stiffness", "EI", "GA", "k")
+"""What may be given instead of the scene's numbers."""
 
 
 class Prepared(Pickled):
@@ -55,7 +58,7 @@ class Prepared(Pickled):
         self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None,
         settlements: Mapping[str | int, ArrayLike] | None = None, *,
         gap: Given = None, settlement: Given = None, stiffness: Given = None, EI: Given = None, GA: Given = None, k: Given = None,
-        want: str | Collection[str] | None = None, out: Cases | None = None,
+        want: str | Collection[str] | None = None, out: Cases | None = None, **others: Any,
     ) -> Cases:  # fmt: skip
         """Solve load cases.
 
@@ -115,6 +118,11 @@ class Prepared(Pickled):
         array([[1.625, 3.75 , 0.625],
                [1.55 , 3.9  , 0.55 ]])
         """
+        if others:
+            name = next(iter(others))
+            meant = nearest(name, (*VARIED, "factors", "settlements", "start", "want", "out"))
+            hint = f"did you mean {meant}?" if meant else f"there are {choice(VARIED, 'and')}"
+            raise TypeError(f"solve has no {name!r}; {hint}")
         one = self._solver.one
         if one is not None and (start is settlements is EI is GA is k is want is None):
             found = self._solve_one(one, factors, settlement, gap, stiffness, out)
@@ -137,6 +145,8 @@ class Prepared(Pickled):
     ) -> Cases | None:
         """Solve one case in the short way; None where it is none, or anything is wrong with it, which the other way says."""
         if type(factors) is not np.ndarray or factors.dtype is not FLOAT:
+            if isinstance(factors, Mapping):
+                return None
             factors = np.ones(one.shape) if factors is None else numbers("factors", factors)
         supports = None
         if not (settlement is gap is stiffness is None):
@@ -170,7 +180,8 @@ class Prepared(Pickled):
         columns = self._solver.beam.columns
         varied = vary(self.scene, columns, given, count)
         if not isinstance(settlements, Mapping | None):
-            raise ValueError(f"settlements: expected a mapping, as {{1: 0.01}} by number or name of a support; got {settlements!r}")
+            raise ValueError("settlements: expected a mapping, as {1: 0.01} by number or name of a support; got "
+                             f"{shown(settlements)}; an array for all supports, instead of the scene's, is settlement = [...]")
         if not settlements:
             return varied
         moves = self._movements(settlements, count)
@@ -198,11 +209,20 @@ class Prepared(Pickled):
             moves[:, k] += values
         return moves
 
+    @property
+    def _loads(self) -> str:
+        """Name the loads that factors are for, in their order."""
+        cases = [shown(case) for case in cases_of(self.scene.loads)[:12]]
+        more = f" and {len(self.scene.loads) - 12} more" if len(self.scene.loads) > 12 else ""
+        return f"; the loads are, by case, {', '.join(cases)}{more}" if cases else "; the scene has no loads"
+
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)
+        if isinstance(factors, Mapping):
+            raise ValueError(f"factors: expected a list of {count} numbers, one for each load, got a table{self._loads}")
         factors = np.ones(count) if factors is None else numbers("factors", factors)
         if factors.ndim not in (1, 2) or factors.shape[-1] != count:
-            raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}")
+            raise ValueError(f"factors: expected {count} numbers a case, one for each load, got shape {factors.shape}{self._loads}")
         # A sum leaves the range before the factors do, and costs less than asking each
         with np.errstate(over="ignore", invalid="ignore"):
             total = np.add.reduce(factors, None)

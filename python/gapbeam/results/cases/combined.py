@@ -17,13 +17,14 @@ from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown
-from ..envelopes.envelope import Envelope, Source
+from ..envelopes.envelope import AT_SUPPORTS, Envelope, Source
 from ..envelopes.hints import Hint, find_hints
 from ..paths.compression import larger
 from ..result import Result
 from ..state.fields import Fields
 from ..trains.envelope import TrainEnvelope, places_given
 from ..trains.members import Member, Standing
+from ..views.labelled import Labelled, by_support
 from .combinations import Combinations
 from .combined_data import combined_data
 from .combined_solver import AtOnce, OneByOne
@@ -152,9 +153,24 @@ class CombinedResult(Result):
         """Refuse: every combination has a history of its own."""
         raise ValueError(self._words)
 
-    def state(self, factor: float) -> Step:
+    def state(self, factor: float, leg: int | None = None) -> Step:
         """Refuse: every combination has states of its own."""
         return self._chosen(None, factor)
+
+    def _by_support(self, quantity: str) -> Labelled:
+        if self.scene.trains:
+            return super()._by_support(quantity)
+        rows = self._found.at_supports[:, AT_SUPPORTS.index(quantity)]
+        keys = by_support(self.scene, quantity, rows[0]).keys()
+        return Labelled(quantity, "combination", self.names, [Labelled(quantity, "support", keys, row) for row in rows])
+
+    @property
+    def states(self) -> Labelled:
+        """States of the supports at the end of the load, by combination, then by support; None where one is not solved."""
+        none = [None] * len(self.scene.supports)
+        steps = ((one.steps[-1] if len(one.steps) else None) for one in self.combinations.values())
+        rows = [by_support(self.scene, "state", none if step is None else step.state) for step in steps]
+        return Labelled("state", "combination", self.names, rows)
 
     def _doubt(self, k: int) -> str:
         """Say whether the scheme that a combination takes is not decided."""

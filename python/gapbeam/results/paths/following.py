@@ -130,3 +130,4 @@ def _on_path(result: Result, _: np.ndarray) -> None:
         return
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
     result.steps = PathSteps(result.beam, result.rule, result.path, factors)
+    result.steps.reason = result.reason

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -34,6 +36,12 @@ class Fields(Record):
     axial_force: np.ndarray | None = None
     axial_displacement: np.ndarray | None = None
     pressure: np.ndarray | None = None
+
+    def __iter__(self) -> Iterator[tuple]:
+        """Go through the places: named tuples of x and what is there, of which pandas makes a table."""
+        columns = self.columns()
+        row = namedtuple("Place", columns)
+        return map(row._make, zip(*columns.values(), strict=True))
 
     def to_dict(self) -> dict[str, list[float]]:
         """As lists by name, what is not there left out.

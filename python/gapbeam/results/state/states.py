@@ -115,10 +115,10 @@ class States(Pickled):
             Displacements of the nodes in the free motion; None where the beam slides along its axis.
         """
         self.status = "no-equilibrium"
+        self.reason = f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(self.beam, motion)}"
+        self.steps.reason = self.reason
         if motion is None:
-            self.reason = f"no equilibrium {where}: {SLIDES}"
             return
-        self.reason = f"no equilibrium {where}: {describe_motion(self.beam, motion)}"
         self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
 
     def refuse_answer(self, error: EngineError) -> None:
@@ -131,6 +131,7 @@ class States(Pickled):
         """
         self.status, self.reason, self.path, self.has_answer = error.status.word, str(error), None, False
         self.steps = LoadSteps(self.beam, self.rule, np.ones(self.beam.supports, dtype=np.int32), 0)
+        self.steps.reason = self.reason
 
     def refuse_limit(self, path: BranchPath) -> None:
         """Note that the load cannot go to its last factor.
@@ -156,13 +157,15 @@ class States(Pickled):
             self.motion = list(zip(self.beam.node_x.tolist(), path.motion.tolist(), strict=True))
             self.reason += f"; {describe_motion(self.beam, path.motion)}"
 
-    def state(self, factor: float) -> Step:
+    def state(self, factor: float, leg: int | None = None) -> Step:
         """Solve the exact state at any load factor.
 
         Parameters
         ----------
         factor : float
             Load factor; following events, within the path, where the scheme is known beforehand.
+        leg : int, optional
+            Which factor of the history the load goes to then, from 0; default the last time that it passes `factor`.
 
         Returns
         -------
@@ -175,6 +178,8 @@ class States(Pickled):
             Where there is no equilibrium at that factor, or it is no finite number.
         """
         factor = finite("factor", factor)
+        if leg is not None and (len(self.scene.analysis.history) > 1 or leg != 0):
+            return self._on_leg(factor, whole("leg", leg))
         segment = self.path.find(factor) if self.path is not None else None
         if segment is not None:
             return self.path.step(segment, factor)
@@ -185,6 +190,15 @@ class States(Pickled):
         if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step
+
+    def _on_leg(self, factor: float, leg: int) -> Step:
+        there = [one for one in self.segments if getattr(one, "leg", 0) == leg]
+        found = [one for one in there if min(one.start, one.stop) <= factor <= max(one.start, one.stop)]
+        if not found:
+            legs = sorted({getattr(one, "leg", 0) for one in self.segments} - {-1})
+            known = f"its legs are {legs[0]} to {legs[-1]}" if legs else "it is not followed through a history"
+            raise ValueError(f"leg: the load does not pass load factor {factor:g} on leg {leg}; {known}")
+        return self.path.step(max(found, key=lambda one: (one.stable, one.number)), factor)
 
     @cached_property
     def system(self) -> System:
@@ -201,6 +215,8 @@ class States(Pickled):
         count = len(self.steps)
         if count == 0:
             raise IndexError(f"step: no load step stands; {self.reason}")
+        if count == 1 and number not in (0, -1):
+            raise IndexError(f"step: there is one load step, number 0, got {shown(number)}; for a load factor give factor = ...")
         if not -count <= number < count:
             raise IndexError(f"step: expected a number from 0 to {count - 1}, or from -{count} to -1, got {shown(number)}")
         return self.steps[number]

@@ -36,6 +36,7 @@ class Steps(Pickled, Sequence[Step]):
         self._beam = beam
         self._rule = rule
         self._kept: dict[str, tuple[int, Step]] = {}
+        self.reason: str | None = None  # why there are none
 
     @abstractmethod
     def _make(self, k: int) -> Step:
@@ -80,6 +81,8 @@ class Steps(Pickled, Sequence[Step]):
         """Give a step, from the end where the number is negative; or a list of steps."""
         if isinstance(index, slice):
             return [self._make(k) for k in range(len(self))[index]]
+        if not len(self) and self.reason is not None:
+            raise IndexError(f"no load step stands; {self.reason}")
         k = range(len(self))[index]
         for at, step in self._kept.values():
             if at == k:

@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import EngineError
+from ...base.hints import no_such
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
 from ...scene.columns import columns, curves
@@ -287,6 +288,8 @@ class Trains(Mapping[str, TrainResult]):
 
     def __getitem__(self, name: str) -> TrainResult:
         """Give a train by its name."""
+        if name not in self._by_name:
+            raise KeyError(no_such("train", name, self._by_name) if self._by_name else f"the scene has no trains, so none {name!r}")
         return self._by_name[name]
 
     def __iter__(self) -> Iterator[str]:

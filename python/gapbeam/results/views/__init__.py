@@ -1,0 +1,1 @@
+"""Views that all results share: values by name, tables, pictures, texts."""

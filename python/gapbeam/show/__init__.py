@@ -1,0 +1,1 @@
+"""Pictures, reports and files behind the verbs of results."""

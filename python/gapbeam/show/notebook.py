@@ -1,0 +1,66 @@
+"""A result in a notebook: title, answer, a small table and the picture, as HTML."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from html import escape
+
+from ..results import formatting as fmt
+from ..results.answer import answer
+from ..results.result import Result
+from ..results.views.columns import Columns
+
+MOST_ROWS = 12
+"""Rows of the table."""
+MOST_DRAWN = 60
+"""Spans and supports up to which a picture is made unasked."""
+SHOWN = ("support", "x", "state", "reaction", "opening", "reaction_max", "reaction_min", "opening_max")
+"""Columns of the table."""
+
+
+def html_of(result: Result, picture: Callable[[], bytes]) -> str:
+    """Write the answer, a table of the supports and the picture as HTML.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    picture : callable
+        Makes it, as SVG.
+
+    Returns
+    -------
+    str
+        Without scripts and without anything from elsewhere.
+    """
+    scene = result.scene
+    parts = [f"<strong>{escape(fmt.title(scene))}</strong>", f"<pre>{escape(chr(10).join(answer(result)))}</pre>"]
+    if result.has_envelope and scene.supports:
+        parts.append(html_table(result.table("supports")))
+    if max(len(scene.beam.spans), len(scene.supports)) <= MOST_DRAWN:
+        data = base64.b64encode(picture()).decode()
+        parts.append(f'<img style="max-width:100%" alt="{escape(fmt.title(scene))}" src="data:image/svg+xml;base64,{data}">')
+    return f"<div>{''.join(parts)}</div>"
+
+
+def html_table(table: Columns, names: tuple[str, ...] = SHOWN) -> str:
+    """Write some columns of a table as HTML.
+
+    Parameters
+    ----------
+    table : Columns
+        The table.
+    names : tuple of str
+        Columns that are written, as far as they are there.
+
+    Returns
+    -------
+    str
+        Its first rows.
+    """
+    chosen = Columns({name: table[name] for name in names if name in table})
+    head = "".join(f"<th>{escape(name)}</th>" for name in chosen)
+    rows = "".join(f"<tr>{''.join(f'<td>{escape(word)}</td>' for word in row)}</tr>" for row in chosen.rows(MOST_ROWS))
+    more = f"<p>{chosen.count - MOST_ROWS:,} more rows</p>" if chosen.count > MOST_ROWS else ""
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{more}"
