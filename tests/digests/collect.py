@@ -17,7 +17,10 @@ import numpy as np
 from languages.clibrary import GROUND_LAWS, F77Beam, Library
 
 # Words may change, and clocks do
-NOT_NUMBERS = {"title", "lifted", "utilisations", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema"}
+NOT_NUMBERS = {
+    "title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema",
+    "lifted", "utilisations",
+}  # fmt: skip
 MOST_NODES = 200  # in C and Fortran 77
 NO_EQUILIBRIUM = 1
 WHOLE_ONLY = {"sections", "trains", "combinations", "envelopes"}

@@ -12,21 +12,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.transforms import ScaledTranslation, Transform
 
-from ..results.formatting import number, ranges, stretch
-from ..scene.names import labels
-from .labels import LINE, Labels, text_width
+from ..results.formatting import stretch
+from .reactions import arrow_lane, draw_reactions
+from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, plain_kinds
+from .support_labels import SupportTexts
 
 if TYPE_CHECKING:
+    from ..results.state.step import Step
     from ..scene.structs import Scene, Support
-
-#: State -> fill of its symbol; in this order in the legend
-FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
-#: The same for the branches of a support law; from the last on all are alike
-BRANCHES = ("black", "0.4", "0.6", "0.8")
 
 #: Half the depth of the beam, points
 HALF = 2.5
@@ -34,11 +30,8 @@ HALF = 2.5
 OFF = 4.0
 #: With more places than this, rows of ticks replace the symbols
 MOST_SYMBOLS = 60
-#: Lines that the gaps may take under the numbers of the supports
-MOST_LINES = 6
 
 #: Symbols with their tip in the origin, below the beam; the largest coordinate is 1, one height
-_TRIANGLE = Path([(0, 0), (-0.6, -1), (0.6, -1), (0, 0)], [1, 2, 2, 79])
 _GROUND = Path(
     [(-1, 0), (1, 0), *(point for x in (-0.7, -0.1, 0.5) for point in ((x + 0.35, 0), (x, -0.45)))],
     [1, 2, 1, 2, 1, 2, 1, 2],
@@ -64,6 +57,10 @@ class SupportLanes:
         Width of the panel.
     ground : (float, float)
         What foundations take up below and above the axis of the beam.
+    step : Step, optional
+        State whose reactions are drawn.
+    kinds : tuple of str, optional
+        What each support does, as `states.kinds_of`; default by its state.
 
     Attributes
     ----------
@@ -71,13 +68,19 @@ class SupportLanes:
         Height of a triangle.
     rows : list of str
         Rows of ticks by state and side, where there are too many supports for symbols; else empty.
-    labels : list of (float, float, str)
-        Numbers of the supports, and gaps where there is room: place, height of the upper edge, text.
+    texts : SupportTexts
+        Numbers of the supports, their reactions and openings, and gaps where there is room.
+    arrows : float
+        Upper end of the arrows of reactions.
     bottom, top : float
         What the supports take up below and above the axis of the beam.
     """
 
-    def __init__(self, scene: "Scene", states: tuple[str, ...], width: float, ground: tuple[float, float] = (0.0, 0.0)) -> None:
+    def __init__(
+        self, scene: "Scene", states: tuple[str, ...], width: float, ground: tuple[float, float] = (0.0, 0.0),
+        step: "Step | None" = None, kinds: tuple[str, ...] | None = None,
+    ) -> None:  # fmt: skip
+        self.step, self.kinds = step, kinds or plain_kinds(states)
         supports = [support for support in scene.supports if support.direction == "normal"]
         self.x = scene.positions(scene.supports)
         self.places = np.unique(self.x)
@@ -92,15 +95,16 @@ class SupportLanes:
             below = self.first_row + 11.0 * len(self.rows) - 5.0
         elif supports:
             elastic = any(map(_is_elastic, supports))
-            gap = any(support.gap > 0 for support in supports)
+            gap = any(map(_stands_off, scene.supports, states))
             depth = self.size * (1.5 + elastic) + OFF * gap
             below += depth if any(support.side != "above" for support in supports) else 2.0
             above += depth if any(support.side != "below" and support.rotation != "fixed" for support in supports) else 0
             if any(support.rotation != "free" for support in supports):
                 below, above = max(below, 13.0), max(above, 12.0)
         below, above = max(below, ground[0]), max(above, ground[1])
-        self.labels = _labels(scene, self.x, width, -below - 2.0)
-        self.bottom = min((y - LINE * (1 + text.count("\n")) for _, y, text in self.labels), default=-below - 2.0) - 1.0
+        self.arrows = -below - 2.0
+        self.texts = SupportTexts(scene, self.x, width, self.arrows - arrow_lane(step), step)
+        self.bottom = self.texts.bottom
         self.top = above + 2.0
 
 
@@ -126,11 +130,16 @@ def draw_beam(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Suppor
         _ticks(axes, scene, states, lanes)
     else:
         _symbols(axes, scene, states, lanes)
-    for x, y, text in lanes.labels:
-        axes.text(x, y, text, fontsize=6.5, ha="center", va="top", color="0.25", linespacing=1.15)
+    if lanes.step is not None:
+        draw_reactions(axes, scene, lanes.step, lanes.x, lanes.arrows)
+    for x, y, words, lifted in lanes.texts.texts:
+        axes.text(x, y, words, fontsize=6.5, ha="center", va="top", color=VERMILION if lifted else "0.15", linespacing=1.15)
+    if lanes.texts.unit:
+        axes.annotate(lanes.texts.unit, (0.0, lanes.arrows), (-14, -3), xycoords="data", textcoords="offset points", fontsize=6.5,
+                      ha="right", va="top", annotation_clip=False)  # fmt: skip
 
 
-def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: float) -> list[tuple[float, float]]:
+def draw_contacts(axes: Axes, scene: "Scene", lanes: SupportLanes, largest: float) -> list[tuple[float, float]]:
     """Mark in the panel of the deflection where one-sided supports meet the beam: gap and opening to scale.
 
     Parameters
@@ -139,8 +148,8 @@ def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: 
         The panel, positive downward.
     scene : Scene
         The scene.
-    states : tuple of str
-        State of each support.
+    lanes : SupportLanes
+        What each support does.
     largest : float
         Largest deflection; supports much farther off are left out.
 
@@ -152,7 +161,7 @@ def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: 
     if len(scene.supports) > 2 * MOST_SYMBOLS:
         return []
     groups = defaultdict(list)
-    for support, state, x in zip(scene.supports, states, scene.positions(scene.supports), strict=True):
+    for support, state, x in zip(scene.supports, lanes.kinds, lanes.x, strict=True):
         if support.side != "both" and support.direction == "normal":
             sign = 1.0 if support.side == "below" else -1.0
             y = support.settlement + sign * support.gap
@@ -160,46 +169,20 @@ def draw_contacts(axes: Axes, scene: "Scene", states: tuple[str, ...], largest: 
                 groups[state, sign].append((float(x), y))
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(5.0), facecolors=face(state),
-                     edgecolors="black", linewidths=0.6, zorder=4, label=f"contact {state}")  # fmt: skip
+        symbol = SYMBOLS[state]
+        axes.scatter(x, y, marker=_turned(symbol.path, sign), s=_area(5.0), facecolors=symbol.face,
+                     edgecolors=symbol.edge, linewidths=0.75 * symbol.width, zorder=4, label=f"contact {state}")  # fmt: skip
     return [point for points in groups.values() for point in points]
-
-
-def known_states(states: tuple[str, ...]) -> list[str]:
-    """List the states that occur as the legend does."""
-    return [state for state in FACES if state in states] + sorted({state for state in states if state not in FACES})
-
-
-def legend_handles(states: tuple[str, ...]) -> list[Line2D]:
-    """Make the entries of the legend for the states that occur."""
-    return [
-        Line2D([], [], linestyle="none", marker="^", markersize=5.5, markerfacecolor=face(state), markeredgecolor="black",
-               markeredgewidth=0.8, label=state)
-        for state in known_states(states)
-    ]  # fmt: skip
-
-
-def face(state: str) -> str:
-    """Give the fill of a state.
-
-    Parameters
-    ----------
-    state : str
-        Of a support, or of a zone of the ground.
-
-    Returns
-    -------
-    str
-        Colour.
-    """
-    if state in FACES:
-        return FACES[state]
-    return BRANCHES[min(int(state.rpartition(" ")[2]), len(BRANCHES)) - 1]
 
 
 def _is_elastic(support: "Support") -> bool:
     """Whether a support is drawn as a spring."""
     return support.law is not None or math.isfinite(support.stiffness)
+
+
+def _stands_off(support: "Support", state: str) -> bool:
+    """Whether the symbol of a support does not touch the beam: it has a gap, or no contact."""
+    return support.direction == "normal" and (support.gap > 0 or state == "open")
 
 
 def _group(support: "Support", state: str) -> str:
@@ -246,7 +229,7 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
     """Draw every support as a symbol; equal ones are one collection."""
     symbols, springs, ground = defaultdict(list), defaultdict(list), defaultdict(list)
     end = float(scene.span_ends()[-1])
-    for support, state, x in zip(scene.supports, states, lanes.x, strict=True):
+    for support, state, kind, x in zip(scene.supports, states, lanes.kinds, lanes.x, strict=True):
         if support.direction == "axial":
             _axial(axes, scene, x, end, lanes)
             continue
@@ -261,18 +244,19 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
         for sign in (1.0, -1.0):
             if support.side == ("above" if sign > 0 else "below"):
                 continue
-            y = HALF + (OFF if support.gap > 0 else 0.0)
+            y = HALF + (OFF if _stands_off(support, state) else 0.0)
             label = f"{state} {'below' if sign > 0 else 'above'}"
-            symbols[label, sign].append((x, -sign * y))
+            symbols[label, kind, sign].append((x, -sign * y))
             y += lanes.size
             if _is_elastic(support):
                 springs[sign].append((x, -sign * y))
                 y += lanes.size
             ground[sign].append((x, -sign * y))
-    for (label, sign), points in symbols.items():
+    for (label, kind, sign), points in symbols.items():
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=_turned(_TRIANGLE, sign), s=_area(lanes.size), facecolors=face(label.rpartition(" ")[0]),
-                     edgecolors="black", linewidths=0.8, zorder=5, label=label)  # fmt: skip
+        symbol = SYMBOLS[kind]
+        axes.scatter(x, y, marker=_turned(symbol.path, sign), s=_area(lanes.size), facecolors=symbol.face,
+                     edgecolors=symbol.edge, linewidths=symbol.width, zorder=5, label=label)  # fmt: skip
     for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
         for sign, points in sets.items():
             x, y = np.transpose(points)
@@ -297,7 +281,7 @@ def _axial(axes: Axes, scene: "Scene", x: float, end: float, lanes: SupportLanes
         support.rotation == "fixed" and place == x
         for support, place in zip(scene.supports, lanes.x, strict=True)
     )
-    path = Path(_TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), _TRIANGLE.codes)
+    path = Path(TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), TRIANGLE.codes)
     beside = _shifted(axes, outward * (6.0 if clamped else 1.0))
     axes.scatter([x], [0.0], marker=path, s=_area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
                  linewidths=0.8, zorder=5, transform=beside, label="axial")  # fmt: skip
@@ -315,72 +299,3 @@ def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLa
                      zorder=4, label=label)  # fmt: skip
         axes.annotate(label, (0.0, y), (-4, 0), xycoords=("data", "data"), textcoords="offset points", fontsize=6.5,
                       ha="right", va="center", annotation_clip=False)  # fmt: skip
-
-
-def _labels(scene: "Scene", x: np.ndarray, width: float, top: float) -> list[tuple[float, float, str]]:
-    """Lay out the numbers of the supports, as many as fit, and their gaps under them, from a height downward."""
-    scale = (width - 60.0) / float(scene.span_ends()[-1])  # points per length
-    names = labels(scene.supports)
-    at = defaultdict(list)
-    for index, place in enumerate(x.tolist()):
-        at[place].append(index)
-    every = next(step for step in (1, 2, 5, 10, 20, 50, 10 ** max(2, len(str(len(at))) - 1)) if len(at) / step <= 32)
-    groups: list[list[float]] = []
-    for place in sorted(at)[::every]:
-        if not groups or (place - _middle(groups[-1])) * scale > (_width(at, groups[-1], names) + _width(at, [place], names)) / 2:
-            groups.append([place])
-        elif every == 1:
-            groups[-1].append(place)  # too near for a label of its own
-    numbers = [(_middle(group), top, _numbers(at, group, names)) for group in groups]
-    if every > 1:
-        return numbers
-    alone = {group[0] for group in groups if len(group) == 1}
-    page = (width - 22.0) / scale
-    return numbers + _gap_labels(scene, at, alone, scale, page, top - LINE)
-
-
-def _middle(places: list[float]) -> float:
-    return (places[0] + places[-1]) / 2
-
-
-def _width(at: dict[float, list[int]], places: list[float], names: list[str]) -> float:
-    return text_width(_numbers(at, places, names))
-
-
-def _numbers(at: dict[float, list[int]], places: list[float], names: list[str]) -> str:
-    """Write the names or numbers of the supports at some places."""
-    indices = [index for place in places for index in at[place]]
-    if len(indices) <= 3:
-        return ", ".join(names[index] for index in indices)
-    return ranges(sorted(indices))
-
-
-def _gap_labels(
-    scene: "Scene", at: dict[float, list[int]], alone: set[float], scale: float, page: float, top: float
-) -> list[tuple[float, float, str]]:
-    """Write the gaps under the numbers, further down where they would cover one another; none where that goes too far.
-
-    Places of which the number stands `alone` need not repeat it. What is written ends before the edge of the `page`.
-    """
-    rows, result = Labels(), []
-    names = labels(scene.supports)
-    for place, indices in sorted(at.items()):
-        gaps = {index: number(scene.supports[index].gap, 4) for index in indices if scene.supports[index].gap}
-        if not gaps:
-            continue
-        sides = {scene.supports[index].side for index in indices}
-        each = [
-            f"{names[index]}{f' {scene.supports[index].side}' if len(sides) > 1 else ''}: gap {gap}" for index, gap in gaps.items()
-        ]
-        texts = ["\n".join(each)] * MOST_LINES
-        if place in alone and len(gaps) == len(indices) and len(set(gaps.values())) == 1:
-            texts[0] = f"gap {gaps[indices[0]]}"  # right under the numbers, and the same for all of them
-        for line, text in enumerate(texts):
-            middle = min(place, page - text_width(text) / 2 / scale)
-            lines = line + 1 + text.count("\n")
-            if lines <= MOST_LINES and rows.take(middle * scale, top - LINE * lines, text):
-                result.append((middle, top - LINE * line, text))
-                break
-        else:
-            return []
-    return result

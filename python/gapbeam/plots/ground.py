@@ -13,8 +13,9 @@ from matplotlib.lines import Line2D
 from ..base.characters import visible
 from ..results.formatting import stretch
 from ..results.state.ground import TOUCHING
-from .beam import HALF, OFF, face
+from .beam import HALF, OFF
 from .labels import LINE, text_width
+from .states import face
 from .thin import outline
 
 if TYPE_CHECKING:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 BLOCK, LANE, ARROW = 12.0, 23.0, 22.0
 #: Points: radius of the arc of a couple; how far apart opposite forces at one place are drawn
 ARC, APART = 11.0, 8.0
+#: Points between the small arrows of a block
+BETWEEN = 16.0
 #: With more loads of a kind than this, they get no label
 MOST_LABELS = 24
 
@@ -70,6 +72,8 @@ class LoadLanes:
         Where the loads may begin.
     width : float
         Width of the panel.
+    factor : float
+        Load factor of all loads but the dead ones.
 
     Attributes
     ----------
@@ -79,13 +83,13 @@ class LoadLanes:
         Where blocks begin, where the arrows of forces reach beyond the blocks, and the end of it all.
     """
 
-    def __init__(self, scene: "Scene", base: float, width: float) -> None:
+    def __init__(self, scene: "Scene", base: float, width: float, factor: float = 1.0) -> None:
         above = [support for support in scene.supports if support.side != "below" and support.direction == "normal"]
         self.above = scene.positions(above)
         self.end = float(scene.span_ends()[-1])
         self.scale = (width - 60) / self.end  # points per length
-        self.blocks = _blocks(scene)
-        self.arrows = _arrows(scene)
+        self.blocks = _blocks(scene, factor, self.scale)
+        self.arrows = _arrows(scene, factor)
         _set_apart(self.arrows, self.scale)
         couples = any(arrow.kind == "moment" for arrow in self.arrows)
         self.base = max(base, ARC + 2.0 + LINE * (len(self.arrows) <= MOST_LABELS)) if couples else base
@@ -171,20 +175,33 @@ def draw_loads(axes: Axes, lanes: LoadLanes) -> None:
                           fontsize=6.8, ha="center", va="bottom", zorder=7)  # fmt: skip
 
 
-def _blocks(scene: "Scene") -> list[Block]:
+def _share(load: object, factor: float) -> float:
+    """Give the share of a load that acts at a load factor."""
+    return 1.0 if load.case == "dead" else factor
+
+
+def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     blocks = []
     cases = len({load.case for load in scene.loads})
     for load in scene.loads:
-        if isinstance(load, UniformLoad):
-            ends, text, quantity = (load.q, load.q), _signed(load.q, 4), "uniform"
-        elif isinstance(load, LinearLoad):
-            ends, text, quantity = load.q, f"{_signed(load.q[0], 4)} to {_signed(load.q[1], 4)}", "uniform"
-        elif isinstance(load, CurvatureLoad):
-            ends, text, quantity = (load.kappa, load.kappa), f"curvature {_signed(load.kappa, 4)}", "curvature"
-        else:
+        share = _share(load, factor)
+        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad) or not share:
             continue
+        if isinstance(load, CurvatureLoad):
+            first = last = share * load.kappa
+        elif isinstance(load, UniformLoad):
+            first = last = share * load.q
+        else:
+            first, last = share * load.q[0], share * load.q[1]
+        quantity = "curvature" if isinstance(load, CurvatureLoad) else "uniform"
         words = _unit_and_case(scene, load, quantity, cases)
-        blocks.append(Block(*stretch(scene, load), *ends, text, words, quantity == "curvature"))
+        blocks.append(Block(*stretch(scene, load), first, last, "", words, quantity == "curvature"))
+    # Small arrows say which way a load acts; the sign says it only where there are none
+    pointed = all((block.stop - block.start) * scale >= BETWEEN for block in blocks)
+    for block in blocks:
+        way = -1.0 if pointed and not block.curvature and max(block.first, block.last) <= 0.0 else 1.0
+        values = [_signed(way * value, 4) for value in (block.first, block.last)]
+        block.text = "curvature " * block.curvature + (values[0] if block.first == block.last else " to ".join(values))
     return blocks
 
 
@@ -202,15 +219,17 @@ def _set_apart(arrows: list[Arrow], scale: float) -> None:
                     arrow.aside += way * overlap
 
 
-def _arrows(scene: "Scene") -> list[Arrow]:
+def _arrows(scene: "Scene", factor: float) -> list[Arrow]:
     kinds = {ForceLoad: ("force", "force"), MomentLoad: ("moment", "moment"), AxialLoad: ("axial", "force")}
     loads = [load for load in scene.loads if type(load) in kinds]
     arrows = []
     cases = len({load.case for load in scene.loads})
     for load, x in zip(loads, scene.positions(loads), strict=True):
         kind, quantity = kinds[type(load)]
-        value = load.M if kind == "moment" else load.F
-        text = f"{_signed(value, 5)} {_unit_and_case(scene, load, quantity, cases)}".rstrip()
+        value = _share(load, factor) * (load.M if kind == "moment" else load.F)
+        if not _share(load, factor):
+            continue
+        text = f"{_signed(abs(value), 5)} {_unit_and_case(scene, load, quantity, cases)}".rstrip()
         arrows.append(Arrow(float(x), value, text, kind))
     return arrows
 
@@ -286,7 +305,7 @@ def _block_arrows(
     start: float, stop: float, heights: tuple[float, float], y: float, scale: float, sign: float, ticks: list, heads: dict
 ) -> None:
     """Fill a block with small arrows where it is wide and high enough for them."""
-    pieces = int((stop - start) * scale / 16.0)
+    pieces = int((stop - start) * scale / BETWEEN)
     if not 1 <= pieces <= 200:
         return
     for share in np.linspace(0.0, 1.0, pieces + 1):

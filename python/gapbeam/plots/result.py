@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from ..results import formatting as fmt
 from ..results.state.ground import joined
-from .beam import SupportLanes, draw_beam, draw_contacts, known_states, legend_handles
+from .beam import SupportLanes, draw_beam, draw_contacts
 from .envelope import envelope_figure
 from .ground import GroundLanes, draw_ground, draw_surface, points_a_span, zone_handles
 from .loads import LoadLanes, draw_loads
@@ -36,6 +37,7 @@ from .panels import (
     panel_axes,
 )
 from .save import literal, save
+from .states import kinds_of, known_states, legend_handles, plain_kinds
 from .thin import outline
 from .train_envelope import train_envelope_figure
 
@@ -84,21 +86,26 @@ def figure(result: "Result", step: int = -1) -> Figure:
     panels = [("motion", "free motion", True)]
     contact: tuple[Contact, ...] = ()
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
+    kinds = plain_kinds(states)
     if stands:
         contact = result.steps[step].contact
         points = int(max(2, min(max(40, points_a_span(scene, result.beam)), MOST_POINTS // len(scene.beam.spans))))
         fields = result.fields(step, points=points)
         panels = [panel for panel in PANELS if getattr(fields, panel[0]) is not None]
         states = result.steps[step].state
+        kinds = kinds_of(result.beam, result.steps[step])
     elif not result.motion:
         panels = []
 
     width = (WIDTH - LEFT - RIGHT) * 72
     ground = GroundLanes(scene, width)
-    supports = SupportLanes(scene, states, width, (ground.below, ground.above))
-    loads = LoadLanes(scene, supports.top, width)
+    supports = SupportLanes(scene, states, width, (ground.below, ground.above), result.steps[step] if stands else None, kinds)
+    loads = LoadLanes(scene, supports.top, width, result.steps[step].factor if stands else 1.0)
     beam = (loads.top - supports.bottom) / 72
-    heading = 0.6 if stands else 0.75
+    texts = _headline(result, step, contact) if stands else outcome(result)
+    handles = legend_handles(kinds) * (not supports.rows) + zone_handles(contact)
+    low = _meets(texts, handles)  # the legend has a line of its own
+    heading = (0.6 if stands else 0.75) + 0.17 * low
     height = heading + 0.04 + beam + len(panels) * (PANEL + SPACE) + 0.42
     picture = Figure(figsize=(WIDTH, height), dpi=200)
 
@@ -109,7 +116,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     draw_ground(axes, ground, contact)
     draw_beam(axes, scene, states, supports)
     draw_loads(axes, loads)
-    _headings(picture, result, step if stands else None, states, contact, symbols=not supports.rows)
+    _headings(picture, result, texts, handles, low)
     bottom = top - beam - SPACE
     for quantity, words, downward in panels:
         bottom -= PANEL
@@ -118,7 +125,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
         if stands:
             contacts = ()
             if quantity == "deflection":
-                contacts = draw_contacts(panel, scene, states, float(np.abs(fields.deflection).max()))
+                contacts = draw_contacts(panel, scene, supports, float(np.abs(fields.deflection).max()))
             _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts)
             if quantity == "deflection":
                 draw_surface(panel, scene, width)
@@ -131,32 +138,37 @@ def figure(result: "Result", step: int = -1) -> Figure:
     return literal(picture)
 
 
-def _headings(
-    picture: Figure, result: "Result", step: int | None, states: tuple[str, ...], contact: "tuple[Contact, ...]", symbols: bool
-) -> None:
+def _headings(picture: Figure, result: "Result", text: str, handles: list[Line2D], low: bool) -> None:
+    """Write title and state, and the legend beside or under them."""
     height = picture.get_figheight()
     left = LEFT / WIDTH * 0.25
     title = fmt.title(result.scene, "Beam")
     picture.text(left, 1 - 0.22 / height, cut_text(title, 95), fontsize=10, fontweight="bold", va="center")
-    if step is None:
-        text = outcome(result)
-    else:
-        counts, factor = Counter(states), result.steps[step].factor
-        text = f"load factor {fmt.number(factor)}"
-        if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
-            text += " (limit load)"
-        text += "".join(
-            f", {counts[state]:,} {'on ' if state.startswith('branch') else ''}{state}" for state in known_states(states)
-        )
-        if contact:
-            text += f", contact in {fmt.count(len(joined(contact)), 'zone')}"
     picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
-    handles = legend_handles(states) * symbols + zone_handles(contact)
     if handles:
         picture.legend(
-            handles=handles, loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - 0.42 / height),
-            ncols=4, frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
+            handles=handles, loc="center right", bbox_to_anchor=(1 - RIGHT / WIDTH, 1 - (0.61 if low else 0.42) / height),
+            ncols=len(handles), frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
         )  # fmt: skip
+
+
+def _headline(result: "Result", step: int, contact: "tuple[Contact, ...]") -> str:
+    """Say how many supports are in which state."""
+    states = result.steps[step].state
+    counted, factor = Counter(states), result.steps[step].factor
+    text = f"load factor {fmt.number(factor)}"
+    if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
+        text += " (limit load)"
+    text += "".join(
+        f", {counted[state]:,} {'on ' if state.startswith('branch') else ''}{state}" for state in known_states(states)
+    )
+    return text + (f", contact in {fmt.count(len(joined(contact)), 'zone')}" if contact else "")
+
+
+def _meets(text: str, handles: list[Line2D]) -> bool:
+    """Whether legend and text have no room side by side."""
+    entries = sum(4.6 * len(str(handle.get_label())) + 26.0 for handle in handles)
+    return bool(handles) and 4.7 * max(map(len, text.split("\n"))) + entries > (WIDTH - RIGHT - LEFT / 4) * 72
 
 
 def _curve(

@@ -184,10 +184,10 @@ def test_opposite_forces_at_one_place_are_two_arrows_with_signs():
     assert abs(points[0] - points[1]) > 6.0
     assert sum(points) / 2 == pytest.approx(axes.transData.transform((3.0, 0.0))[0] * 72 / picture.dpi)
     labels = {text.get_text(): text.get_window_extent() for text in axes.texts}
-    assert {"100 kN dead", "\N{MINUS SIGN}60 kN live", "\N{MINUS SIGN}50 kN m live"} <= set(labels)
+    assert {"100 kN dead", "60 kN live", "50 kN m live"} <= set(labels)
     middle = axes.transData.transform((3.0, 0.0))[0]
-    assert labels["100 kN dead"].x0 < middle < labels["\N{MINUS SIGN}60 kN live"].x1
-    assert labels["\N{MINUS SIGN}50 kN m live"].y0 < labels["\N{MINUS SIGN}60 kN live"].y0
+    assert labels["100 kN dead"].x0 < middle < labels["60 kN live"].x1
+    assert labels["50 kN m live"].y0 < labels["60 kN live"].y0
 
 
 @pytest.mark.parametrize("count", [2, 12, 24])
@@ -195,7 +195,7 @@ def test_every_load_has_its_label(count):
     loads = [kind(3.0, value) for kind in (scenes.force, scenes.moment) for value in (7.0, -3.0)]
     made = scenes.scene([6.0], [scenes.at(0), scenes.at(1)], (loads * 6)[:count])
     axes = figure(gapbeam.solve(made)).axes[0]
-    assert sum(text in ("7", "\N{MINUS SIGN}3") for text in texts(axes)) == count
+    assert sum(text in ("7", "3") for text in texts(axes)) == count
 
 
 def test_gaps_are_named_by_their_support():
@@ -204,7 +204,7 @@ def test_gaps_are_named_by_their_support():
         names = f"{2 * k} below: gap {0.02 * (k + 1):.4g}\n{2 * k + 1} above: gap {0.05 * (k + 1):.4g}"
         assert shown.count(names) == 1
     shown = texts(figure(gapbeam.solve(crowded())).axes[0])
-    assert {"0", "1, 3, 4", "2", "3: gap 0.003", "4: gap 0.004"} <= set(shown)
+    assert {"0", "1, 3, 4", "2", "3: gap 3 mm", "4: gap 4 mm"} <= set(shown)
 
 
 def test_a_gap_that_all_supports_of_a_place_have_needs_no_number():

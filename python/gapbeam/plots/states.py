@@ -1,0 +1,141 @@
+"""Contact states of supports as symbols: by colour and by shape, so that they are told apart in grey as well."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.path import Path
+
+from ..results.state.breakpoints import Piece, piece_of, what_happens
+
+if TYPE_CHECKING:
+    from ..engine.beam import Beam
+    from ..results.state.step import Step
+
+#: State -> fill of its symbol; in this order in the legend
+FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
+#: The same for the branches of a law of the ground; from the last on all are alike
+BRANCHES = ("black", "0.4", "0.6", "0.8")
+#: Of what has no contact
+VERMILION = "#B84A00"
+
+TRIANGLE = Path([(0, 0), (-0.6, -1), (0.6, -1), (0, 0)], [1, 2, 2, 79])
+_SQUARE = Path([(-0.5, 0), (0.5, 0), (0.5, -1), (-0.5, -1), (-0.5, 0)], [1, 2, 2, 2, 79])
+_DIAMOND = Path([(0, 0), (0.6, -0.5), (0, -1), (-0.6, -0.5), (0, 0)], [1, 2, 2, 2, 79])
+_PENTAGON = Path([(0, 0), (0.6, -0.45), (0.4, -1), (-0.4, -1), (-0.6, -0.45), (0, 0)], [1, 2, 2, 2, 2, 79])
+_CROSS = Path([(-0.5, 0), (0.5, -1), (-0.5, -1), (0.5, 0)], [1, 2, 1, 2])
+
+
+class Symbol(NamedTuple):
+    """How a support is drawn.
+
+    Attributes
+    ----------
+    words : str
+        In the legend.
+    path : matplotlib.path.Path
+        With its upper edge in the origin; one unit high.
+    face, edge : str
+        Colours.
+    width : float
+        Of its lines (points).
+    """
+
+    words: str
+    path: Path
+    face: str
+    edge: str = "black"
+    width: float = 0.8
+
+
+#: In the order of the legend; colours of Okabe and Ito, whose greys differ too
+SYMBOLS = {
+    "closed": Symbol("acts", TRIANGLE, FACES["closed"]),
+    "open": Symbol("no contact", TRIANGLE, FACES["open"], VERMILION, 1.1),
+    "bilateral": Symbol("holds both ways", TRIANGLE, FACES["bilateral"]),
+    "one-sided": Symbol("one-sided", TRIANGLE, FACES["one-sided"]),
+    "yields": Symbol("yields", _SQUARE, "#E69F00"),
+    "hardens": Symbol("hardens", _PENTAGON, "#56B4E9"),
+    "softens": Symbol("softens", _DIAMOND, "#CC79A7"),
+    "broken": Symbol("broken", _CROSS, "none", "#A3001E", 1.6),
+}
+
+
+def kinds_of(beam: Beam, step: Step) -> tuple[str, ...]:
+    """Tell what every support does.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    step : Step
+        The state.
+
+    Returns
+    -------
+    tuple of str
+        Keys of `SYMBOLS`: states, and of a law beyond its first branch what has happened.
+    """
+    kinds = list(step.state)
+    for k in beam.laws if beam.has_laws else ():
+        piece = piece_of(beam, k, step.closed, step.breakpoints)
+        if piece.number:
+            broken = piece.number > 1 and piece.slope == 0.0 == step.reaction[k]
+            kinds[k] = "broken" if broken else "closed" if piece.number == 1 else _beyond(beam, k, step, piece)
+    return tuple(kinds)
+
+
+def plain_kinds(states: tuple[str, ...]) -> tuple[str, ...]:
+    """Take states for kinds where nothing is known of laws: every branch acts."""
+    return tuple(state if state in SYMBOLS else "closed" for state in states)
+
+
+def known_states(states: tuple[str, ...]) -> list[str]:
+    """List the states that occur as the legend does."""
+    return [state for state in FACES if state in states] + sorted({state for state in states if state not in FACES})
+
+
+def legend_handles(kinds: tuple[str, ...]) -> list[Line2D]:
+    """Make the entries of the legend for what occurs."""
+    found = set(kinds)
+    return [
+        Line2D([], [], linestyle="none", marker=centred(symbol.path), markersize=7.0, markerfacecolor=symbol.face,
+               markeredgecolor=symbol.edge, markeredgewidth=symbol.width, label=symbol.words)
+        for kind, symbol in SYMBOLS.items() if kind in found
+    ]  # fmt: skip
+
+
+def face(state: str) -> str:
+    """Give the fill of a state of the ground.
+
+    Parameters
+    ----------
+    state : str
+        Of a zone.
+
+    Returns
+    -------
+    str
+        Colour.
+    """
+    if state in FACES:
+        return FACES[state]
+    return BRANCHES[min(int(state.rpartition(" ")[2]), len(BRANCHES)) - 1]
+
+
+def centred(path: Path) -> Path:
+    """Move a symbol so that its middle is the origin."""
+    return Path(np.add(path.vertices, (0.0, 0.5)), path.codes)
+
+
+def _beyond(beam: Beam, support: int, step: Step, piece: Piece) -> str:
+    """Name what has happened to a support that is beyond the first branch of its law."""
+    where, *_ = beam.laws[support]
+    count = int(step.closed[where].sum()) - piece.way
+    slope = step.breakpoints[2, where.start + count - 1] if count else step.breakpoints[3, where.start]
+    if slope == -np.inf:
+        return "broken"
+    happened = what_happens(Piece(piece.number - 1, float(slope), piece.way), piece)
+    return {"": "closed", "breaks": "broken"}.get(happened, happened)
