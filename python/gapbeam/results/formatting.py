@@ -3,6 +3,7 @@
 import math
 import statistics
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 
 from ..base.characters import visible
 from ..engine.quantities import QUANTITIES
@@ -202,6 +203,8 @@ UNITS = {one.name: one.unit for one in QUANTITIES} | {
     "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
+HUGE = 1e300
+"""Beyond it a value may leave the range of doubles in a smaller unit."""
 SMALL = ("deflection", "opening", "sag", "gap", "set")
 """Displacements, which are small beside lengths."""
 
@@ -296,7 +299,10 @@ def shown(scene: Scene, quantity: str, value: float) -> str:
     str
         At most 5 digits.
     """
-    return number(shown_unit(scene, quantity)[1] * value, DIGITS)
+    factor = shown_unit(scene, quantity)[1]
+    if abs(value) > HUGE:  # in the smaller unit it may be no double
+        return f"{Decimal(factor) * Decimal(float(value)):.{DIGITS - 1}e}"
+    return number(factor * value, DIGITS)
 
 
 def shown_heading(scene: Scene, quantity: str) -> str:
@@ -325,4 +331,7 @@ def shown_column(scene: Scene, quantity: str, values: Iterable[float], digits: i
     texts : list of str
     """
     label, factor = shown_unit(scene, quantity)
-    return quantity + (f"\n{label}" if label else ""), column([factor * value for value in values], digits)
+    heading, values = quantity + (f"\n{label}" if label else ""), [float(value) for value in values]
+    if any(abs(value) > HUGE for value in values):
+        return heading, [shown(scene, quantity, value) for value in values]
+    return heading, column([factor * value for value in values], digits)

@@ -3,10 +3,12 @@
 import json
 
 import gapbeam
+import numpy as np
 import pytest
 import scenes
 from gapbeam.cli import main
 from gapbeam.report import report_text, to_json
+from gapbeam.results.formatting import shown, shown_column
 
 UNITS = {"force": "kN", "length": "m"}
 
@@ -93,3 +95,9 @@ def test_slips_are_named(change, words):
     text = repr(gapbeam.solve(made))
     assert ("?" in text or "empty" in text) == (words is not None)
     assert words is None or words in text
+
+
+def test_numbers_near_the_end_of_the_range_are_written():
+    scene = gapbeam.read_scene(spans([scenes.uniform(2.0)]))
+    assert shown(scene, "deflection", np.float64(1.25e307)) == "1.2500e+310"
+    assert shown_column(scene, "opening", [0.0, 1.25e307]) == ("opening\nmm", ["0", "1.2500e+310"])
