@@ -123,7 +123,7 @@ def no_such(noun: str, key: Any, known: Iterable[str], meant: Mapping[str, str] 
     """
     known = list(known)
     words = f"there is no {noun} {key!r}"
-    near = meant.get(str(key).lower()) or nearest(str(key), known)
+    near = meant.get(str(key).lower()) or nearest(str(key), [one for one in known if isinstance(one, str)])
     if near in known:
         return f"{words}; did you mean {near!r}?"
     few = ", ".join(map(repr, known[:12])) + (f" and {len(known) - 12} more" if len(known) > 12 else "")

@@ -106,7 +106,7 @@ def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
         source = read_file(Path(source))
     if not isinstance(source, Scene | Mapping):
         again = "; to solve it again, give its scene" if hasattr(source, "scene") else ""
-        got = shown(source) if isinstance(source, list | tuple | float | int) else f"a {type(source).__name__}" if again else source
+        got = f"a {type(source).__name__}" if again else "None" if source is None else shown(source)
         raise SceneError(f"expected a Scene, a mapping or the path of a file, got {got}{again}")
     source, tables = take_tables(source)
     source, arrays = take_arrays(source)

@@ -41,6 +41,8 @@ VALUES = {
     ("type", "moving"): "loads that move are trains",
 }  # fmt: skip
 """What was probably meant by a value, by its key and the value in lower case."""
+LONGEST = 30
+"""Characters of a text that is read as a number, to be written again."""
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>[A-Za-z][\w ^*/.-]*)?")
 
 
@@ -67,7 +69,7 @@ def meant_by_key(key: str, known: list[str], place: str) -> str | None:
     """
     if place.startswith("supports") and key.lower() in OF_SUPPORTS:
         return OF_SUPPORTS[key.lower()]
-    other = KEYS.get(key.lower())
+    other = None if place.endswith(".law") else KEYS.get(key.lower())
     return f'did you mean "{other}"?' if other in known else None
 
 
@@ -98,7 +100,8 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return ""
     if (hint := VALUES.get((key, str(value).lower()))) is not None:
         return f"; {hint}"
-    found = NUMBER.fullmatch(value) if isinstance(value, str) and "number" in expected else None
+    is_short = isinstance(value, str) and len(value) <= LONGEST
+    found = NUMBER.fullmatch(value) if is_short and "number" in expected else None
     if found is None:
         return ""
     if not found["unit"]:

@@ -53,7 +53,9 @@ gap = [1, 2] -> supports[0].gap: expected a number, got [1, 2]
 gap = {} -> supports[0].gap: expected a number, got a table
 node = "end" -> supports[0].node: expected a whole number, got "end"
 node = 1.5 -> supports[0].node: expected a whole number, got 1.5
-side = "under" -> supports[0].side: expected "above", "below" or "both", got "under"
+side = "under" ->
+    supports[0].side: expected "above", "below" or "both", got "under"; a support that lies under the beam and lets it
+    lift off is "below"
 side = 1 -> supports[0].side: expected "above", "below" or "both", got 1
 rotation = "stiff" -> supports[0].rotation: expected "fixed", "free" or a number, got "stiff"
 rotation = [1] -> supports[0].rotation: expected "fixed", "free" or a number, got [1]
@@ -100,7 +102,8 @@ analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", g
 loads = [{}] ->
     loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature" or "axial"
 loads = [{type = "point"}] ->
-    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature" or "axial", got "point"
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature" or "axial", got "point"; did you
+    mean "force"?
 loads = [{type = 3}] ->
     loads[0].type: expected "force", "moment", "uniform", "linear", "curvature" or "axial", got 3
 loads = [5] -> loads[0]: expected a table, got 5
@@ -460,7 +463,7 @@ def refused(**parts):
 @pytest.mark.parametrize(
     ("parts", "expected"),
     [
-        ({"supports": [Support(x="6")]}, 'supports[0].x: expected a number, got "6"'),
+        ({"supports": [Support(x="6")]}, 'supports[0].x: expected a number, got "6"; write 6 without quotes'),
         (
             {"supports": [Support(x=6.0, side="left")]},
             'supports[0].side: expected "above", "below" or "both", got "left"',
@@ -482,14 +485,14 @@ def test_python_scene(parts, expected):
 
 
 def test_structs_among_data():
-    assert message(supports=[Support(x="6")]) == 'supports[0].x: expected a number, got "6"'
+    assert message(supports=[Support(x="6")]) == 'supports[0].x: expected a number, got "6"; write 6 without quotes'
     assert message(beam=Beam(["a"], EI=1.0)) == 'beam.spans[0]: expected a number, got "a"'
     assert message(loads=[FORCE, UniformLoad(q="a")]) == 'loads[1].q: expected a number, got "a"'
 
 
 def test_no_scene():
     expected = "expected a Scene, a mapping or the path of a file, got "
-    for source, got in ((5, "5"), (None, "null"), ([1], "[1]"), (Beam([1.0], EI=1.0), "a table")):
+    for source, got in ((5, "5"), (None, "None"), ([1], "[1]"), (Beam([1.0], EI=1.0), "a table")):
         with pytest.raises(SceneError) as caught:
             read_scene(source)
         assert str(caught.value) == expected + got
@@ -601,7 +604,7 @@ def test_scene_error():
 def test_numbers_of_other_kinds_are_refused_as_what_they_are():
     expected = 'supports[0].gap: expected a number, got "a"'
     assert message(supports=[{"x": Fraction(1, 2), "gap": "a"}]) == expected
-    assert message(supports=[{"x": np.float64(0.5), "side": "up"}]).endswith('got "up"')
+    assert message(supports=[{"x": np.float64(0.5), "side": "up"}]).endswith('one that holds it down only is "above"')
 
 
 @pytest.mark.parametrize("length", [59, 60, 61, 1000])
