@@ -76,6 +76,8 @@ def arrays_in(value, seen):
     elif type(value).__module__.startswith("gapbeam") and id(value) not in seen:
         seen.add(id(value))
         for name in dir(value):
+            if name in ("reactions", "openings", "states") and isinstance(value, gapbeam.Result) and not value.steps:
+                continue  # they say why there are none
             if not name.startswith("_") and not callable(getattr(value, name)):
                 yield from arrays_in(getattr(value, name), seen)
 
@@ -238,7 +240,7 @@ def test_factors_of_other_types():
         ([1, 10**400], "factors: expected numbers that double precision holds"),
         (np.ma.masked_array([1.0, 2.0], [False, True]), "factors: expected numbers, some of these are masked"),
         ([1.0, np.inf], "factors: the factor of load 1 is inf; give a finite number"),
-        ({"a": 1}, "factors: expected numbers, got a table"),
+        ({"a": 1}, "factors: expected a list of 2 numbers, one for each load, got a table"),
     ],
 )
 def test_factors_that_make_no_sense(factors, message):
