@@ -15,6 +15,7 @@ from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
 from .ground import GroundLanes, draw_ground, points_a_span
 from .labels import text_width
+from .marks import Marks
 from .panels import (
     LEFT,
     MOST_POINTS,
@@ -23,7 +24,6 @@ from .panels import (
     RIGHT,
     SPACE,
     WIDTH,
-    annotate,
     counts,
     cut_text,
     frame_panel,
@@ -85,7 +85,7 @@ def envelope_figure(result: CombinedResult) -> Figure:
         bottom -= PANEL
         axes = panel_axes(picture, scene, bottom, PANEL)
         frame_panel(axes, scene, quantity, words, downward)
-        _range(axes, quantity, envelope, result.names)
+        _range(axes, quantity, envelope, result.names, fmt.shown_unit(scene, quantity)[1])
         bottom -= SPACE
     if panels:
         axes.tick_params(labelbottom=True)
@@ -104,7 +104,7 @@ def _headings(picture: Figure, result: CombinedResult) -> None:
     picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
 
 
-def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...]) -> None:
+def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...], factor: float) -> None:
     """Draw the range of one field, its extremes, and which combinations give it."""
     curves, extremes = envelope.fields, envelope.extremes[quantity]
     width = (WIDTH - LEFT - RIGHT) * 72
@@ -118,10 +118,11 @@ def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...]
     span = (high - low) or 1.0
     bounds = (low - span * 0.34, high + span * 0.34)
     axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
+    marks = Marks(axes, factor)
     for one in extremes.values():
         if counts(one.value, pairs):
             others = f" +{len(one.ties) - 1}" if len(one.ties) > 1 else ""
-            annotate(axes, one.value, one.x, (), f", {cut_text(visible(one.combination or ''), MOST_NAMED)}{others}")
+            marks.extreme(one.value, one.x, f", {cut_text(visible(one.combination or ''), MOST_NAMED)}{others}")
     upper, lower = 1.0 - STRIP, 0.0
     if axes.yaxis_inverted():
         upper, lower = lower, upper

@@ -279,7 +279,7 @@ def _draw_blocks(axes: Axes, lanes: LoadLanes) -> None:
     if lanes.labelled:
         _label_blocks(axes, lanes, tops)
     width = 0.5 if len(blocks) <= 60 else 0.2
-    styles = {"down": ("0.9", None), "up": ("white", "...."), "curvature": ("white", "//////")}
+    styles = {"down": ("0.9", None), "up": ("white", "----"), "curvature": ("white", "//////")}
     for name, corners in groups.items():
         if corners:
             face, hatch = styles[name]

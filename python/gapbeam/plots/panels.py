@@ -1,7 +1,6 @@
 """Panels of a picture under one another: their sizes, frames and words, for results, envelopes and paths."""
 
 import textwrap
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +9,7 @@ from matplotlib.figure import Figure
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
+from .labels import text_width
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -95,7 +95,12 @@ def frame_panel(axes: Axes, scene: "Scene", quantity: str, words: str, downward:
     """
     if downward:
         axes.invert_yaxis()
-    label = "scale arbitrary" if quantity == "motion" else fmt.with_unit(scene, quantity, words)
+    label = "scale arbitrary"
+    if quantity != "motion":
+        unit, factor = fmt.shown_unit(scene, quantity)
+        label = words + (f" [{unit}]" if unit else "")
+        if factor != 1.0:
+            axes.yaxis.set_major_formatter(lambda value, _: fmt.number(factor * value).replace("-", "\N{MINUS SIGN}"))
     if quantity == "moment":
         label += "\ndrawn on the tension side"
     elif quantity == "pressure":
@@ -107,38 +112,27 @@ def frame_panel(axes: Axes, scene: "Scene", quantity: str, words: str, downward:
     axes.tick_params(labelsize=7, labelbottom=False, direction="in", length=3)
     axes.spines[["top", "right"]].set_visible(False)
     axes.axhline(0.0, color="black", linewidth=0.7)
+    places = np.unique(scene.positions(scene.supports)).tolist()
+    if 1 < len(places) <= 60:
+        _tick(axes, places, float(scene.span_ends()[-1]))
     if len(scene.supports) <= 60:
-        for x in np.unique(scene.positions(scene.supports)):
+        for x in places:
             axes.axvline(x, color="0.75", linewidth=0.5, linestyle=(0, (1, 2)), zorder=0)
+
+
+def _tick(axes: Axes, places: list[float], end: float) -> None:
+    """Put ticks where supports are and at the ends of the beam, as far as their numbers have room."""
+    left, right = axes.get_xlim()
+    scale = (WIDTH - LEFT - RIGHT) * 72 / (right - left)
+    chosen: dict[float, float] = {}  # place -> half the width of its number
+    for x in dict.fromkeys((0.0, end, *places)):
+        half = text_width(fmt.number(x, 4)) / 2 + 2.0
+        if all(abs(x - other) * scale > half + width for other, width in chosen.items()):
+            chosen[x] = half
+    ticks = sorted(chosen)
+    axes.set_xticks(ticks, [fmt.number(x, 4) for x in ticks])
 
 
 def counts(value: float, extreme: dict[str, tuple[float, float]]) -> bool:
     """Decide whether an extreme is worth words: zero at an end of the beam is not."""
     return abs(value) > 1e-6 * max(abs(pair[0]) for pair in extreme.values())
-
-
-def annotate(axes: Axes, value: float, x: float, avoid: Sequence[Point], more: str = "") -> None:
-    """Write an extreme beside its place, on the side away from the axis, where it covers no point to avoid."""
-    text = f"{fmt.number(value, 4)} at {fmt.number(x, 4)}".replace("-", "\N{MINUS SIGN}") + more
-    upward = (value > 0.0) != axes.yaxis_inverted()
-    (left, right), (low, high) = axes.get_xlim(), sorted(axes.get_ylim())
-    share, width = (x - left) / (right - left), (4.4 * len(text) + 8.0) / (WIDTH - LEFT - RIGHT) / 72
-    shifts = {"center": -0.5, "left": 0.0, "right": -1.0}  # start of the text in its widths
-    if not width / 2 < share < 1.0 - width / 2:
-        shifts = {"left": 0.0} if share < 0.5 else {"right": -1.0}
-
-    def covered(start: float) -> int:
-        away = 1.0 if value > 0.0 else -1.0
-        return sum(
-            start < (place - left) / (right - left) < start + width
-            and -0.05 < away * (height - value) / (high - low) < 18.0 / (72 * PANEL)
-            for place, height in avoid
-        )
-
-    best = min(shifts, key=lambda name: covered(share + shifts[name] * width))
-    axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
-    axes.annotate(
-        text, (x, value), (0, 4 if upward else -4), textcoords="offset points", fontsize=7.5, zorder=5,
-        ha=best, va="bottom" if upward else "top",
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
-    )  # fmt: skip

@@ -20,6 +20,7 @@ from .beam import SupportLanes, draw_beam, draw_contacts
 from .envelope import envelope_figure
 from .ground import GroundLanes, draw_ground, draw_surface, points_a_span, zone_handles
 from .loads import LoadLanes, draw_loads
+from .marks import MOST_MARKS, Marks, find_peaks
 from .panels import (
     LEFT,
     MOST_POINTS,
@@ -29,7 +30,6 @@ from .panels import (
     SPACE,
     WIDTH,
     Point,
-    annotate,
     counts,
     cut_text,
     frame_panel,
@@ -38,7 +38,7 @@ from .panels import (
 )
 from .save import literal, save
 from .states import kinds_of, known_states, legend_handles, plain_kinds
-from .thin import outline
+from .thin import coarse, outline
 from .train_envelope import train_envelope_figure
 
 if TYPE_CHECKING:
@@ -126,7 +126,12 @@ def figure(result: "Result", step: int = -1) -> Figure:
             contacts = ()
             if quantity == "deflection":
                 contacts = draw_contacts(panel, scene, supports, float(np.abs(fields.deflection).max()))
-            _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts)
+            marks = _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts,
+                           fmt.shown_unit(scene, quantity)[1])  # fmt: skip
+            if quantity == "moment":
+                peaks = find_peaks(fields, scene.span_ends(), lambda x: result.at(x, step))
+                for value, x in peaks[:MOST_MARKS]:
+                    marks.peak(value, x)
             if quantity == "deflection":
                 draw_surface(panel, scene, width)
         else:
@@ -172,11 +177,12 @@ def _meets(text: str, handles: list[Line2D]) -> bool:
 
 
 def _curve(
-    axes: Axes, x: np.ndarray, values: np.ndarray, extreme: dict[str, tuple[float, float]], avoid: Sequence[Point]
-) -> None:
+    axes: Axes, x: np.ndarray, values: np.ndarray, extreme: dict[str, tuple[float, float]], avoid: Sequence[Point], factor: float
+) -> Marks:
     """Draw one field with its largest and smallest value, whose labels keep clear of some points."""
     x, values = outline(x, values, (WIDTH - LEFT - RIGHT) * 72)
-    axes.fill_between(x, 0.0, values, color="0.9", linewidth=0, zorder=1)
+    inner, heights = coarse(x, values, np.ptp(values) / (5.0 * PANEL * 72))
+    axes.fill(np.r_[x[0], inner, x[-1]], np.r_[0.0, heights, 0.0], color="0.9", linewidth=0, zorder=1)
     axes.plot(x, values, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
     shown = {kind: pair for kind, pair in extreme.items() if counts(pair[0], extreme)}
     low = min([0.0, *(value for value, _ in shown.values())])
@@ -185,8 +191,10 @@ def _curve(
     room = {"max": high > 0.0 and "max" in shown, "min": low < 0.0 and "min" in shown}
     bounds = (low - span * (0.24 if room["min"] else 0.08), high + span * (0.24 if room["max"] else 0.08))
     axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
+    marks = Marks(axes, factor, avoid, (x, values))
     for value, place in shown.values():
-        annotate(axes, value, place, avoid)
+        marks.extreme(value, place)
+    return marks
 
 
 def _motion(axes: Axes, result: "Result") -> None:

@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 from warnings import catch_warnings, filterwarnings
 
 from matplotlib import rc_context
@@ -54,7 +55,40 @@ def picture(figure: Figure, suffix: str) -> bytes:
         if kind == "svg":
             filterwarnings("ignore", "Glyph .* missing")  # the viewer of the file has fonts of its own
         figure.savefig(stream, format=kind, metadata={"Date": None} if kind == "svg" else None)
-    return stream.getvalue()
+    return compact(stream.getvalue()) if kind == "svg" else stream.getvalue()
+
+
+def compact(svg: bytes) -> bytes:
+    r"""Shorten a picture: neighbours of one style become one path, places have two decimals.
+
+    Parameters
+    ----------
+    svg : bytes
+        As matplotlib writes it; a unit is a point.
+
+    Returns
+    -------
+    bytes
+
+    Examples
+    --------
+    >>> compact(b'<path d="M 0.12345 1" style="a"/>\n<path d="M 2 3" style="a"/><use x="1.23456" y="2"/>')
+    b'<path d="M 0.12 1M 2 3" style="a"/>\n<use x="1.23" y="2"/>'
+    """
+    for part in (rb'<path d="[^"]*"', rb"<use [^>]*>"):
+        svg = re.sub(part, lambda found: re.sub(rb"(\.\d\d)\d+", rb"\1", found[0]), svg)
+    svg = re.sub(rb'<path d="[^"]*"([^>]*)/>\s*(?:<path d="[^"]*"\1/>\s*)+', _joined, svg)
+    return re.sub(rb'<use ([^>]*?) (style="[^"]*")/>\s*(?:<use [^>]*? \2/>\s*)+', _grouped, svg)
+
+
+def _joined(found: re.Match[bytes]) -> bytes:
+    """Draw paths of one style as one."""
+    return b'<path d="' + b"".join(re.findall(rb'd="([^"]*)"', found[0])) + b'"' + found[1] + b"/>\n"
+
+
+def _grouped(found: re.Match[bytes]) -> bytes:
+    """Tell the style of neighbouring symbols once."""
+    return b"<g " + found[2] + b">\n" + re.sub(rb'(<use [^>]*?) style="[^"]*"/>\s*', rb"\1/>\n", found[0]) + b"</g>\n"
 
 
 def save(figure: Figure, path: str | os.PathLike) -> None:

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -10,6 +9,7 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from .beam import SupportLanes, draw_beam
 from .ground import GroundLanes, draw_ground, points_a_span
+from .marks import Marks
 from .panels import LEFT, PANEL, PANELS, RIGHT, SPACE, WIDTH, cut_text, frame_panel, panel_axes
 from .save import literal
 
@@ -63,14 +63,14 @@ def train_envelope_figure(result: "Result") -> Figure:
         bottom -= PANEL
         panel = panel_axes(picture, scene, bottom, PANEL)
         frame_panel(panel, scene, quantity, words, downward)
-        _draw(panel, envelope.fields, quantity, envelope.extremes[quantity])
+        _draw(panel, envelope.fields, quantity, envelope.extremes[quantity], fmt.shown_unit(scene, quantity)[1])
         bottom -= SPACE
     panel.tick_params(labelbottom=True)
     panel.set_xlabel(fmt.with_unit(scene, "x"), fontsize=8)
     return literal(picture)
 
 
-def _draw(axes: Axes, curves: "TrainCurves", quantity: str, extremes: "dict[str, TrainExtreme | None]") -> None:
+def _draw(axes: Axes, curves: "TrainCurves", quantity: str, extremes: "dict[str, TrainExtreme | None]", factor: float) -> None:
     """Draw the two curves of a field, and mark its extremes."""
     x, high, low = curves.x, curves.largest[quantity], curves.smallest[quantity]
     axes.fill_between(x, low, high, color="0.9", linewidth=0, zorder=1)
@@ -81,21 +81,11 @@ def _draw(axes: Axes, curves: "TrainCurves", quantity: str, extremes: "dict[str,
     span = (max(values) - min(values)) or 1.0
     bounds = (min(values) - 0.24 * span, max(values) + 0.24 * span)
     axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
-    end = float(np.max(x))
+    marks = Marks(axes, factor)
     for extreme in shown:
         if abs(extreme.value) <= 1e-6 * max(map(abs, values)):
             continue
-        text = f"{fmt.number(extreme.value, 4)} at {fmt.number(extreme.x, 4)}"
-        if extreme.combination:
-            text += f", {visible(extreme.combination)}"
+        more = f", {visible(extreme.combination)}" if extreme.combination else ""
         if extreme.train:
-            text += f", {visible(extreme.train)} at {fmt.number(extreme.position, 4)}"
-        text = text.replace("-", "\N{MINUS SIGN}")
-        upward = (extreme is extremes["max"]) != axes.yaxis_inverted()
-        share = extreme.x / end
-        axes.plot([extreme.x], [extreme.value], "o", color="black", markersize=2.6, zorder=4)
-        axes.annotate(
-            text, (extreme.x, extreme.value), (0, 4 if upward else -4), textcoords="offset points", fontsize=7.5, zorder=5,
-            ha="left" if share < 0.25 else "right" if share > 0.75 else "center", va="bottom" if upward else "top",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
-        )  # fmt: skip
+            more += f", {visible(extreme.train)} at {fmt.number(extreme.position, 4)}"
+        marks.extreme(extreme.value, extreme.x, more)
