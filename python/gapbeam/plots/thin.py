@@ -6,7 +6,7 @@ from matplotlib.collections import Collection, LineCollection, PathCollection, P
 
 MOST_SHAPES, MOST_POINTS = 5_000, 4_000
 """Symbols, lines or areas of a kind, and points of a curve, that are all drawn."""
-APART = 0.5
+APART = 0.4
 """Points (1/72 inch) between what can be seen side by side."""
 
 
