@@ -23,7 +23,7 @@ WORTH = 0.02
 """Share of the largest value from which one of a span is written."""
 LETTER, HIGH, OFF = 4.6, 8.5, 4.0
 """Width of a letter, height of a line, distance from the point (points of 1/72 inch)."""
-ROUNDS = 5
+ROUNDS = 8
 """Secants to a zero of the shear."""
 
 
@@ -140,17 +140,19 @@ def find_peaks(fields: Fields, ends: np.ndarray, at: Callable[[np.ndarray], Fiel
     middle = x[chosen]
     if not len(middle):
         return []
-    # On the side on which the shear changes its sign
+    # On the side on which the shear changes its sign; by secants that keep a bracket (the Illinois rule)
     left, here = at(low).shear, at(middle).shear
-    low, high = np.where(left * here < 0.0, low, middle), np.where(left * here < 0.0, middle, high)
+    on_left = left * here < 0.0
+    low, high = np.where(on_left, low, middle), np.where(on_left, middle, high)
+    a, b = np.where(on_left, left, here), at(high).shear
     inside = low + (high - low) / 2
     for _ in range(ROUNDS):
-        a, b = at(low).shear, at(high).shear
         share = np.divide(a, a - b, out=np.where(np.abs(a) <= np.abs(b), 0.0, 1.0), where=a * b < 0.0)
         inside = low + (high - low) * share
-        smooth = at(inside).shear
-        same = smooth * a > 0.0
+        shear = at(inside).shear
+        same = shear * a > 0.0
         low, high = np.where(same, inside, low), np.where(same, high, inside)
+        a, b = np.where(same, shear, a / 2), np.where(same, b / 2, shear)
     values, before = at(inside).moment, at(middle).moment
     better = np.sign(before) * (values - before) > 0.0
     pairs = zip(np.where(better, values, before).tolist(), np.where(better, inside, middle).tolist(), strict=True)

@@ -11,6 +11,7 @@ import msgspec
 
 from .ground_laws import GroundLawTable, LawAt
 from .laws import LawTable
+from .limits import Limits
 from .loads import Load
 from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
@@ -29,7 +30,7 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Scene)
+    tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
     for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]
