@@ -6,9 +6,10 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.answer import has_cheap_envelope
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import CLOSE
-from ..results.envelopes.over_path import count_states, is_followed
+from ..results.envelopes.over_path import is_followed
 from .writer import Writer
 
 if TYPE_CHECKING:
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
     from ..results.envelopes.over_path import PathEnvelope
     from ..results.result import Result
 
-MOST_WORK = 2_000_000
-"""States times pieces of the beam up to which the report looks for extremes over the path: some seconds."""
 MOST_ROWS = 20
 """Values at supports that are listed."""
 MOST_MISSING = 5
@@ -44,8 +43,7 @@ def write_over_path(say: Writer, result: "Result") -> None:
         return
     scene = result.scene
     say.heading("Largest values over the whole way of the load")
-    ones = result.combinations.values() if result.combinations else [result]
-    if sum(count_states(one) for one in ones) * len(result.beam.places.pieces) > MOST_WORK:
+    if not has_cheap_envelope(result):
         say.line("Not looked for: the path has so many states that this takes long; --json has them, and "
                  "result.history_extremes() in Python.")  # fmt: skip
         return

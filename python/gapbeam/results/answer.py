@@ -256,11 +256,14 @@ def ground_in_words(result: Result) -> list[str]:
     return lines
 
 
+def _place(scene: Scene, one: Extreme | TrainExtreme | Utilisation) -> str:
+    return f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
+
+
 def _one(result: Result, name: str, one: Extreme | TrainExtreme, factor: bool) -> str:
     scene = result.scene
-    place = f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
     source = source_in_words(one, scene, factor)
-    return f"{short(scene, name, one.value)} at {place}{f' ({source})' if source else ''}"
+    return f"{short(scene, name, one.value)} at {_place(scene, one)}{f' ({source})' if source else ''}"
 
 
 def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[str]:
@@ -317,12 +320,10 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
     """
     scene, lines = result.scene, []
     for name, one in used.items():
-        unit = fmt.unit(scene, "stress") if name == "pressure" else fmt.shown_unit(scene, name)[0]
-        number = fmt.number if name == "pressure" else lambda value, _, name=name: fmt.shown(scene, name, value)
-        texts = [f"{number(abs(value), fmt.DIGITS)} {unit}".rstrip() for value in (one.value, one.limit)]
-        place = f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
+        quantity = "stress" if name == "pressure" else name
+        value, limit = (short(scene, quantity, abs(number)) for number in (one.value, one.limit))
         mark = "EXCEEDED" if one.ratio > 1.0 else "within"
-        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {texts[0]} of {texts[1]} at {place}")
+        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {_place(scene, one)}")
     return lines
 
 
