@@ -7,11 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from ..base.characters import visible
 from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
 from .envelopes.over_path import count_states, is_followed
+from .envelopes.tables import KINDS
 from .plausibility import doubts_of_scene
 from .state.ground import TOUCHING, joined
 from .utilisation import Utilisation, find_utilisations
@@ -105,10 +108,8 @@ def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     deflection = envelope.extremes["deflection"]
     largest = max((abs(one.value) for one in deflection.values() if one is not None), default=0.0)
     found = []
-    for k, row in enumerate(envelope.supports):
-        one = row["opening"]["max"]
-        if one is None or not one.value > NONE * largest:
-            continue
+    for k in np.flatnonzero(envelope.supports.values("opening", "max") > NONE * largest).tolist():
+        one = envelope.supports[k]["opening"]["max"]
         train, factor = getattr(one, "train", None), getattr(one, "factor", None)
         if factor is None and train is None and one.combination is None and result.steps:
             factor = result.steps[-1].factor
@@ -283,17 +284,16 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     """
     last = result.steps[-1].factor if result.steps else None
     lines = []
-    reactions = [row["reaction"][kind] for row in envelope.supports for kind in ("max", "min")]
-    reactions = [one for one in reactions if one is not None]
-
     def said(one: Extreme | TrainExtreme) -> bool:
         return getattr(one, "factor", None) not in (None, last)
 
-    if reactions:
-        largest = max(reactions, key=lambda one: abs(one.value))
+    sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
+    if np.isfinite(sizes).any():
+        k, i = np.unravel_index(np.nanargmax(sizes.T), sizes.T.shape)  # the first support that has it
+        largest = envelope.supports[int(k)]["reaction"][KINDS[i]]
         lines.append(f"Largest reaction    {_one(result, 'reaction', largest, said(largest))}")
     for name in ("moment", "shear", "deflection"):
-        both = [envelope.extremes[name][kind] for kind in ("max", "min")]
+        both = [envelope.extremes[name][kind] for kind in KINDS]
         both = [one for one in both if one is not None]
         largest = max((abs(one.value) for one in both), default=0.0)
         both = [one for one in both if abs(one.value) > NONE * largest] or both[:1]

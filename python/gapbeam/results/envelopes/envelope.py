@@ -217,6 +217,11 @@ class SupportExtremes(Sequence):
             for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True))
         }
 
+    def values(self, quantity: str, kind: str) -> np.ndarray:
+        """As `SupportRows.values`: the largest or smallest value of every support."""
+        i = OF_SUPPORTS.index(quantity)
+        return self._of.at_supports[self._of_all[kind][i], self._rows[i], np.arange(len(self))]
+
     def columns(self) -> dict[str, Any]:
         """As columns of a table, for example for pandas.
 
@@ -227,10 +232,10 @@ class SupportExtremes(Sequence):
             combinations each with the first one it comes from, ``reaction_max_combination``; over the way of the load with
             ``reaction_max_factor`` and ``reaction_max_leg``.
         """
-        found, supports = support_places(self._of.scene), np.arange(len(self))
-        for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True)):
+        found = support_places(self._of.scene)
+        for i, name in enumerate(OF_SUPPORTS):
             for kind, which in self._of_all.items():
-                found[f"{name}_{kind}"] = self._of.at_supports[which[i], row, supports]
+                found[f"{name}_{kind}"] = self.values(name, kind)
                 for key in self._of.keys:
                     found[f"{name}_{kind}_{key}"] = [getattr(self._of.sources[k], key) for k in which[i].tolist()]
         return found

@@ -34,6 +34,24 @@ class SupportRows(list):
         super().__init__(rows)
         self._scene = scene
 
+    def values(self, quantity: str, kind: str) -> np.ndarray:
+        """Give the largest or smallest value of every support.
+
+        Parameters
+        ----------
+        quantity : str
+            For example ``reaction``.
+        kind : {"max", "min"}
+            Which.
+
+        Returns
+        -------
+        numpy.ndarray
+            Not a number where nothing is solved.
+        """
+        ones = [row[quantity][kind] for row in self]
+        return np.array([np.nan if one is None else one.value for one in ones])
+
     def columns(self) -> dict[str, Any]:
         """As columns of a table, for example for pandas.
 
@@ -48,7 +66,7 @@ class SupportRows(list):
         for quantity in self[0] if self else ():
             for kind in KINDS:
                 ones = [row[quantity][kind] for row in self]
-                found[f"{quantity}_{kind}"] = np.array([np.nan if one is None else one.value for one in ones])
+                found[f"{quantity}_{kind}"] = self.values(quantity, kind)
                 found |= {f"{quantity}_{kind}_{key}": [getattr(one, key, None) for one in ones] for key in sources}
         return found
 
