@@ -1,7 +1,6 @@
 """Settings of the documentation site, which `sh docs/build` makes in build/site."""
 
 import os
-import re
 from importlib.metadata import version as version_of
 from pathlib import Path
 

@@ -38,6 +38,8 @@ def scene_schema() -> dict[str, Any]:
         for base in reversed(struct.__mro__[:-3]):
             texts |= _parameters(base.__doc__ or "")
         for key, entry in table["properties"].items():
+            if key == "type":
+                entry["description"] = "Says which table this is."
             if key in texts:
                 entry["description"] = texts[key]
             if isinstance(entry.get("default"), float) and math.isinf(entry["default"]):
