@@ -27,7 +27,7 @@ def scene_schema() -> dict[str, Any]:
     Examples
     --------
     >>> scene_schema()["$defs"]["Support"]["properties"]["gap"]["description"]
-    'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
+    'Distance to be closed before it acts (length); negative = set too high; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
     tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
