@@ -111,7 +111,7 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     scene, envelope = result.scene, result.envelope()
     say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
-    for quantity, row in envelope.extremes.items():
+    for quantity, row in fmt.reported(envelope.extremes).items():
         for kind, words in PLACES:
             one = row[kind]
             name = fmt.shown_heading(scene, quantity) if kind == "max" else ""

@@ -51,7 +51,7 @@ def write_over_path(say: Writer, result: "Result") -> None:
     legs = len(scene.analysis.history) > 1
     headings = ["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result, legs)]
     rows = []
-    for quantity, row in found.extremes.items():
+    for quantity, row in fmt.reported(found.extremes).items():
         for kind, words in PLACES:
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)

@@ -252,7 +252,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
     scene = result.scene
     say.heading(f"Extremes {at}")
     rows = []
-    for quantity, extreme in result.extremes().items():
+    for quantity, extreme in fmt.reported(result.extremes()).items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
         texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]
         texts += [fmt.shown(scene, quantity, smallest), fmt.number(x_smallest, fmt.DIGITS)]
