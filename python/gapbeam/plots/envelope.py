@@ -45,7 +45,7 @@ STRIP = 0.08
 """Height of the strip that tells what governs, as a share of the panel."""
 MOST_POINTS_FILLED = 20_000
 """Points of a curve up to which the range is filled."""
-MOST_CURVED = 3_000
+MOST_CURVED = 1_000
 """Points of a curve up to which it is rounded between them."""
 MOST_STRIPS = 500
 """Changes of what governs that are drawn along a beam."""

@@ -182,7 +182,7 @@ def test_files_come_out(on_rail, tmp_path):
 def test_path_shows_where_zones_end(following, monkeypatch):
     monkeypatch.setattr(ground_path, "MOST_STATES", 12)
     picture = path_figure(following)
-    assert [axes.get_ylabel() for axes in picture.axes] == ["x of contact [m]", "reaction, upward positive [kN]", "opening [m]"]
+    assert [axes.get_ylabel() for axes in picture.axes] == ["x of contact [m]", "reaction, upward positive [kN]", "opening [mm]"]
     (area,) = (found for found in collections(picture.axes[0], "contact") if found.get_paths())
     for path in area.get_paths():
         (low, from_), (_, to) = path.vertices[:2]
