@@ -194,7 +194,9 @@ def _range(
     if len(curves.x) <= MOST_POINTS_FILLED:
         axes.fill_between(curves.x, curves.smallest[quantity], curves.largest[quantity], color="0.9", linewidth=0, zorder=1)
     limit_values(axes, [value for value, *_ in extremes], 0.24 + 0.12 * strips)
-    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1])
+    finite = np.isfinite(curves.largest[quantity])
+    drawn = [(curves.x[finite], values[quantity][finite]) for values in (curves.largest, curves.smallest)]
+    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1], (), drawn)
     for value, x, more in extremes:
         marks.extreme(value, x, more)
 

@@ -123,7 +123,8 @@ def path_figure(result: Result) -> Figure:
         axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
         axes.set_xlim(min(0.0, factors.min()), factors.max() or 1.0)
         if name in tables:
-            _draw_supports(axes, result, trace, factors, tables[name], drawn[name], styles, dots)
+            chosen = {k: alike[name][k] for k in drawn[name]}
+            _draw_supports(axes, result, trace, factors, tables[name], chosen, styles, dots)
         elif name == ZONES[0]:
             draw_zones(axes, result, stretches)
         else:
@@ -163,19 +164,19 @@ def _styles(result: Result, drawn: dict[str, list[int]], trace: Trace | None) ->
 
 
 def _draw_supports(
-    axes: Axes, result: Result, trace: Trace | None, factors: np.ndarray, table: np.ndarray, drawn: list[int],
+    axes: Axes, result: Result, trace: Trace | None, factors: np.ndarray, table: np.ndarray, alike: dict[int, list[int]],
     styles: dict[int, dict], dots: bool,
 ) -> None:  # fmt: skip
     """Draw one quantity of the supports over the load factor."""
     folded = bool((np.diff(factors) < 0.0).any())
     laws = {k for k in styles if result.scene.supports[k].law is not None}
-    for k in drawn:
+    for k in alike:
         if trace is not None:
-            draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws))
+            draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws), alike=alike[k])
             continue
         axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
                   label=f"support {k}", **styles[k])  # fmt: skip
-        _mark_events(axes, result, k, factors, table[:, k])
+        _mark_events(axes, result, alike[k], factors, table[:, k])
 
 
 def _states(result: Result, dots: bool) -> list[Step]:
@@ -233,10 +234,10 @@ def _style(order: int) -> dict:
     return {"color": COLOURS[order % len(COLOURS)], "linestyle": (0, pattern) if pattern else "-"}
 
 
-def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
+def _mark_events(axes: Axes, result: Result, alike: list[int], factors: np.ndarray, values: np.ndarray) -> None:
     """Mark where a support opens or closes."""
     for event in result.events:
-        if event.support == k and event.event != "turns":
+        if event.support in alike and event.event != "turns":
             marker, face = MARKERS.get(event.event, KINK)
             axes.plot(event.factor, np.interp(event.factor, factors, values), marker, color="black", markerfacecolor=face,
                       markersize=5, clip_on=False)  # fmt: skip

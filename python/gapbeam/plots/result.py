@@ -102,7 +102,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
             continue
         contacts = ()
         if quantity == "deflection":
-            contacts = draw_contacts(panel, scene, supports, float(np.abs(cells.values["deflection"]).max()))
+            contacts = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
             contacts += near_surface(scene, cells, length)
         marks = draw_field(panel, scene, cells, quantity, result.extremes(step)[quantity], contacts)
         if quantity == "moment":
@@ -116,7 +116,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
 def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tuple[Contact, ...]") -> str:
     """Say how many supports do what."""
     counted, factor = Counter(kinds), result.steps[step].factor
-    text = f"load factor {fmt.number(factor)}"
+    text = f"load factor {fmt.number(factor)}".replace("-", "\N{MINUS SIGN}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else kind for kind in SYMBOLS}
