@@ -205,6 +205,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
+    run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
+                     "(.html); - is standard output, without report")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
     run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
     run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
@@ -249,7 +251,8 @@ class _Version(argparse.Action):
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path}
+    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path,
+             "--html": arguments.html}  # fmt: skip
     outputs = Outputs(names, arguments.scene)
     from ..results.stepping import solve
     from ..scene.reading import read_scene
@@ -281,6 +284,10 @@ def _run(arguments: argparse.Namespace) -> int:
         from ..plots.save import picture
 
         contents["--path"] = picture(path_figure(result), outputs.suffix("--path"))
+    if "--html" in outputs:
+        from ..html.page import Source, html_page
+
+        contents["--html"] = [html_page(result, None if arguments.scene == "-" else Source.of_file(arguments.scene))]
     outputs.write(contents)
     if not arguments.quiet and not outputs.on_standard_output:
         with until_closed():  # after the files: the reader of the report, such as head, may leave early
