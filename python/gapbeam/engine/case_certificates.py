@@ -10,9 +10,9 @@ from ..base.errors import check_ended
 from . import calls as _engine
 from .beam import RULES, Beam
 from .combinations import Varied
-from .quantities import BENDING
+from . import quantities
 
-BOUNDED = (*BENDING, "reaction")
+BOUNDED = (*quantities.BOUNDED, "reaction")
 """What has error bounds."""
 RESIDUALS = ("compatibility", "equilibrium", "complementarity")
 """Relative residuals."""

@@ -186,7 +186,7 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     scene, envelope = result.scene, result.envelope()
     say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
-    for quantity, row in envelope.extremes.items():
+    for quantity, row in fmt.reported(envelope.extremes).items():
         values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
         for (kind, words), value in zip(PLACES, values, strict=True):
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""

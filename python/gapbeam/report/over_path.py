@@ -91,7 +91,7 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
 def _rows(result: "Result", found: "PathEnvelope", legs: bool) -> list[list[str]]:
     """Rows of the values along the beam."""
     scene, rows = result.scene, []
-    for quantity, row in found.extremes.items():
+    for quantity, row in fmt.reported(found.extremes).items():
         values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
         for (kind, words), value in zip(PLACES, values, strict=True):
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""

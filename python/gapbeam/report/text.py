@@ -233,7 +233,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
     say.heading(f"Extremes {at}")
     rows = []
     bounds = result.steps[-1].certificate
-    for quantity, extreme in result.extremes().items():
+    for quantity, extreme in fmt.reported(result.extremes()).items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
         largest, smallest = fmt.without_noise([largest, smallest], bounds.get(f"error_bound_{quantity}"))
         texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]

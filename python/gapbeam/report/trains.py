@@ -62,7 +62,7 @@ def _headings(result: "Result") -> list[str]:
 def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     scene, rows = result.scene, []
     say.heading("What governs while trains pass, all other loads in full")
-    for quantity, row in envelope.extremes.items():
+    for quantity, row in fmt.reported(envelope.extremes).items():
         for kind, words in PLACES:
             one = row[kind]
             if one is not None:

@@ -4,9 +4,10 @@ import math
 import statistics
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
+from typing import Any
 
 from ..base.characters import visible
-from ..engine.quantities import QUANTITIES
+from ..engine.quantities import QUANTITIES, REPORTED
 from ..scene.names import label as name_or_number
 from ..scene.names import labels
 from ..scene.structs import Scene
@@ -225,7 +226,7 @@ def title(scene: Scene, without: str = "Beam without a title") -> str:
 UNITS = {one.name: one.unit for one in QUANTITIES} | {
     **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length"), "{length}"),
     **dict.fromkeys(("reaction", "force", "resultant"), "{force}"),
-    "curvature": "1/{length}", "couple": "{force} {length}", "EI": "{force} {length}^2",
+    "couple": "{force} {length}", "EI": "{force} {length}^2",
     "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
@@ -235,6 +236,21 @@ HUGE = 1e300
 """Beyond it a value may leave the range of doubles in a smaller unit."""
 SMALL = ("deflection", "opening", "sag", "gap", "set")
 """Displacements, which are small beside lengths."""
+
+
+def reported(extremes: dict[str, Any]) -> dict[str, Any]:
+    """Take what the report tells of extremes along the beam.
+
+    Parameters
+    ----------
+    extremes : dict
+        By name of the quantity.
+
+    Returns
+    -------
+    dict
+    """
+    return {name: row for name, row in extremes.items() if name in REPORTED}
 
 
 def unit(scene: Scene, quantity: str) -> str:
