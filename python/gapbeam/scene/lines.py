@@ -33,7 +33,7 @@ def lines_of_keys(text: str) -> dict[Path, int]:
 
     Examples
     --------
-    >>> lines = lines_of_keys("[beam]\\nspans = [6.0,\\n  7.0]\\n[[supports]]\\nnode = 0\\n[[supports]]\\nlaw.type = 'plastic'\\n")
+    >>> lines = lines_of_keys("[beam]\nspans = [6.0,\n  7.0]\n[[supports]]\nnode = 0\n[[supports]]\nlaw.type = 'plastic'\n")
     >>> lines["beam", "spans", 1], lines["supports", 1], lines["supports", 1, "law", "type"]
     (3, 6, 7)
     """
