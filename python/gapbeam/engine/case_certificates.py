@@ -8,9 +8,9 @@ import numpy as np
 
 from ..base.errors import check_ended
 from . import calls as _engine
+from . import quantities
 from .beam import RULES, Beam
 from .combinations import Varied
-from . import quantities
 
 BOUNDED = (*quantities.BOUNDED, "reaction")
 """What has error bounds."""

@@ -7,19 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..engine.quantities import FIELDS
+from ..engine.quantities import QUANTITIES
 from ..results.data import SCHEMA
-
-ALONG = {
-    "deflection": "Deflection (length), positive downward.",
-    "rotation": "Rotation (rad), positive clockwise.",
-    "moment": "Bending moment (force*length), positive sagging.",
-    "shear": "Shear force (force), the derivative of the moment.",
-    "axial_force": "Axial force (force), tension positive; only with axial loads.",
-    "axial_displacement": "Displacement along the beam (length), positive to the right; only with axial loads.",
-    "pressure": "Line reaction of the ground (force/length), positive where it pushes the beam up; only with foundations.",
-}
-"""What the fields along the beam are."""
 
 WORDS = {
     "Schema": [SCHEMA],
@@ -33,7 +22,7 @@ WORDS = {
 
 def _along(of: str) -> dict[str, tuple[str, str]]:
     """Give a key for every field along the beam."""
-    return {f"{name}?": (of, ALONG[name]) for name in FIELDS}
+    return {f"{one.name}?": (of, one.meaning) for one in QUANTITIES}
 
 
 STATE = {
