@@ -1,6 +1,7 @@
 !> Fields anywhere along the beam, and their extremes
 module gapbeam_fields
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: extreme_margin
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
     use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, terms_of_derived, with_derived
@@ -14,8 +15,6 @@ module gapbeam_fields
     !> Binomial coefficients i of n, shape (1:5, 2:5)
     real(wp), parameter :: chosen(5, 2:5) = reshape([real(wp) :: 2, 1, 0, 0, 0, 3, 3, 1, 0, 0, 4, 6, 4, 1, 0, 5, 10, 10, 5, 1], &
                                                     [5, 4])
-    !> Far more than rounding makes of a field, as a share of it
-    real(wp), parameter :: margin = 1.0e-6_wp
 
 contains
 
@@ -176,7 +175,7 @@ contains
         bend(state_count + 1:) = matmul(bend(1:state_count), abs(shares(1:state_count, :)))
         do k = 1, bending_count
             bend(k) = share*bend(k)
-            bend(k) = bend(k) + margin*(abs(left(k)) + abs(right(k)) + bend(k))
+            bend(k) = bend(k) + extreme_margin*(abs(left(k)) + abs(right(k)) + bend(k))
             far(k) = bend(k) <= huge(1.0_wp)
             if (.not. far(k)) cycle
             far(k) = max(left(k), right(k)) + bend(k) < known(1, k) .and. min(left(k), right(k)) - bend(k) > known(2, k)
@@ -209,15 +208,15 @@ contains
         ! What leaves the range of doubles has no bounds
         yes = size <= huge(size)/64
         if (.not. yes) return
-        yes = size*(1 + margin) < min(known(1), -known(2))
+        yes = size*(1 + extreme_margin) < min(known(1), -known(2))
         if (yes) return
         do i = 1, n
             do j = n, i, -1
                 b(j) = b(j) + b(j - 1)
             end do
         end do
-        low = minval(b(0:n)) - margin*size
-        high = maxval(b(0:n)) + margin*size
+        low = minval(b(0:n)) - extreme_margin*size
+        high = maxval(b(0:n)) + extreme_margin*size
         yes = high < known(1) .and. low > known(2)
         if (yes) return
         ! Halved (de Casteljau): those of the right half pass by at the end of the array, those of the left one are left in it
@@ -232,7 +231,7 @@ contains
         end do
         low = min(low, minval(b(0:n)))
         high = max(high, maxval(b(0:n)))
-        yes = high + margin*size < known(1) .and. low - margin*size > known(2)
+        yes = high + extreme_margin*size < known(1) .and. low - extreme_margin*size > known(2)
     end function stays_between
 
     !> Above and below all numbers

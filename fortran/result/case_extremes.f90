@@ -3,6 +3,7 @@
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: has_laws
@@ -22,8 +23,6 @@ module gapbeam_case_extremes
     private
     public :: has_lane_extremes, extremes_of_cases
 
-    !> Exponents of units up to which a power of two is a double
-    integer, parameter :: most_power = 1000
 
 contains
 
@@ -35,7 +34,7 @@ contains
         associate (beam => assembled%beam, units => assembled%units)
             yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
-                          abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_power
+                          abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_unit_power
         end associate
     end function has_lane_extremes
 

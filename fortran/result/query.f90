@@ -1,6 +1,7 @@
 !> Fields of a solved state in the user's units: at places, extremes, the free motion.
 module gapbeam_query
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: position_tolerance, end_tolerance
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: bending_values, values_at, find_extremes
@@ -9,7 +10,7 @@ module gapbeam_query
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
-    use gapbeam_stations, only: locate, position_tolerance, end_tolerance
+    use gapbeam_stations, only: locate
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range

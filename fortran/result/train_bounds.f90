@@ -10,6 +10,7 @@
 !> passes an end of the beam.
 module gapbeam_train_bounds
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
@@ -24,10 +25,8 @@ module gapbeam_train_bounds
         mark_stretches
     implicit none
     private
-    public :: bounds_type, find_bounds, slack, most_lost
+    public :: bounds_type, find_bounds, most_lost
 
-    !> Values that differ by less than this share of the largest may be the same, for they are not refined
-    real(wp), parameter :: slack = 2.0_wp**(-26)
     !> Share by which they are off at most, where they are to be trusted
     real(wp), parameter :: most_lost = 2.0_wp**(-34)
     !> The longest way without a look, as a share of a link
@@ -265,7 +264,7 @@ contains
 
             counts = .true.
             do f = 1, bending_count
-                if (any(.not. part%bound(:, f) < bounds%reached(:, f) - slack*bounds%size(f))) return
+                if (any(.not. part%bound(:, f) < bounds%reached(:, f) - train_slack*bounds%size(f))) return
             end do
             counts = .false.
         end function counts
@@ -333,9 +332,9 @@ contains
             logical :: high(2, bending_count)
 
             bound(:, :) = bound_of(i, (to - from)*bounds%view%columns%length, slopes, first, last)
-            high(:, :) = .not. bound < bounds%reached - slack*spread(bounds%size, 1, 2)
+            high(:, :) = .not. bound < bounds%reached - train_slack*spread(bounds%size, 1, 2)
             if (.not. any(high)) return
-            if (halves > 0 .and. any(high .and. bound > bounds%reached + slack*spread(bounds%size, 1, 2))) then
+            if (halves > 0 .and. any(high .and. bound > bounds%reached + train_slack*spread(bounds%size, 1, 2))) then
                 call bound_link(assembled, track, bounds%view, i, from + (to - from)/2, middle)
                 call reach_values(middle, k)
                 call bound_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)

@@ -1,6 +1,7 @@
 !> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack, train_equal
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: sample_points, to_coefficients
@@ -17,8 +18,7 @@ module gapbeam_train_curves
     use gapbeam_train_columns, only: at_distance
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link, &
         slopes_in_link, greatest_curvature
-    use gapbeam_train_bounds, only: slack, most_lost
-    use gapbeam_train_candidates, only: equal
+    use gapbeam_train_bounds, only: most_lost
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
@@ -105,7 +105,7 @@ contains
         end if
         do q = 1, size(piece)
             do k = 1, 2
-                call keep_prescribed(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
+                call keep_prescribed(track%beam, node_of_place(q), train_equal*sizes(1), value(k, 1, q))
             end do
         end do
         powers(:) = quantity_unit(assembled%units, bending)
@@ -216,7 +216,7 @@ contains
             real(wp), intent(in) :: from, to
 
             if (purpose == looking) then
-                call search_position(piece(q), distance(q), cell, from, to, reached(:, :, q) - slack*spread(sizes, 1, 2), &
+                call search_position(piece(q), distance(q), cell, from, to, reached(:, :, q) - train_slack*spread(sizes, 1, 2), &
                                      value(:, :, q), position(:, :, q))
             else
                 call glance(q, cell, from, to, purpose)
@@ -239,9 +239,9 @@ contains
             last(:) = first
             if (to > from) last(:) = fields_seen(q, cell, to)
             rise(:) = ((to - from)*view%columns%to_length)**2/8*curvature(:, track%link(piece(q)))
-            wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - slack*sizes .and. &
+            wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - train_slack*sizes .and. &
                             max(first, last) + rise > value(1, :, q) + the_same*sizes) .or. &
-                any(rise - min(first, last) >= reached(2, :, q) - slack*sizes .and. &
+                any(rise - min(first, last) >= reached(2, :, q) - train_slack*sizes .and. &
                     min(first, last) - rise < value(2, :, q) - the_same*sizes)
         end subroutine glance
 

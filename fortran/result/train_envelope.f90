@@ -5,6 +5,7 @@
 !> left is looked into (gapbeam_bernstein).
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack, train_equal
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
@@ -22,11 +23,11 @@ module gapbeam_train_envelope
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
-    use gapbeam_train_candidates, only: candidates_type, equal, least_of, raise, offer
+    use gapbeam_train_candidates, only: candidates_type, least_of, raise, offer
     use gapbeam_train_prescribed_deflections, only: keep_prescribed_extreme
     use gapbeam_train_ties, only: extreme_type, drop_rounding
     use gapbeam_train_extremes, only: find_extreme, ends_of
-    use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
+    use gapbeam_train_bounds, only: bounds_type, find_bounds, most_lost
     implicit none
     private
     public :: envelope_type, find_envelope
@@ -85,7 +86,7 @@ contains
             wanted(k) = .not. told
             do f = 1, bending_count
                 do i = 1, 2
-                    wanted(k) = wanted(k) .or. bounds%at_most(i, f, k) >= of_fields(i, f)%known - slack*bounds%size(f)
+                    wanted(k) = wanted(k) .or. bounds%at_most(i, f, k) >= of_fields(i, f)%known - train_slack*bounds%size(f)
                 end do
             end do
         end do
@@ -134,9 +135,9 @@ contains
                     call find_extreme(assembled, track, train, traversal, samples%cells, of_supports(i, f, c), i, 0, .false., &
                                       envelope%supports(i, f, c))
                     if (f <= 2) call drop_rounding(f == 1, assembled%model%supports(c)%side, &
-                                                   equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
+                                                   train_equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
                     if (f == 3) call keep_prescribed_extreme(track%beam, assembled%node_of_point(assembled%support_point(c)), &
-                                                             assembled%units%deflection, equal*of_supports(i, f, c)%largest, &
+                                                             assembled%units%deflection, train_equal*of_supports(i, f, c)%largest, &
                                                              envelope%supports(i, f, c))
                 end do
             end do

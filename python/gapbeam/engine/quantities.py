@@ -18,6 +18,8 @@ class Quantity(NamedTuple):
         As in results, JSON and CSV.
     unit : str
         Of ``{force}`` and ``{length}``.
+    meaning : str
+        What it is, with its sign, in a sentence.
     of : {"bending", "axial", "ground"}
         What a scene must have for it; every beam bends.
     by_equilibrium : bool
@@ -34,6 +36,7 @@ class Quantity(NamedTuple):
 
     name: str
     unit: str
+    meaning: str
     of: str = "bending"
     by_equilibrium: bool = False
     bounded: bool = False
@@ -43,14 +46,23 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES = (
-    Quantity("deflection", "{length}", bounded=True, panel="deflection", downward=True),
-    Quantity("rotation", "rad", bounded=True),
-    Quantity("moment", "{force} {length}", by_equilibrium=True, bounded=True, panel="moment", downward=True),
-    Quantity("shear", "{force}", by_equilibrium=True, bounded=True, panel="shear"),
-    Quantity("axial_force", "{force}", "axial", panel="axial force"),
-    Quantity("axial_displacement", "{length}", "axial"),
-    Quantity("pressure", "{force}/{length}", "ground", panel="pressure"),
-    Quantity("curvature", "1/{length}", by_equilibrium=True, reported=False, downward=True),
+    Quantity("deflection", "{length}", "Deflection (length), positive downward.",
+             bounded=True, panel="deflection", downward=True),
+    Quantity("rotation", "rad", "Rotation (rad), positive clockwise.", bounded=True),
+    Quantity("moment", "{force} {length}", "Bending moment (force*length), positive sagging.",
+             by_equilibrium=True, bounded=True, panel="moment", downward=True),
+    Quantity("shear", "{force}", "Shear force (force), the derivative of the moment.",
+             by_equilibrium=True, bounded=True, panel="shear"),
+    Quantity("axial_force", "{force}", "Axial force (force), tension positive; only with axial loads.",
+             "axial", panel="axial force"),
+    Quantity("axial_displacement", "{length}",
+             "Displacement along the beam (length), positive to the right; only with axial loads.",
+             "axial"),
+    Quantity("pressure", "{force}/{length}",
+             "Line reaction of the ground (force/length), positive where it pushes the beam up; only with foundations.",
+             "ground", panel="pressure"),
+    Quantity("curvature", "1/{length}", "Curvature M/EI less what is imposed (1/length), positive as the sagging moment.",
+             by_equilibrium=True, reported=False, downward=True),
 )
 
 FIELDS = tuple(one.name for one in QUANTITIES)

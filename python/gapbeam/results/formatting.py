@@ -14,6 +14,8 @@ from ..scene.structs import Scene
 
 DIGITS = 5
 """Of a number in a report."""
+NOISE = 1e-12
+"""Values below this share of the largest one are written as zero."""
 
 
 def support(scene: Scene, k: int) -> str:
@@ -107,6 +109,30 @@ def column(values: Iterable[float], digits: int = 6) -> list[str]:
         decimals = max(digits - 1 - _exponent(largest), min(2 - _exponent(typical), digits + 1 - _exponent(largest)), 0)
     texts = [f"{value:.{decimals}f}" for value in values]
     return [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
+
+
+def without_noise(values: Iterable[float], bound: float | None = None) -> list[float]:
+    """Write zero for what is nothing but rounding beside the largest value.
+
+    Parameters
+    ----------
+    values : iterable of float
+        Of one kind.
+    bound : float, optional
+        Error bound as a share of the largest value.
+
+    Returns
+    -------
+    list of float
+
+    Examples
+    --------
+    >>> without_noise([2.9e-11, -312676.0]), without_noise([1.0, 0.2], 0.5)
+    ([0.0, -312676.0], [1.0, 0.0])
+    """
+    values = [float(value) for value in values]
+    least = max(NOISE, bound or 0.0) * max((abs(value) for value in values if math.isfinite(value)), default=0.0)
+    return [0.0 if abs(value) <= least else value for value in values]
 
 
 def _exponent(value: float) -> int:
@@ -204,6 +230,8 @@ UNITS = {one.name: one.unit for one in QUANTITIES} | {
     "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
+AREAS = {("N", "m"): "Pa", ("kN", "m"): "kPa", ("MN", "m"): "MPa", ("N", "mm"): "MPa", ("kN", "mm"): "GPa"}
+"""Names of a force over an area."""
 HUGE = 1e300
 """Beyond it a value may leave the range of doubles in a smaller unit."""
 SMALL = ("deflection", "opening", "sag", "gap", "set")
@@ -248,6 +276,8 @@ def unit(scene: Scene, quantity: str) -> str:
     ('kN m', 'kN/m', 'rad', 'kN m^2')
     """
     force, length = visible(scene.units.force), visible(scene.units.length)
+    if quantity == "stress" and (force, length) in AREAS:
+        return AREAS[force, length]
     pattern = UNITS[quantity]
     if ("{force}" in pattern and not force) or ("{length}" in pattern and not length):
         return ""

@@ -1,4 +1,4 @@
-"""The verbs of results that draw and write; matplotlib and rich are loaded when first called."""
+"""The verbs of results that draw and write; matplotlib, rich and jinja2 are loaded when first called."""
 
 from __future__ import annotations
 
@@ -107,7 +107,29 @@ def to_json(result: Result, path: str | os.PathLike | None = None, points: int =
     return text
 
 
-def to_html(result: Result) -> str:
+def to_html(result: Result, path: str | os.PathLike | None = None) -> str:
+    """Write a result as a page of HTML.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    path : str or os.PathLike, optional
+        File to write as well.
+
+    Returns
+    -------
+    str
+    """
+    from ..html.page import html_page
+
+    text = html_page(result)
+    if path is not None:
+        write_files({path: [text]})
+    return text
+
+
+def notebook(result: Result) -> str:
     """Write what a notebook shows of a result.
 
     Parameters
