@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..scene.structs import Scene
 
-MOST_PLACES = 240
-"""Places along a beam on the ground at which its states are given."""
+MOST_PLACES, FEWER_PLACES = 240, 120
+"""Places along a beam on the ground at which its states are given; while trains pass, of which there are more states."""
 SIDES = {"below": 1, "both": 0, "above": -1}
 
 
@@ -34,7 +34,7 @@ def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
     distance : numpy.ndarray
         Distance from its left end.
     """
-    return result.places_along(max(1, MOST_PLACES // len(result.scene.beam.spans)))
+    return result.places_along(max(1, (FEWER_PLACES if result.scene.trains else MOST_PLACES) // len(result.scene.beam.spans)))
 
 
 def beam_data(result: Result) -> dict[str, Any]:
@@ -49,9 +49,11 @@ def beam_data(result: Result) -> dict[str, Any]:
     -------
     dict
         ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; on the ground ``grid``, the number of the piece and the place of every row of a state.
+        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place of every row of a state.
     """
     places = result.beam.places
+    forces = np.zeros((len(places.point_x), 2))
+    forces[places.node_points] = places.force
     with np.errstate(divide="ignore"):
         flexibility = 1.0 / places.pieces[:, 1:]
     found: dict[str, Any] = {
@@ -59,6 +61,7 @@ def beam_data(result: Result) -> dict[str, Any]:
         "pieces": np.column_stack((places.pieces[:, 0], flexibility)).tolist(),
         "dead": places.dead[:, :3].tolist(),
         "live": places.live[:, :3].tolist(),
+        "forces": forces.tolist(),
         "hinges": [float(x) for x in result.scene.beam.hinges],
     }
     if result.beam.ground_layers:

@@ -151,7 +151,8 @@ def written(values: Any, most: int = 16) -> str:
 
 def _leaves(value: float, size: float) -> str:
     """Say what a sum leaves, as a share of the sum of the sizes of its terms."""
-    return "exactly 0" if value == 0.0 else f"{value:.1e}, which is {abs(value) / size:.0e} of the sum of all sizes"
+    text = f"{value:.1e}".replace("-", "\N{MINUS SIGN}", value < 0.0)
+    return "exactly 0" if value == 0.0 else f"{text}, which is {abs(value) / size:.0e} of the sum of all sizes"
 
 
 class Joint(NamedTuple):

@@ -121,7 +121,7 @@ class Recorder:
                 found[name] = values.tolist()
         columns = self.columns(step)
         if self.grid is not None:
-            found |= {"zones": zones_of(step), "free": free_spans_of(step)}
+            found |= on_ground(step)
             return found | {f"{name}_packed": packed(values) for name, values in columns.items()}
         return found | {name: values.tolist() for name, values in joined_moments(columns).items()}
 
@@ -144,8 +144,8 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
 
 
-def zones_of(step: Step) -> list[list[Any]]:
-    """Give the zones of contact: foundation, ends, state, resultant.
+def on_ground(step: Step) -> dict[str, Any]:
+    """Give what does not follow from the values at many places: zones of contact, free spans, exact extremes.
 
     Parameters
     ----------
@@ -154,24 +154,16 @@ def zones_of(step: Step) -> list[list[Any]]:
 
     Returns
     -------
-    list of list
+    dict
+        ``zones`` foundation, ends, state, resultant; ``free`` foundation, ends, sag; ``extremes`` by field value and place of
+        the largest and of the smallest.
     """
-    return [[one.foundation, one.from_, one.to, one.state, one.resultant] for one in step.contact]
-
-
-def free_spans_of(step: Step) -> list[list[Any]]:
-    """Give the free spans: foundation, ends, sag.
-
-    Parameters
-    ----------
-    step : Step
-        A state on the ground.
-
-    Returns
-    -------
-    list of list
-    """
-    return [[one.foundation, one.from_, one.to, one.sag] for one in step.free_spans]
+    values, x = step.solution.extremes()
+    return {
+        "zones": [[one.foundation, one.from_, one.to, one.state, one.resultant] for one in step.contact],
+        "free": [[one.foundation, one.from_, one.to, one.sag] for one in step.free_spans],
+        "extremes": {name: [values[:, ROW[name]].tolist(), x[:, ROW[name]].tolist()] for name in ON_GROUND.values()},
+    }
 
 
 def stands(step: Step) -> bool:

@@ -99,7 +99,7 @@ def _supports(result: Result) -> TableData:
     table = []
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
-        values = [Cell("") if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
+        values = [Cell("", 0.0) if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
         table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else step.state[k]), *values])
     return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
 

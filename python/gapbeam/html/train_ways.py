@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +13,8 @@ from ..engine.beam import SOLVED
 from ..results import formatting as fmt
 from ..results.trains.states import Placed, TrainLoads
 from ..scene.names import label
-from .load_ways import DEEPEST, PIXEL, Way
-from .states import Recorder, free_spans_of, joined_moments, packed, zones_of
+from .load_ways import PIXEL, Way
+from .states import Recorder, joined_moments, on_ground, packed
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -22,8 +24,10 @@ if TYPE_CHECKING:
 
 WITH_AXLES, WITH_UNIFORM = 3, 4
 """Degrees in the position of what axles and uniform loads of a train make at the joints, while the same supports act."""
-MOST_NUMBERS = 24_000
-"""Numbers that a train may take on the page; where its polynomials take more, straight lines between close states do."""
+MOST_NUMBERS = 40_000
+"""Numbers that trains may take on the page; where polynomials take more, straight lines between fewer states do."""
+LEAST_STATES = 60
+"""States of a train on the ground or on smooth laws that are always drawn."""
 
 
 class PlacedRecorder(Recorder):
@@ -55,19 +59,30 @@ class PlacedRecorder(Recorder):
             values = one.values(x, distance == lengths[piece])
             moment, shear = self._of_axles(one, loads, piece, x, distance == lengths[piece])
             found = {"w": values[0], "m": values[2] - moment, "v": values[3] - shear, "p": values[6]}
-        return found | {"reaction": one.at_supports[0]}
+        return found | ({"reaction": one.at_supports[0]} if self.with_reactions else {})
+
+    @cached_property
+    def with_reactions(self) -> bool:
+        """Whether reactions do not follow from the jumps of the shear: on the ground, and where two supports may act at one place."""
+        beam = self._beam
+        across = np.flatnonzero(beam.across)
+        x, levels = beam.columns.support[0, :-1], beam.places.levels
+        for one, other in pairwise(across[np.lexsort((beam.sides[across], x[across]))].tolist()):
+            if x[one] == x[other] and not (beam.sides[one] == -1 and beam.sides[other] == 1 and levels[one] < levels[other]):
+                return True
+        return self.grid is not None
 
     def _of_axles(
         self, one: Placed, loads: TrainLoads, piece: np.ndarray, x: np.ndarray, at_end: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Moment and shear of simple bars, as long as the pieces, under the train."""
-        moment, shear = np.zeros(len(x)), np.zeros(len(x))
+        moment, shear, near = np.zeros(len(x)), np.zeros(len(x)), loads.near
         left, right = self.x[piece], self.x[piece + 1]
         for _, at, end, value in loads.loads(one.position, one.acts):
-            here = (at > left) & (at < right) if end == 0.0 else (np.maximum(at, left) < np.minimum(end, right))
+            here = (at > left + near) & (at < right - near) if end == 0.0 else (np.maximum(at, left) < np.minimum(end, right))
             length = right - left
             if end == 0.0:
-                share, before = (at - left) / length, (x < at) | ((x == at) & at_end)
+                share, before = (at - left) / length, (x < at - near) | ((x <= at + near) & at_end)
                 moment += np.where(here, value * np.where(before, (1 - share) * (x - left), share * (right - x)), 0.0)
                 shear += np.where(here, value * np.where(before, 1 - share, -share), 0.0)
             else:
@@ -91,11 +106,19 @@ class TrainWay(Way):
         Largest value of every field.
     loads : TrainLoads
         Puts the train on the beam.
+
+    Attributes
+    ----------
+    numbers : int
+        How many a state takes.
     """
 
     def __init__(self, recorder: PlacedRecorder, largest: dict[str, float], loads: TrainLoads) -> None:
         super().__init__(recorder, largest)
         self.loads = loads
+        self.rows: list[dict[str, np.ndarray]] = []
+        grid = recorder.grid
+        self.numbers = (2 * len(recorder.x) if grid is None else 4 * len(grid[0])) + len(loads.beam.sides) * recorder.with_reactions
         self._known: dict[tuple[float, bytes], tuple[Placed, dict[str, np.ndarray], int | None]] = {}
 
     def at(self, position: float, acts: np.ndarray) -> tuple[Placed, dict[str, np.ndarray]] | None:
@@ -137,13 +160,26 @@ class TrainWay(Way):
         placed, columns, number = self._known[key]
         if number is None:
             number = len(self.states)
-            record: dict[str, Any] = {"position": one.position}
-            if self.recorder.grid is not None:
-                record |= {"zones": zones_of(one.step), "free": free_spans_of(one.step)}
-            packable = columns if self.recorder.grid is not None else joined_moments(columns)
-            self.states.append(record | {f"{name}_packed": packed(values) for name, values in packable.items()})
+            self.states.append(on_ground(one.step) if self.recorder.grid is not None else {})
+            self.rows.append(columns)
             self._known[key] = placed, columns, number
         return number
+
+    def matrix(self) -> dict[str, Any]:
+        """Give the numbers of all states.
+
+        Returns
+        -------
+        dict
+            ``columns`` names with their lengths, ``packed`` the states one after the other.
+        """
+        rows = self.rows
+        if self.recorder.grid is None:  # no couples: one moment for both sides of a joint
+            shorter = [joined_moments(row) for row in rows]
+            rows = shorter if all("m_left" not in row for row in shorter) else rows
+        columns = [[name, len(values)] for name, values in rows[0].items()] if rows else []
+        flat = [values for row in rows for values in row.values()]
+        return {"columns": columns, "packed": packed(np.concatenate(flat)) if flat else ""}
 
     def run(self, from_: float, to: float, degree: int) -> None:
         """Add the interval between two positions, as one polynomial, or halved until straight lines do.
@@ -163,28 +199,45 @@ class TrainWay(Way):
             return
         self.interval(from_, to, [self.number(one) for one, _ in nodes], inside[0].step)
 
-    def halve(self, from_: float, to: float, depth: int = 0) -> None:
-        """Add the interval between two positions by straight lines between states.
+    def refine(self, ends: list[float], most: int) -> float:
+        """Add straight lines between states, and halve the worst of them as long as they are wrong by more than a pixel.
 
         Parameters
         ----------
-        from_, to : float
-            Its ends.
-        depth : int
-            Times that it has been halved.
+        ends : list of float
+            Positions between which to begin.
+        most : int
+            States that are taken.
+
+        Returns
+        -------
+        float
+            By how many pixels the worst is wrong at the end.
         """
+        queue = [one for pair in pairwise(ends) if (one := self._line(*pair)) is not None]
+        heapify(queue)
+        while len(self._known) < most and queue and -queue[0][0] > PIXEL:
+            _, from_, middle, to = heappop(queue)
+            for one in (self._line(from_, middle), self._line(middle, to)):
+                if one is not None:
+                    heappush(queue, one)
+        worst = -queue[0][0] / PIXEL if queue else 0.0
+        for _, from_, middle, to in sorted(queue, key=lambda one: one[1]):
+            acts = self.loads.acting(middle)
+            ends_ = [self.at(position, acts) for position in (from_, to)]
+            self.interval(from_, to, [self.number(one) for one, _ in ends_], self.at(middle, acts)[0].step)
+        return worst
+
+    def _line(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
+        """Error of a straight line between the states at two positions, less than 0 so that the worst comes first."""
         middle = from_ + (to - from_) / 2
         acts = self.loads.acting(middle)
-        ends = [self.at(position, acts) for position in (from_, middle, to)]
-        if None in ends:
-            return
-        (one, first), (inside, found), (other, last) = ends
+        states = [self.at(position, acts) for position in (from_, middle, to)]
+        if to - from_ <= 4 * self.loads.near or None in states:
+            return None
+        (_, first), (_, found), (_, last) = states
         straight = {name: (first[name] + last[name]) / 2 for name in first if name != "reaction"}
-        if depth < DEEPEST and self.difference(straight, {name: found[name] for name in straight}) > PIXEL:
-            self.halve(from_, middle, depth + 1)
-            self.halve(middle, to, depth + 1)
-        else:
-            self.interval(from_, to, [self.number(one), self.number(other)], inside.step)
+        return -self.difference(straight, {name: found[name] for name in straight}), from_, middle, to
 
 
 def way_of_train(
@@ -219,12 +272,14 @@ def way_of_train(
     changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)})
     ends = _ends(course, changes, way.recorder.x)
     degree = WITH_UNIFORM if len(course.uniform) else WITH_AXLES
-    numbers = 2 * len(way.recorder.x) + len(result.scene.supports)
-    exact = beam.is_linear_between_events and len(ends) * degree * numbers <= most
-    for from_, to in pairwise(ends):
-        if to - from_ <= 4 * traversal.near or any(one.from_ <= from_ and to <= one.to for one in lost):
-            continue
-        way.run(from_, to, degree) if exact else way.halve(from_, to)
+    curved = not beam.is_linear_between_events
+    exact = not curved and len(ends) * degree * way.numbers <= most
+    if not (curved or exact):
+        ends, degree = _fewer(course, ends, changes, way.recorder.x, most // way.numbers), 1
+    worst = way.refine(ends, max(LEAST_STATES, most // way.numbers)) if curved else 0.0
+    for from_, to in pairwise([] if curved else ends):
+        if to - from_ > 4 * traversal.near and not any(one.from_ <= from_ and to <= one.to for one in lost):
+            way.run(from_, to, degree)
     scene = result.scene
     events = []
     for one in traversal.events:
@@ -233,10 +288,11 @@ def way_of_train(
         what = {"support": one.support} if of_support else {"foundation": one.foundation}
         events.append({"at": one.position, **what, "x": one.x, "words": f"{name} {one.event}"})
     return {
-        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states, "intervals": way.intervals,
+        "over": "close positions" if curved else "positions" if exact else "few positions", "axis": "position", "states": way.states,
+        **way.matrix(), "intervals": way.intervals,
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
-        "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],
+        "pixels": worst, "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],
     }  # fmt: skip
 
 
@@ -247,3 +303,15 @@ def _ends(course: Course, changes: list[float], x: np.ndarray) -> list[float]:
     inside = passing[(passing > course.from_) & (passing < course.to)].tolist()
     found = sorted({course.from_, course.to, *inside, *(one for one in changes if course.from_ <= one <= course.to)})
     return found
+
+
+def _fewer(course: Course, ends: list[float], changes: list[float], x: np.ndarray, most: int) -> list[float]:
+    """Leave out positions at which axles pass inner joints, and then events, so that there are not too many."""
+    entering = (x[[0, -1], None] - course.offset[None, :]).ravel().tolist()
+    kept = {course.from_, course.to, *entering}
+    found = set(ends)
+    for wanted in (set(changes), found):
+        rest = sorted((wanted & found) - kept)
+        room = max(most - len(kept), 0)
+        kept |= set(rest if len(rest) <= room else rest[:: -(-len(rest) // room)] if room else [])
+    return sorted(kept & found)

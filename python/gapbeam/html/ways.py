@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
 
-MOST_WAYS = 60
-"""Combinations, or trains in combinations, that a page moves."""
+MOST_WAYS, MOST_VALUES = 60, 12_000
+"""Combinations, or trains in combinations, that a page moves; numbers that their states may take."""
 
 
 class Collected:
@@ -40,11 +40,13 @@ class Collected:
         self.words: list[str] = []
         self.left_out = 0
 
-    def add(self, title: str, result: Result, way: dict[str, Any]) -> None:
+    def add(self, of: tuple[str | None, str | None, str | None], title: str, result: Result, way: dict[str, Any]) -> None:
         """Add a way.
 
         Parameters
         ----------
+        of : (str, str, str)
+            Names of the combination and of the train, and which way that goes; None for what there is not.
         title : str
             What it is called.
         result : Result
@@ -54,7 +56,7 @@ class Collected:
         """
         supports = supports_data(result.scene, result.beam.places.levels)
         self.ways.append({
-            "title": title, "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
+            "of": list(of), "title": title, "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
             "loads": _number(self.loads, loads_data(result.scene)), **way,
         })  # fmt: skip
 
@@ -82,16 +84,17 @@ def collect_ways(result: Result, envelope: Envelope | TrainEnvelope | None) -> C
     """
     found = Collected()
     if not result.combinations:
-        _ways_of(found, "", result, envelope)
+        _ways_of(found, None, result, envelope)
         return found
     names = list(result.combinations)
     chosen = set(_governing(envelope) if envelope is not None else names)
     chosen = [name for name in names if name in chosen] + [name for name in names if name not in chosen]
-    most = MOST_WAYS if not result.scene.trains else max(1, MOST_WAYS // (4 * len(result.scene.trains)))
+    numbers = 2 * len(result.beam.places.point_x) + 3 * len(result.scene.supports)
+    most = max(1, min(MOST_WAYS, MOST_VALUES // numbers) // (1 + 4 * len(result.scene.trains)))
     chosen = sorted(chosen[:most], key=names.index)
     found.left_out = len(names) - len(chosen)
     for name in chosen:
-        _ways_of(found, visible(name), result.combinations[name], envelope, len(chosen))
+        _ways_of(found, name, result.combinations[name], envelope, len(chosen))
     return found
 
 
@@ -104,9 +107,10 @@ def _governing(envelope: Envelope | TrainEnvelope) -> Iterator[str]:
 
 
 def _ways_of(
-    found: Collected, name: str, result: Result, envelope: Envelope | TrainEnvelope | None, shared_by: int = 1
+    found: Collected, of: str | None, result: Result, envelope: Envelope | TrainEnvelope | None, shared_by: int = 1
 ) -> None:  # fmt: skip
     """Add the ways of one load: that of the load, those of its trains, and how it moves where it cannot stand."""
+    name = visible(of or "")
     trains = result.trains.values() if result.scene.trains and result.has_answer else ()
     traversals = [(train, one) for train in trains for one in train.traversals]
     largest = {} if envelope is None else {
@@ -114,14 +118,14 @@ def _ways_of(
     }  # fmt: skip
     for train, traversal in traversals:
         going = f", going {traversal.course.direction}" if len(train.traversals) > 1 else ""
-        most = MOST_NUMBERS // (len(traversals) * shared_by)
+        most = MOST_NUMBERS // (len(traversals) * shared_by)  # for each
         words = ": ".join(part for part in (name, f"{visible(train.name)}{going}") if part)
-        found.add(words, result, way_of_train(result, train, traversal, found.words, largest, most))
+        found.add((of, train.name, traversal.course.direction), words, result, way_of_train(result, train, traversal, found.words, largest, most))
     if result.steps:
         alone = "without trains" if traversals else ""
-        found.add(": ".join(part for part in (name, alone) if part), result, way_of_load(result, found.words))
+        found.add((of, None, None), ": ".join(part for part in (name, alone) if part), result, way_of_load(result, found.words))
     if result.motion:
         motion = {"motion": [list(pair) for pair in result.motion], "reason": result.reason, "axis": "motion"}
-        found.add(": ".join(part for part in (name, "free motion") if part), result, motion)
+        found.add((of, None, "motion"), ": ".join(part for part in (name, "free motion") if part), result, motion)
     elif not result.steps and not traversals:
-        found.add(name or "no answer", result, {"motion": [], "reason": result.reason, "axis": "motion"})
+        found.add((of, None, "motion"), name or "no answer", result, {"motion": [], "reason": result.reason, "axis": "motion"})

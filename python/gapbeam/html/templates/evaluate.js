@@ -9,10 +9,15 @@ function unpack(text) {
   return new Float32Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer);
 }
 
-/* The columns of a state, each an array; moments left of joints stand beside those right of them. */
-function decoded(state) {
+/* The columns of a state of a way, each an array; moments left of joints stand beside those right of them. */
+function decoded(way, state) {
   if (state.columns) return state.columns;
   const columns = {};
+  if (way.packed) { // of all states, one after the other
+    way.numbers = way.numbers || unpack(way.packed);
+    let at = way.states.indexOf(state) * way.columns.reduce((sum, [, count]) => sum + count, 0);
+    for (const [name, count] of way.columns) columns[name] = way.numbers.subarray(at, (at += count));
+  }
   for (const [key, value] of Object.entries(state)) {
     if (key.endsWith("_packed")) columns[key.slice(0, -7)] = unpack(value);
     else if (Array.isArray(value) && key !== "zones" && key !== "free") columns[key] = value;
@@ -48,11 +53,11 @@ class State {
     const nodes = interval.nodes.map((k) => way.states[k]);
     const mixed = weights(nodes.length, share);
     this.exactNode = mixed.indexOf(1) >= 0 && mixed.filter((one) => one !== 0).length === 1 ? nodes[mixed.indexOf(1)] : null;
-    const columns = nodes.map(decoded);
+    const columns = nodes.map((one) => decoded(way, one));
     for (const key of new Set(columns.flatMap(Object.keys))) {
       const all = columns.map((one) => one[key]);
       const filled = all.find((one) => one);
-      this[key] = this.exactNode ? decoded(this.exactNode)[key] || filled.map(() => 0)
+      this[key] = this.exactNode ? decoded(way, this.exactNode)[key] || filled.map(() => 0)
         : Array.from(filled, (_, i) => all.reduce((sum, one, j) => sum + (one ? mixed[j] * one[i] : 0), 0));
     }
     const factors = nodes.map((one) => one.factor);
@@ -67,8 +72,17 @@ class State {
     if (!this.opening) this.fillSupports();
   }
 
-  /* While a train passes, openings and deflections follow from the beam. */
+  /* While a train passes, openings and deflections follow from the beam, reactions from the jumps of the shear. */
   fillSupports() {
+    const end = this.beam.x[this.beam.x.length - 1];
+    this.reaction = this.reaction || this.supports.map((one, k) => {
+      if (one.axial || this.words[k] === "open") return 0;
+      const near = (x) => Math.abs(x - one.x) <= 1e-12 * end, joint = this.beam.x.findIndex(near);
+      const [dead, live] = this.beam.forces[joint];
+      const force = dead + live + this.axles.reduce((sum, [x, value]) => sum + (near(x) ? value : 0), 0);
+      const left = joint > 0 ? this.value("shear", this.beam.x[joint], true) : 0;
+      return force - left + (joint < this.beam.x.length - 1 ? this.value("shear", this.beam.x[joint]) : 0);
+    });
     this.deflection = this.supports.map((one) => (one.axial ? 0 : this.value("deflection", one.x)));
     this.opening = this.supports.map((one, k) => (this.words[k] !== "open" ? 0
       : Math.max(0, one.side * (one.level - this.deflection[k]))));
@@ -168,6 +182,8 @@ class State {
 
   /* Largest and smallest value of a field along the beam with their places. */
   extremes(name, step) {
+    const exact = this.exactNode && this.exactNode.extremes && this.exactNode.extremes[name];
+    if (exact) return exact[0].map((value, i) => ({ value, x: exact[1][i] }));
     const rows = this.places(step).map(([x, left]) => [this.value(name, x, left), x, left]);
     return [1, -1].map((sign) => {
       let best = 0;

@@ -16,6 +16,11 @@ function stopsOf(way) {
     if (!joined) stops.push({ interval, at: interval.from });
     if (interval.to > interval.from) for (let i = 1; i <= count; i++) stops.push({ interval, at: i === count ? interval.to : interval.from + ((interval.to - interval.from) * i) / count });
   });
+  const first = DATA.first.at; // the position with the largest moment
+  if (way === DATA.ways[DATA.first.way] && first !== null && !stops.some((one) => one.at === first)) {
+    const after = stops.findIndex((one) => one.at > first), interval = after < 0 ? null : stops[after].interval;
+    if (interval && interval.from <= first) stops.splice(after, 0, { interval, at: first });
+  }
   way.stops = stops;
   for (const event of way.events) {
     let best = 0;
@@ -162,7 +167,7 @@ function play() {
       else goTo(view.stop + (back ? -1 : 1));
     }, single ? 900 : 40);
   }
-  button.textContent = view.playing ? "\u23f8 Pause" : "\u25b6 Play";
+  button.textContent = view.playing ? "\u25a0 Stop" : "\u25b6 Play";
   button.setAttribute("aria-pressed", String(Boolean(view.playing)));
 }
 
@@ -217,4 +222,4 @@ document.addEventListener("click", (event) => {
 });
 document.documentElement.classList.add("scripted");
 view.place = 0.5;
-choose(0);
+choose(DATA.first.way, DATA.first.at === null ? null : Math.max(0, stopsOf(DATA.ways[DATA.first.way]).findIndex((one) => one.at === DATA.first.at)));
