@@ -34,7 +34,8 @@ def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
     distance : numpy.ndarray
         Distance from its left end.
     """
-    return result.places_along(max(1, (FEWER_PLACES if result.scene.trains else MOST_PLACES) // len(result.scene.beam.spans)))
+    most = FEWER_PLACES if result.scene.trains else MOST_PLACES
+    return result.places_along(max(1, most // len(result.scene.beam.spans)))
 
 
 def beam_data(result: Result) -> dict[str, Any]:
@@ -49,7 +50,8 @@ def beam_data(result: Result) -> dict[str, Any]:
     -------
     dict
         ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place of every row of a state.
+        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place
+        of every row of a state.
     """
     places = result.beam.places
     forces = np.zeros((len(places.point_x), 2))
@@ -112,7 +114,8 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         kind = load.__struct_config__.tag
         one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
         if kind in ("force", "moment", "axial"):
-            one |= {"x": float(nodes[load.node]) if load.node is not None else load.x, "value": load.M if kind == "moment" else load.F}
+            one["x"] = float(nodes[load.node]) if load.node is not None else load.x
+            one["value"] = load.M if kind == "moment" else load.F
         else:
             from_, to = fmt.stretch(scene, load)
             ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]

@@ -15,11 +15,13 @@ from ..base.characters import visible
 from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope
+from ..results.envelopes.over_path import PathEnvelope
 from .geometry import foundations_data, panels_data, units_data
-from .hand_check import sums_data, three_moments_data
+from .hand_check import sums_data
 from .states import packed, stands
 from .tables import tables_of
-from .ways import collect_ways
+from .three_moments import three_moments_data
+from .ways import Of, collect_ways
 from .words import bounds_in_words, exactness, left_out
 
 if TYPE_CHECKING:
@@ -29,8 +31,8 @@ if TYPE_CHECKING:
     from ..results.trains.envelope import TrainEnvelope
 
 TEMPLATES = Path(__file__).parent / "templates"
-MOST_POINTS, FEWER_POINTS = 400, 160
-"""Places along the beam at which an envelope is drawn, about; while trains pass, where each takes longer."""
+MOST_POINTS, FEWER_POINTS, FEWEST_POINTS = 400, 160, 60
+"""Places along the beam at which an envelope is drawn, about; fewer while trains pass, fewest while they do so on the ground."""
 SECONDS = "seconds"
 """What differs from run to run, and is left out."""
 
@@ -85,28 +87,32 @@ def html_page(result: Result, source: Source | None = None) -> str:
     envelope = result.envelope() if result.has_envelope and has_cheap_envelope(result) else None
     if envelope is not None and not envelope.extremes:
         envelope = None
-    collected = collect_ways(result, envelope)
-    points = max(2, (FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
     state = _state_to_check(result, envelope)
+    first = None if state is None else ((state.combination, state.train, state.direction), state.position)
+    collected = collect_ways(result, envelope, first)
+    sampled = scene.trains and not result.beam.is_linear_between_events
+    points = max(2, (FEWEST_POINTS if sampled else FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
+    whole = _result_data(result, points)
     data = {
-        "first": _first(collected.ways, state),
+        "first": _first(collected.ways, first),
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
-        "result": _result_data(result),
+        "result": whole,
         "panels": panels_data(result.beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "foundations": foundations_data(scene),
-        "envelope": _curves(result, envelope, points),
+        "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
     }  # fmt: skip
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
     return environment.get_template("page.html").render(
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
-        source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"), tables=tables_of(result, envelope, collected.ways),
-        ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
+        source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
+        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
@@ -114,12 +120,12 @@ def html_page(result: Result, source: Source | None = None) -> str:
     )  # fmt: skip
 
 
-def _result_data(result: Result) -> dict[str, Any]:
+def _result_data(result: Result, points: int) -> dict[str, Any]:
     """As the JSON output, without the seconds and without what is given state by state."""
-    data = result.to_data(1, steps=_short_steps)
+    data = result.to_data(points, steps=_short_steps)
     data.pop("fields", None)
     if "envelope" in data:
-        data["envelope"] = {key: _without_ties(value) for key, value in data["envelope"].items() if key != "fields"}
+        data["envelope"] = {key: _without_ties(value) for key, value in data["envelope"].items()}
     return data
 
 
@@ -141,14 +147,22 @@ def _short_steps(steps: Any) -> list[dict[str, Any]]:
     return found
 
 
-def _curves(result: Result, envelope: Envelope | TrainEnvelope | None, points: int) -> dict[str, Any] | None:
-    """Largest and smallest values along the beam, where there are several states."""
-    if envelope is None or not (result.combinations or result.scene.trains or hasattr(envelope, "over")):
+def _curves(
+    result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
+) -> dict[str, Any] | None:  # fmt: skip
+    """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
+    names = [one["name"] for one in panels_data(result.beam.fields)]
+    if "envelope" in whole:
+        columns = whole["envelope"].pop("fields")
+        pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
+        x = columns["x"]
+    elif envelope is not None and isinstance(envelope, PathEnvelope):
+        curves = result.envelope(points).fields
+        pairs, x = {name: (curves.largest[name], curves.smallest[name]) for name in names if name in curves.largest}, curves.x
+    else:
         return None
-    curves = result.envelope(points).fields
-    names = [one["name"] for one in panels_data(result.beam.fields) if one["name"] in curves.largest]
-    found = {name: [packed(curves.largest[name]), packed(curves.smallest[name])] for name in names}
-    return {"x": packed(curves.x), "fields": found} if np.isfinite(curves.x).all() else None
+    found = {name: [packed(np.array(values, dtype=float)) for values in pair] for name, pair in pairs.items()}
+    return {"x": packed(np.array(x)), "fields": found}
 
 
 def _json(data: Any) -> str:
@@ -178,7 +192,8 @@ def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -
     """Choose the state at the end of the load; with combinations or trains that with the largest moment."""
     if len(result.steps) and not result.scene.trains:
         step = result.steps[-1]
-        return Chosen(f"at load factor {fmt.number(step.factor)}", result, step)
+        last = "" if result.stands else ", the last state that stands"
+        return Chosen(f"at load factor {fmt.number(step.factor)}{last}", result, step)
     if envelope is None:
         return None
     extremes = [one for one in envelope.extremes["moment"].values() if one is not None]
@@ -196,12 +211,11 @@ def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -
     return Chosen(f"{words}, load factor {fmt.number(one.steps[-1].factor)}", one, one.steps[-1], name) if len(one.steps) else None
 
 
-def _first(ways: list[dict[str, Any]], state: Chosen | None) -> dict[str, Any]:
+def _first(ways: list[dict[str, Any]], first: tuple[Of, float | None] | None) -> dict[str, Any]:
     """Number of the way that is shown first, and of a train its position."""
-    for k, way in enumerate(ways):
-        if state is not None and way["of"] == [state.combination, state.train, state.direction]:
-            return {"way": k, "at": state.position}
-    return {"way": 0, "at": None}
+    if first is None or ways[0].get("motion"):
+        return {"way": 0, "at": None}
+    return next(({"way": k, "at": first[1]} for k, way in enumerate(ways) if way["of"] == list(first[0])), {"way": 0, "at": None})
 
 
 def _checked(state: Chosen) -> dict[str, Any] | None:

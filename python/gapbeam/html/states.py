@@ -19,6 +19,7 @@ ROW = {name: k for k, name in enumerate(FIELDS)}
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
 ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 """What is given of a state at many places."""
+DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
 FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force"}
 """Fields by the short names of the columns of a state."""
 
@@ -59,7 +60,7 @@ class Recorder:
         self.x = result.beam.places.point_x
         self.grid = places_on_ground(result) if result.beam.ground_layers else None
 
-    def codes(self, states: tuple[str, ...]) -> list[int]:
+    def codes(self, states: tuple[str, ...]) -> str:
         """Number the states of the supports.
 
         Parameters
@@ -69,12 +70,13 @@ class Recorder:
 
         Returns
         -------
-        list of int
+        str
+            A digit for every support, of 36; what comes after has the last one.
         """
-        for state in states:
-            if state not in self._words:
+        for state in dict.fromkeys(states):
+            if state not in self._words and len(self._words) < len(DIGITS):
                 self._words.append(state)
-        return list(map(self._words.index, states))
+        return "".join(DIGITS[self._words.index(state)] if state in self._words else DIGITS[-1] for state in states)
 
     def columns(self, step: Step) -> dict[str, np.ndarray]:
         """Give the numbers of a state between which states are drawn.

@@ -110,7 +110,8 @@ def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
         for kind, one in row.items():
             if one is not None:
                 words = f"{WORDS[kind]} {_heading(result, name, name.replace('_', ' '))}"
-                rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), Cell(source_in_words(one, result.scene))])
+                source = Cell(source_in_words(one, result.scene))
+                rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), source])
     head = ["", "value", _heading(result, "x", "at x"), "from"]
     if not any(row[3].text for row in rows):
         head, rows = head[:3], [row[:3] for row in rows]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
@@ -25,13 +26,17 @@ if TYPE_CHECKING:
 WITH_AXLES, WITH_UNIFORM = 3, 4
 """Degrees in the position of what axles and uniform loads of a train make at the joints, while the same supports act."""
 MOST_NUMBERS = 40_000
-"""Numbers that trains may take on the page; where polynomials take more, straight lines between fewer states do."""
-LEAST_STATES = 60
+"""Numbers that trains may take on the page; where polynomials take more, parabolas between fewer states do."""
+LEAST_STATES = 100
 """States of a train on the ground or on smooth laws that are always drawn."""
 
 
 class PlacedRecorder(Recorder):
     """Makes the records of states of a beam with a train on it: what axles make between the joints is added by the page."""
+
+    def __init__(self, result: Result, words: list[str]) -> None:
+        super().__init__(result, words)
+        self._at = result.scene.positions(result.scene.supports)
 
     def placed(self, one: Placed, loads: TrainLoads) -> dict[str, np.ndarray]:
         """Give the numbers of a state between which states are drawn.
@@ -63,10 +68,9 @@ class PlacedRecorder(Recorder):
 
     @cached_property
     def with_reactions(self) -> bool:
-        """Whether reactions do not follow from the jumps of the shear: on the ground, and where two supports may act at one place."""
-        beam = self._beam
-        across = np.flatnonzero(beam.across)
-        x, levels = beam.columns.support[0, :-1], beam.places.levels
+        """Whether reactions do not follow from jumps of the shear: on the ground, and where two supports may act at one place."""
+        beam, x = self._beam, self._at
+        across, levels = np.flatnonzero(beam.across), beam.places.levels
         for one, other in pairwise(across[np.lexsort((beam.sides[across], x[across]))].tolist()):
             if x[one] == x[other] and not (beam.sides[one] == -1 and beam.sides[other] == 1 and levels[one] < levels[other]):
                 return True
@@ -200,7 +204,7 @@ class TrainWay(Way):
         self.interval(from_, to, [self.number(one) for one, _ in nodes], inside[0].step)
 
     def refine(self, ends: list[float], most: int) -> float:
-        """Add straight lines between states, and halve the worst of them as long as they are wrong by more than a pixel.
+        """Add parabolas between states, and halve the worst of them as long as they are wrong by more than a pixel.
 
         Parameters
         ----------
@@ -214,35 +218,36 @@ class TrainWay(Way):
         float
             By how many pixels the worst is wrong at the end.
         """
-        queue = [one for pair in pairwise(ends) if (one := self._line(*pair)) is not None]
+        queue = [one for pair in pairwise(ends) if (one := self._parabola(*pair)) is not None]
         heapify(queue)
-        while len(self._known) < most and queue and -queue[0][0] > PIXEL:
+        while 2 * len(queue) < most and queue and -queue[0][0] > PIXEL:
             _, from_, middle, to = heappop(queue)
-            for one in (self._line(from_, middle), self._line(middle, to)):
+            for one in (self._parabola(from_, middle), self._parabola(middle, to)):
                 if one is not None:
                     heappush(queue, one)
         worst = -queue[0][0] / PIXEL if queue else 0.0
-        for _, from_, middle, to in sorted(queue, key=lambda one: one[1]):
-            acts = self.loads.acting(middle)
-            ends_ = [self.at(position, acts) for position in (from_, to)]
-            self.interval(from_, to, [self.number(one) for one, _ in ends_], self.at(middle, acts)[0].step)
+        for _, from_, _, to in sorted(queue, key=lambda one: one[1]):
+            self.run(from_, to, 2)
         return worst
 
-    def _line(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
-        """Error of a straight line between the states at two positions, less than 0 so that the worst comes first."""
-        middle = from_ + (to - from_) / 2
-        acts = self.loads.acting(middle)
-        states = [self.at(position, acts) for position in (from_, middle, to)]
+    def _parabola(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
+        """Error of parabolas between two positions, less than 0 so that the worst comes first; and positions."""
+        positions = [from_ + (to - from_) * part for part in (0.0, 0.25, 0.5, 0.75, 1.0)]
+        acts = self.loads.acting(positions[2])
+        states = [self.at(position, acts) for position in positions]
         if to - from_ <= 4 * self.loads.near or None in states:
             return None
-        (_, first), (_, found), (_, last) = states
-        straight = {name: (first[name] + last[name]) / 2 for name in first if name != "reaction"}
-        return -self.difference(straight, {name: found[name] for name in straight}), from_, middle, to
+        nodes, error = [states[k][1] for k in (0, 2, 4)], 0.0
+        for (_, found), parts in ((states[1], (3, 6, -1)), (states[3], (-1, 6, 3))):
+            drawn = {name: sum(part * one[name] for part, one in zip(parts, nodes, strict=True)) / 8 for name in found}
+            drawn, found = ({name: values for name, values in one.items() if name != "reaction"} for one in (drawn, found))
+            error = max(error, self.difference(drawn, found))
+        return -error, from_, positions[2], to
 
 
 def way_of_train(
     result: Result, train: TrainResult, traversal: ExactTraversal | SampledTraversal, words: list[str], largest: dict[str, float],
-    most: int = MOST_NUMBERS,
+    most: int = MOST_NUMBERS, also: Sequence[float] = (),
 ) -> dict[str, Any]:  # fmt: skip
     """Give the way of a train in one direction.
 
@@ -260,6 +265,8 @@ def way_of_train(
         Largest value of every field over all positions.
     most : int
         Numbers that it may take.
+    also : sequence of float
+        Positions whose states are given too.
 
     Returns
     -------
@@ -269,15 +276,14 @@ def way_of_train(
     loads = TrainLoads(beam, result.rule, course, traversal.near)
     way = TrainWay(PlacedRecorder(result, words), largest, loads)
     lost = [one for one in train.unstable_positions if one.direction == course.direction]
-    changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)})
+    changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)} | {*also})
     ends = _ends(course, changes, way.recorder.x)
     degree = WITH_UNIFORM if len(course.uniform) else WITH_AXLES
-    curved = not beam.is_linear_between_events
-    exact = not curved and len(ends) * degree * way.numbers <= most
-    if not (curved or exact):
-        ends, degree = _fewer(course, ends, changes, way.recorder.x, most // way.numbers), 1
-    worst = way.refine(ends, max(LEAST_STATES, most // way.numbers)) if curved else 0.0
-    for from_, to in pairwise([] if curved else ends):
+    exact, worst = beam.is_linear_between_events and len(ends) * degree * way.numbers <= most, 0.0
+    if not exact:
+        kept = ends if beam.ground_layers else _kept(course, changes, way.recorder.x)
+        worst = way.refine(kept, max(LEAST_STATES, most // way.numbers))
+    for from_, to in pairwise(ends if exact else []):
         if to - from_ > 4 * traversal.near and not any(one.from_ <= from_ and to <= one.to for one in lost):
             way.run(from_, to, degree)
     scene = result.scene
@@ -288,7 +294,7 @@ def way_of_train(
         what = {"support": one.support} if of_support else {"foundation": one.foundation}
         events.append({"at": one.position, **what, "x": one.x, "words": f"{name} {one.event}"})
     return {
-        "over": "close positions" if curved else "positions" if exact else "few positions", "axis": "position", "states": way.states,
+        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states,
         **way.matrix(), "intervals": way.intervals,
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
@@ -305,13 +311,6 @@ def _ends(course: Course, changes: list[float], x: np.ndarray) -> list[float]:
     return found
 
 
-def _fewer(course: Course, ends: list[float], changes: list[float], x: np.ndarray, most: int) -> list[float]:
-    """Leave out positions at which axles pass inner joints, and then events, so that there are not too many."""
-    entering = (x[[0, -1], None] - course.offset[None, :]).ravel().tolist()
-    kept = {course.from_, course.to, *entering}
-    found = set(ends)
-    for wanted in (set(changes), found):
-        rest = sorted((wanted & found) - kept)
-        room = max(most - len(kept), 0)
-        kept |= set(rest if len(rest) <= room else rest[:: -(-len(rest) // room)] if room else [])
-    return sorted(kept & found)
+def _kept(course: Course, changes: list[float], x: np.ndarray) -> list[float]:
+    """Positions of `_ends` but those at which loads pass inner joints."""
+    return _ends(course, changes, x[[0, -1]])

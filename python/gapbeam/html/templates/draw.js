@@ -2,6 +2,7 @@
 
 const WIDTH = 1000, LEFT = 84, RIGHT = 28, PANEL = 148, TITLE = 30, FOOT = 20;
 const MODEL = { loads: 94, lift: 34, labels: 88, level: 28, levels: 4 };
+const TURNED = 46; // pixels between supports below which their numbers are turned
 const MOST_NAMED = 60; // supports whose numbers are written
 
 function number(value, digits = 5) {
@@ -59,6 +60,7 @@ class Scale {
     const largest = (values) => Math.max(0, ...values.map(Math.abs)) || 1;
     this.force = largest([...loads.filter((one) => one.type === "force").map((one) => one.value),
       ...DATA.ways.flatMap((way) => way.axles || []).map(([, force]) => force)]);
+    if (DATA.supports.some((supports) => supports.length <= MOST_NAMED && spacingOf(supports) < TURNED)) MODEL.labels = 140;
     MODEL.loads += MODEL.level * Math.max(0, ...DATA.loads.map(stack));
     this.uniform = largest([...loads.filter((one) => one.ends && one.type !== "curvature").flatMap((one) => one.ends),
       ...DATA.ways.flatMap((way) => way.uniform || []).map(([q]) => q)]);
@@ -66,6 +68,8 @@ class Scale {
 
   x(place) { return LEFT + (place / (this.end || 1)) * (WIDTH - LEFT - RIGHT); }
 }
+
+function spacingOf(supports) { return (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size); }
 
 function line(x1, y1, x2, y2, name) { return `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" class="${name}"/>`; }
 function words(x, y, text, name = "", more = "") { return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" class="${name}" ${more}>${escaped(text)}</text>`; }
@@ -153,7 +157,7 @@ function drawForce(scale, x, force, at, label, name = "force", higher = 0) {
 /* Supports: filled where they act, hollow where they are open, with what they carry or how far they are open. */
 function drawSupports(state, scale, y, axis, changed) {
   const parts = [], supports = state.supports, across = supports.filter((one) => !one.axial).length;
-  const spacing = (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size);
+  const spacing = spacingOf(supports);
   const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24;
   supports.forEach((one, k) => {
     const x = scale.x(one.x), at = y(one.x, false), above = one.side < 0, branch = /^branch (\d+)/.exec(state.words[k]);
@@ -176,7 +180,7 @@ function drawSupports(state, scale, y, axis, changed) {
     parts.push("</g>");
     if (across > MOST_NAMED) return;
     const value = state.reaction[k], text = open ? `${above ? "\u2193" : "\u2191"}${shown("opening", state.opening[k])}` : shown("reaction", value);
-    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0, turned = spacing < 46;
+    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0, turned = spacing < TURNED;
     if (above) {
       const right = x > WIDTH - 90, label = open && shares ? "" : text;
       if (!turned) parts.push(`<text x="${(x + (right ? -1 : 1) * (size + 5)).toFixed(1)}" y="${(tip - size).toFixed(1)}" class="value beside ${open ? "opened" : ""}" style="text-anchor:${right ? "end" : "start"}">${escaped(label)}</text>`);
@@ -185,14 +189,14 @@ function drawSupports(state, scale, y, axis, changed) {
     }
     if (!idle && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
     const foot = low + 36;
-    if (turned) parts.push(words(x, foot - 6, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x, foot - 6)));
+    if (turned) parts.push(words(x + 4, foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x + 4, foot - 8)));
     else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(x, foot + 13, one.name.length > 9 ? `${one.name.slice(0, 8)}\u2026` : one.name, "name"));
   });
-  if (across && across <= MOST_NAMED && spacing >= 46) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
+  if (across && across <= MOST_NAMED && spacing >= TURNED) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
   return parts.join("");
 }
 
-function turnedAt(x, y) { return `transform="rotate(-60 ${x.toFixed(1)} ${y.toFixed(1)})" text-anchor="end"`; }
+function turnedAt(x, y) { return `transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" style="text-anchor:end"`; }
 
 /* One field along the beam. */
 function drawPanel(state, scale, panel, top) {

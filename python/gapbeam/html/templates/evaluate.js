@@ -68,7 +68,7 @@ class State {
     this.free = near.free || [];
     this.axles = (way.axles || []).map(([offset, force]) => [at + offset, force]);
     this.bands = (way.uniform || []).map(([q, from, to]) => [at + from, at + to, q]);
-    this.words = interval.state.map((code) => DATA.words[code]);
+    this.words = Array.from(interval.state, (code) => DATA.words[parseInt(code, 36)]);
     if (!this.opening) this.fillSupports();
   }
 
@@ -129,7 +129,7 @@ class State {
     const c = (load[0] * square) / 2, d = ((load[1] - load[0]) * square) / 6;
     let bubble = c * t * (1 - t) + d * t * (1 - t * t);
     let shear = (m1 - m0) / length + (c * (1 - 2 * t) + d * (1 - 3 * t * t)) / length;
-    let w = this.w[k] * (1 - t) + this.w[k + 1] * t + (load[2] * square * t * (1 - t)) / 2 + square * flexible * (
+    let w = this.w[k] * (1 - t) + this.w[k + 1] * t - (load[2] * square * t * (1 - t)) / 2 + square * flexible * (
       (m0 * t * (1 - t) * (2 - t)) / 6 + (m1 * t * (1 - t * t)) / 6 + (c * t * (1 - 2 * t * t + t ** 3)) / 12
       + d * t * (7 / 60 - (t * t) / 6 + t ** 4 / 20));
     for (const [a, force] of this.forces(k, s)) {
@@ -194,12 +194,12 @@ class State {
     });
   }
 
-  /* The top of a curve between its neighbours, by golden sections. */
+  /* The top of a curve beside its highest point, by golden sections; joints stand there twice. */
   refined(name, rows, best, sign, value, x) {
-    const part = (Math.sqrt(5) - 1) / 2;
-    for (const [i, j] of [[best - 1, best], [best, best + 1]]) {
-      if (i < 0 || j >= rows.length || rows[i][1] === rows[j][1]) continue;
-      let from = rows[i][1], to = rows[j][1];
+    const part = (Math.sqrt(5) - 1) / 2, top = x;
+    for (let i = Math.max(0, best - 2); i < Math.min(rows.length - 1, best + 2); i++) {
+      let from = rows[i][1], to = rows[i + 1][1];
+      if (from === to || (from !== top && to !== top)) continue;
       for (let n = 0; n < 60; n++) {
         const a = to - part * (to - from), b = from + part * (to - from);
         if (sign * this.value(name, a) > sign * this.value(name, b)) to = b;

@@ -16,11 +16,6 @@ function stopsOf(way) {
     if (!joined) stops.push({ interval, at: interval.from });
     if (interval.to > interval.from) for (let i = 1; i <= count; i++) stops.push({ interval, at: i === count ? interval.to : interval.from + ((interval.to - interval.from) * i) / count });
   });
-  const first = DATA.first.at; // the position with the largest moment
-  if (way === DATA.ways[DATA.first.way] && first !== null && !stops.some((one) => one.at === first)) {
-    const after = stops.findIndex((one) => one.at > first), interval = after < 0 ? null : stops[after].interval;
-    if (interval && interval.from <= first) stops.splice(after, 0, { interval, at: first });
-  }
   way.stops = stops;
   for (const event of way.events) {
     let best = 0;
@@ -70,7 +65,7 @@ function show() {
     svg.setAttribute("viewBox", `0 0 ${WIDTH} 220`);
     svg.innerHTML = drawMotion(way, share, 100);
     byId("now").textContent = way.motion.length ? "free motion" : "";
-    say(`${way.title ? `${way.title}. ` : ""}${way.reason}`);
+    say(`${way.title[0].toUpperCase()}${way.title.slice(1)}: ${way.reason}.`);
     slider.setAttribute("aria-valuetext", `free motion, ${Math.round(100 * share)} %`);
     byId("place-row").hidden = true;
     return;
