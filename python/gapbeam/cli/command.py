@@ -221,11 +221,12 @@ def _parser() -> argparse.ArgumentParser:
     check.set_defaults(command=_check)
 
     schema = commands.add_parser(
-        "schema", help="print the JSON Schema of scenes", formatter_class=plain,
+        "schema", help="print the JSON Schema of scenes or results", formatter_class=plain,
         description="Print the JSON Schema of scenes: editors complete and check scenes by it.",
         epilog="For editors with Taplo (Even Better TOML): gapbeam schema > gapbeam.schema.json, and as the first\n"
         f"line of a scene\n\n  #:schema ./gapbeam.schema.json\n\n{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
+    schema.add_argument("--results", action="store_true", help="that of the JSON output instead, for programs that read it")
     schema.set_defaults(command=_schema)
 
     add_batch(commands)
@@ -331,11 +332,14 @@ def _foundations(scene: "Scene") -> list[str]:
     return [f"{count(len(scene.foundation), 'foundation')}, {one_sided:,} of them one-sided"] if scene.foundation else []
 
 
-def _schema(_: argparse.Namespace) -> int:
+def _schema(arguments: argparse.Namespace) -> int:
     import json
 
-    from ..scene.schema import scene_schema
+    if arguments.results:
+        from ..report.result_schema import result_schema as schema
+    else:
+        from ..scene.schema import scene_schema as schema
 
     with until_closed():
-        print(json.dumps(scene_schema(), indent=2, allow_nan=False))
+        print(json.dumps(schema(), indent=2, allow_nan=False))
     return SOLVED

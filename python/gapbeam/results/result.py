@@ -10,7 +10,8 @@ from ..base.hints import Named
 from ..engine.beam import Beam
 from ..scene.structs import Scene
 from . import formatting as fmt
-from .answer import Lifted, answer, lifted_supports
+from .answer import answer, known_envelope
+from .contact import Lifted, lifted_supports
 from .data import result_data
 from .envelopes.envelope import Envelope
 from .envelopes.full_load import envelope_of_one
@@ -179,12 +180,14 @@ class Result(Verbs):
     @property
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact, each where its opening is largest on the way, in a combination, under a train."""
-        return lifted_supports(self, self.envelope()) if self.has_envelope else []
+        envelope = known_envelope(self)
+        return lifted_supports(self, envelope) if envelope is not None else []
 
     @property
     def utilisations(self) -> dict[str, Utilisation]:
         """How far the limits of the scene are used, by quantity; empty where there are none, or where nothing stands."""
-        return find_utilisations(self, self.envelope()) if self.scene.limits is not None and self.has_envelope else {}
+        envelope = known_envelope(self) if self.scene.limits is not None else None
+        return find_utilisations(self, envelope) if envelope is not None else {}
 
     def __repr__(self) -> str:
         """Show the answer: outcome, what has no contact, the largest values."""

@@ -24,7 +24,8 @@ TABLES = ("supports", "fields", "combinations", "events")
 OF_STEP = ("reaction", "deflection", "opening", "couple")
 """What a table tells of every support in one state."""
 SYMBOLS = {"m": "moment", "v": "shear", "q": "shear", "w": "deflection", "n": "axial_force", "displacement": "deflection",
-           "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure"}  # fmt: skip
+           "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure",
+           "kappa": "curvature"}  # fmt: skip
 """Fields by the symbols of others."""
 
 

@@ -65,7 +65,7 @@ def test_what_does_not_stand_or_lift_is_left_out():
     rows = result.envelope().foundations
     assert [row["free_span"] for row in rows] == [{"longest": None, "deepest": None}] * 2
     assert sum(row["resultant"]["min"].value for row in rows) == pytest.approx(200.0, rel=1e-12)
-    assert "hangs free nowhere" in report_text(result, 120)
+    assert "There is no free span." in report_text(result, 120)
     assert np.isnan(result.combinations.columns()["moment_max"]).tolist() == [False, True]
 
 

@@ -216,7 +216,7 @@ def test_outputs(tmp_path):
     assert "pressure" in data["envelope"]["extremes"]
     text = report_text(result)
     assert "Free spans while trains pass" in text
-    assert "foundation ballast" in text
+    assert "ground ballast: " in text
     assert ",pressure_max,pressure_min," in to_csv(result).splitlines()[0]
     assert len(train_envelope_figure(result).axes) == 5
     again = pickle.loads(pickle.dumps(result))
