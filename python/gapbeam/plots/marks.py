@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -97,9 +97,10 @@ class Marks:
             away = OFF + level * HIGH
             if self.turned:
                 for order, (side, start) in enumerate((("left", x + OFF), ("right", x - OFF - wide))):
-                    for up in (away - OFF, OFF - away):
-                        box = (start, y + up - HIGH / 2, start + wide, y + up + HIGH / 2)
-                        yield 2 * level + (order != (not outward)) / 2, side, "center", box
+                    for up, aside in product((away - OFF, OFF - away), (0.0, 2.0 * HIGH)):
+                        left = start + (aside if side == "left" else -aside)
+                        box = (left, y + up - HIGH / 2, left + wide, y + up + HIGH / 2)
+                        yield 2 * level + aside / HIGH + (order != (not outward)) / 2, side, "center", box
                 continue
             foot = y + away if outward else y - away - HIGH
             for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
