@@ -1,4 +1,4 @@
-"""Words for supports in pictures: reactions, openings, and what they are; of one state, or of an envelope."""
+"""Words of supports in pictures: reactions, openings, contact states; of one state, or of an envelope."""
 
 from __future__ import annotations
 
