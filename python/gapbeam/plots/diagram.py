@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 HEIGHT = 2.6
 """Inches of a picture of its own."""
+POINTS, POINTS_ALL = 20, 400
+"""Divisions of a span, and of a beam, at least: so many that no corners are seen."""
 
 
 def draw_diagram(result: "Result", quantity: str, axes: Axes | None = None) -> Figure:
@@ -43,7 +45,7 @@ def draw_diagram(result: "Result", quantity: str, axes: Axes | None = None) -> F
         curves = result.envelope().fields
         x, rows = curves.x, [curves.largest[quantity], curves.smallest[quantity]]
     else:
-        fields = result.fields()
+        fields = result.fields(points=max(POINTS, POINTS_ALL // len(scene.beam.spans)))
         x, rows = fields.x, [getattr(fields, quantity)]
     below = rows[1] if len(rows) > 1 else 0.0
     axes.fill_between(x, below, rows[0], color="0.9", linewidth=0)

@@ -17,6 +17,7 @@ from .branches import KINK, MARKERS, Trace
 from .key import MINUS
 from .panels import cut_text
 from .save import literal
+from .sheet import positive
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -102,8 +103,8 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     axes.axvline(0.0, color="black", linewidth=0.7)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_xlabel("deflection, downward positive" + (f" [{unit}]" if unit else ""), fontsize=9)
-    axes.set_ylabel(fmt.with_unit(scene, "reaction", "reaction, upward positive"), fontsize=9)
+    axes.set_xlabel(f"deflection, {positive(scene, 'deflection')}" + (f" [{unit}]" if unit else ""), fontsize=9)
+    axes.set_ylabel(fmt.with_unit(scene, "reaction", f"reaction, {positive(scene, 'reaction')}"), fontsize=9)
     axes.tick_params(labelsize=8)
     axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
     if len(cycles) > MOST_CYCLES:

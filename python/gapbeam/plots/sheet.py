@@ -178,6 +178,12 @@ def heading_height(text: str, handles: list[Line2D]) -> float:
     return 0.6 + 0.15 * text.count("\n") + 0.17 * legend_rows(text, handles)
 
 
+def positive(scene: Scene, quantity: str) -> str:
+    """Say which way values are positive: deflections downward, reactions upward; of an upright beam to the right and left."""
+    lying, upright = {"deflection": ("downward", "to the right"), "reaction": ("upward", "to the left")}[quantity]
+    return f"{upright if is_upright(scene) else lying} positive"
+
+
 def is_upright(scene: Scene) -> bool:
     """Whether the beam is drawn upright."""
     return scene.beam.direction == "down"
