@@ -15,7 +15,7 @@ bridge = gb.Scene(
     ],
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(bridge)
 print(result)                                            # uplift and largest values with combination and position
 for one in result.lifted:

@@ -13,12 +13,14 @@ runway = gb.Scene(
     ],
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(runway)
 print(result)                                            # largest values, each with the position of the crane
 for one in result.lifted:
     print(f"{runway.supports[one.support].name} lifts off by {1e3 * one.opening:.2f} mm, {one.train} at {one.position:.2f} m")
 most = result.envelope().extremes["moment"]["max"]
-print(f"largest moment {most.value:.1f} kN m at x = {most.x:.2f} m; at the same time: {most.concurrent}")
-print("column C1 between", result.reactions["C1"]["min"].value, "and", result.reactions["C1"]["max"].value, "kN")
+print(f"largest moment {most.value:.1f} kN m at x = {most.x:.2f} m, {most.train} at {most.position:.2f} m, "
+      f"with a shear of {most.concurrent['shear']:.1f} kN")
+least, most = result.reactions["C1"]["min"], result.reactions["C1"]["max"]
+print(f"column C1: {least.value:.1f} to {most.value:.1f} kN")
 result.plot("crane_runway.svg")

@@ -9,7 +9,7 @@ footing = gb.Scene(
     limits=gb.Limits(pressure=280.0, moment=150.0),
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(footing)
 print(result)                                            # contact, free span, pressure in kPa, limits
 step = result.steps[-1]

@@ -22,7 +22,7 @@ pile = gb.Scene(
     loads=[gb.ForceLoad(x=0.0, F=120.0)],
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(pile)
 print(result)
 print(f"head {1e3 * float(result.at(0.0).deflection):.1f} mm, {float(result.at(0.0).rotation):.4f} rad")

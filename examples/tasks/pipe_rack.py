@@ -16,11 +16,11 @@ line = gb.Scene(
 )  # fmt: skip
 line.supports[-1].rotation = "fixed"
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(line)
 print(result.report())                                   # what lifts, reactions by combination, what governs, limits
 for one in result.lifted:
     print(f"{RACKS[one.support]} lifts off by {1e3 * one.opening:.2f} mm when {one.combination}")
-print("R2 cold and hot:", result.reactions["cold"]["R2"], result.reactions["hot"]["R2"], "kN")
+print(f"R2: {result.reactions['cold']['R2']:.2f} kN cold, {result.reactions['hot']['R2']:.2f} kN hot")
 print({name: f"{used.ratio:.0%}" for name, used in result.utilisations.items()})
 result.plot("pipe_rack.svg")

@@ -15,17 +15,18 @@ shaft = gb.Scene(
         )
     ],
     loads=[
-        gb.UniformLoad(q=0.15, case="dead"), gb.ForceLoad(x=250.0, F=-2500.0, case="gear"), gb.ForceLoad(node=3, F=900.0, case="belt"),
+        gb.UniformLoad(q=0.15, case="dead"),
+        gb.ForceLoad(x=250.0, F=-2500.0, case="gear"), gb.ForceLoad(node=3, F=900.0, case="belt"),
     ],
     analysis=gb.Analysis(follow="events"),
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(shaft)
 print(result)
 for event in result.events:
     print(f"{event.factor:.1%} of the load: {shaft.supports[event.support].name} {event.event}")
 for name, force in result.reactions.to_dict().items():
     print(f"{name:20} {force:9.1f} N  {result.states[name]}")
-print("slope at the gear:", float(result.at(250.0).rotation), "rad")
+print(f"slope at the gear {float(result.at(250.0).rotation):.2e} rad")
 result.plot("shaft.svg")

@@ -15,7 +15,7 @@ def slab(title: str, mound: list[tuple[float, float]]) -> gb.Scene:
     )  # fmt: skip
 
 
-# --8<-- what a designer asks
+# What a designer asks
 results = {name: gb.solve(slab(name, mound)) for name, mound in (("edge heave", EDGE), ("centre heave", CENTRE))}
 for name, result in results.items():
     print(result)

@@ -6,14 +6,16 @@ arm = gb.Scene(
     title="Arm: shear pin breaks, rubber stop", units=gb.Units("kN", "m"), beam=gb.Beam([3.0, 2.0], EI=8.0e3),
     supports=[
         gb.Support(node=0, name="bolt"),
-        gb.Support(node=1, name="pin", side="below", law=gb.Brittle(stiffness=5.0e5, limit=90.0), unloading="broken"),
-        gb.Support(node=2, name="rubber", side="below", gap=0.04, law=gb.Hardening(stiffness=400.0, limit=20.0, slope=4.0e3)),
+        gb.Support(node=1, name="pin", side="below", unloading="broken",
+                   law={"type": "brittle", "stiffness": 5.0e5, "limit": 90.0}),
+        gb.Support(node=2, name="rubber", side="below", gap=0.04,
+                   law={"type": "hardening", "stiffness": 400.0, "limit": 20.0, "slope": 4.0e3}),
     ],
     loads=[gb.ForceLoad(node=2, F=80.0)],
     analysis=gb.Analysis(follow="events", at_limit="jump"),
 )  # fmt: skip
 
-# --8<-- what a designer asks
+# What a designer asks
 result = gb.solve(arm)
 print(result.report())                                   # the pin breaks, at which load and reaction; largest values on the way
 limit = result.limits[0]
