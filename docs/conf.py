@@ -35,6 +35,7 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_domain_indices = False
+html_sidebars = {"languages": []}   # it has no pages below it
 html_show_sphinx = False
 html_theme_options = {
     "logo": {"text": "gapbeam"},
