@@ -63,7 +63,6 @@ QUANTITIES = (
              "ground", panel="pressure"),
     Quantity("curvature", "1/{length}", "Curvature M/EI less what is imposed (1/length), positive as the sagging moment.",
              by_equilibrium=True, reported=False, downward=True),
-    Quantity("slope", "rad", "Slope of the deflected axis (rad), rotation and shear strain, positive clockwise.", reported=False),
 )
 
 FIELDS = tuple(one.name for one in QUANTITIES)

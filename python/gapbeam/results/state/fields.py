@@ -28,8 +28,6 @@ class Fields(Record):
         Of all foundations on the beam, force per length, positive upward; only with foundations.
     curvature : numpy.ndarray
         1/length, with the sign of the moment: M/EI less the imposed curvature; it jumps where one of both does.
-    slope : numpy.ndarray
-        Of the deflected axis: rotation and shear strain; it jumps where the shear does.
     """
 
     x: np.ndarray
@@ -41,7 +39,6 @@ class Fields(Record):
     axial_displacement: np.ndarray | None = None
     pressure: np.ndarray | None = None
     curvature: np.ndarray | None = None
-    slope: np.ndarray | None = None
 
     def __iter__(self) -> Iterator[tuple]:
         """Go through the places: named tuples of x and what is there, of which pandas makes a table."""
