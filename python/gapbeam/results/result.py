@@ -50,10 +50,10 @@ class Result(Verbs):
     path : Path, BranchPath, GroundPath or None
         Following events, the schemes along the load; with supports whose state depends on it always.
     without_trains : str or None
-        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
+        Why the beam is unstable while no train is on it, which is not in the envelope and does not count for `status`; None
         where it can, and in scenes without trains.
     has_answer : bool
-        Whether there is a unique answer, be it that the beam cannot stand.
+        Whether there is a unique answer, be it that the beam is unstable.
     compression : Compression or None
         The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
         is left out. None where nothing is compressed.
