@@ -30,7 +30,7 @@ from .verbs import Verbs
 class Result(Verbs):
     """All load steps of a scene.
 
-    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    It can be pickled, for other processes, and continues there with the same digits; all its arrays are read-only. Two
     results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
 
     Attributes
@@ -200,7 +200,7 @@ class Result(Verbs):
         -------
         list of Hint
             The load is followed from event to event, so that nothing is missed between. None for beams on foundations or with
-            smooth laws, and where the state depends on the way of the load.
+            smooth laws, and where the state depends on the loading history.
         """
         return find_hints(self)
 
