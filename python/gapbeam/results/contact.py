@@ -64,7 +64,7 @@ class Lifted(NamedTuple):
 
 
 def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[Lifted]:
-    """Find the supports that are without contact somewhere on the way of the load, in a combination or while trains pass.
+    """Find the supports that are without contact somewhere on the loading history, in a combination or while trains pass.
 
     Parameters
     ----------
