@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +45,8 @@ class Distribution(Record):
         A histogram: how many lie between two edges; the last part holds its upper edge too.
     above : dict of int
         By limit how many are greater.
+    positive : int
+        How many are greater than zero; of an opening the cases without contact.
     """
 
     count: int
@@ -56,6 +58,7 @@ class Distribution(Record):
     edges: np.ndarray
     counts: np.ndarray
     above: dict[float, int]
+    positive: int = 0
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,8 @@ class Summary:
         By outcome the reason of the first such case.
     columns : dict of Distribution
         By name of the result.
+    units : dict of (str, float)
+        By name of the result its unit in pictures, and how many of it are one of the scene: 1000 for mm where lengths are in m.
     """
 
     cases: int
@@ -79,6 +84,7 @@ class Summary:
     statuses: dict[str, int]
     reasons: dict[str, str]
     columns: dict[str, Distribution]
+    units: dict[str, tuple[str, float]] = field(default_factory=dict)
 
     def asdict(self) -> dict[str, Any]:
         """As plain data.
@@ -158,7 +164,8 @@ def summarize(
         for counter in counters.values():
             counter.choose_digit()
     columns = {name: counter.found() for name, counter in counters.items()}
-    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns)
+    units = {name: found for name in columns if (found := batch.unit(name)) is not None}
+    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, units)
 
 
 class _Counter:
@@ -168,6 +175,7 @@ class _Counter:
         self._above = dict.fromkeys(limits, 0)
         self._shares, self._bins = shares, bins
         self._count, self._least, self._largest, self._sums = 0, math.inf, -math.inf, []
+        self._positive = 0
         self._squares: list[float] = []
 
     def range(self, values: np.ndarray) -> None:
@@ -179,6 +187,7 @@ class _Counter:
         self._sums.append(float(values.sum()))
         self._least = min(self._least, float(values.min()))
         self._largest = max(self._largest, float(values.max()))
+        self._positive += int((values > 0.0).sum())
         for limit in self._above:
             self._above[limit] += int((values > limit).sum())
 
@@ -230,5 +239,5 @@ class _Counter:
         deviation = math.sqrt(math.fsum(self._squares) / max(self._count - 1, 1))
         return Distribution(
             self._count, self._mean, deviation, self._least, self._largest, dict(zip(self._shares, values, strict=True)),
-            self._edges, self._counts, self._above,
+            self._edges, self._counts, self._above, self._positive,
         )  # fmt: skip

@@ -76,6 +76,9 @@ class Beam(Table, forbid_unknown_fields=True):
         Places of moment hinges inside the beam (length, from the left end).
     width : float, optional
         Width on the ground (length), by which pressures are set beside `limits.pressure`; it changes no result.
+    direction : {"right", "down"}
+        Where x goes in pictures: right (default), or down for what stands upright, such as a pile; it changes no result.
+        Downward in a lying beam is to the right then.
     """
 
     spans: Spans
@@ -84,6 +87,7 @@ class Beam(Table, forbid_unknown_fields=True):
     EA: Positive | list[Positive] = inf
     hinges: list[float] = []
     width: Positive | None = None
+    direction: Literal["right", "down"] = "right"
 
 
 class Section(Stretch, kw_only=True, gc=False):

@@ -15,14 +15,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def plot(result: Result, kind: str | None = None, path: str | os.PathLike | None = None, ax: Axes | None = None) -> Figure:
+def plot(
+    result: Result, kind: str | None = None, path: str | os.PathLike | None = None, ax: Axes | None = None,
+    support: int | str | None = None,
+) -> Figure:  # fmt: skip
     """Draw a result.
 
     Parameters
     ----------
     result : Result
         Of one load or of combinations.
-    kind, path, ax
+    kind, path, ax, support
         As for `Shown.plot`.
 
     Returns
@@ -34,19 +37,22 @@ def plot(result: Result, kind: str | None = None, path: str | os.PathLike | None
     ValueError
         There is no such picture, or an `ax` for one that has panels of its own.
     """
-    from ..plots import figure, path_figure
+    from ..plots import figure, hysteresis_figure, path_figure
     from ..plots.diagram import draw_diagram
     from ..plots.save import picture, save
 
     fields = list(result.beam.fields)
-    if kind not in (None, "path", *fields):
-        raise ValueError(f"kind: expected None, {choice(map(shown, ['path', *fields]))}, got {shown(kind)}")
+    whole = {None: figure, "path": path_figure, "hysteresis": lambda one: hysteresis_figure(one, support)}
+    if kind not in (*whole, *fields):
+        raise ValueError(f"kind: expected None, {choice(map(shown, ['path', 'hysteresis', *fields]))}, got {shown(kind)}")
+    if support is not None and kind != "hysteresis":
+        raise ValueError(f'support: only a picture of one support needs it, kind = "hysteresis"; got {shown(support)}')
     if kind in fields:
         drawn = draw_diagram(result, kind, ax)
     elif ax is not None:
         raise ValueError(f"ax: this picture has panels of its own; give one field to draw there, as kind = {shown(fields[2])}")
     else:
-        drawn = path_figure(result) if kind == "path" else figure(result)
+        drawn = whole[kind](result)
     if path is not None:
         if os.path.splitext(path)[1].lower() not in (".png", ".pdf", ".svg"):
             raise ValueError(f"path: expected a file that ends in .png, .pdf or .svg, got {shown(os.fspath(path))}")
