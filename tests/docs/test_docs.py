@@ -63,3 +63,9 @@ def test_pictures_are_what_is_drawn(name, draw, tmp_path):
     ]
     assert len(texts[0]) > 15
     assert texts[0] == texts[1]
+
+
+def test_the_citation_has_the_version():
+    cited = (TOP / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {gapbeam.__version__}\n" in cited
+    assert f"(version {gapbeam.__version__})" in page("cite")

@@ -1,4 +1,4 @@
-"""Reaction over deflection of one support along the way of the load: its law as it was gone through, and the energy of every cycle."""
+"""Reaction over deflection of one support along the loading history: its law as it was gone through, and the energy of every cycle."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
 
 
 def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> list[Cycle]:
-    """Cut the way of the load into cycles: two factors of its history each.
+    """Cut the loading history into cycles: two factors of its history each.
 
     Parameters
     ----------

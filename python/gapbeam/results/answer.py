@@ -16,7 +16,7 @@ from .contact import NONE, contact_in_words, ground_in_words, lifted_supports, s
 from .envelopes.over_path import count_states, is_followed
 from .envelopes.tables import KINDS
 from .event_words import limits_of_load_in_words
-from .plausibility import doubts_of_scene
+from .plausibility import doubts_of_scene, doubts_of_signs
 from .utilisation import Utilisation, find_utilisations
 
 if TYPE_CHECKING:
@@ -141,7 +141,9 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
         quantity = "stress" if name == "pressure" else name
         value, limit = (short(scene, quantity, abs(number)) for number in (one.value, one.limit))
         mark = "EXCEEDED" if one.ratio > 1.0 else "within"
-        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {_place(scene, one)}")
+        of = ", ".join(visible(str(one.source[key])) for key in ("combination", "train") if key in one.source)
+        where = f"{_place(scene, one)}{f' ({of})' if of else ''}"
+        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {where}")
     return lines
 
 
@@ -189,7 +191,7 @@ def answer(result: Result) -> list[str]:
     if not cheap:
         return [*lines, f"{NOT_FOLLOWED[0].upper()}{NOT_FOLLOWED[1:]}."]
     if envelope is None or not envelope.extremes:
-        return lines
+        return lines + doubts_of_signs(result)
     if not result.has_envelope:
         lines.append("Up to there:")
     lines += contact_in_words(result, lifted_supports(result, envelope))
