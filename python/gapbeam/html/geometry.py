@@ -1,4 +1,4 @@
-"""What all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+"""Geometry that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
 
 from __future__ import annotations
 
