@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import Record
+from ..results.envelopes.lifted import Lifted
 from ..results.state.arguments import finite, numbers, whole
 from ..scene.wording import shown
+from .verbs import SummaryVerbs
 
 if TYPE_CHECKING:
     from .batch import Batch
@@ -58,9 +60,9 @@ class Distribution(Record):
     above: dict[float, int]
 
 
-@dataclass(frozen=True)
-class Summary:
-    """What a batch has found so far.
+@dataclass(frozen=True, repr=False)
+class Summary(SummaryVerbs):
+    """What a batch has found so far; it has the verbs of results, with distributions.
 
     Attributes
     ----------
@@ -72,6 +74,8 @@ class Summary:
         By outcome the reason of the first such case.
     columns : dict of Distribution
         By name of the result.
+    lifted : list of Lifted
+        One-sided supports without contact, and in which part of the cases; empty where openings were not wanted.
     """
 
     cases: int
@@ -79,8 +83,11 @@ class Summary:
     statuses: dict[str, int]
     reasons: dict[str, str]
     columns: dict[str, Distribution]
+    lifted: list[Lifted] = field(default_factory=list)
 
-    def asdict(self) -> dict[str, Any]:
+    renamed: ClassVar = {"asdict": "to_dict"}
+
+    def to_dict(self) -> dict[str, Any]:
         """As plain data.
 
         Returns
@@ -158,7 +165,31 @@ def summarize(
         for counter in counters.values():
             counter.choose_digit()
     columns = {name: counter.found() for name, counter in counters.items()}
-    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns)
+    lifted = batch.lifted if any(name.startswith("opening.") for name in names) else []
+    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, lifted)
+
+
+def distribution(values: np.ndarray, shares: Sequence[float] = SHARES, bins: int = 40) -> Distribution:
+    """Tell how numbers are distributed; what is not a number does not count.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        The numbers.
+    shares, bins
+        As for `summarize`.
+
+    Returns
+    -------
+    Distribution
+    """
+    counter = _Counter([], list(shares), bins)
+    counter.range(values)
+    counter.divide()
+    for digit in range(64 // DIGIT):
+        counter.count_digit(values, digit)
+        counter.choose_digit()
+    return counter.found()
 
 
 class _Counter:

@@ -63,7 +63,7 @@ def envelope_figure(result: CombinedResult) -> Figure:
     """
     scene = result.scene
     solved = "solved" in result.statuses
-    points = int(max(2, min(max(40, points_a_span(scene, result.beam)), MOST_POINTS // len(scene.beam.spans))))
+    points = int(max(2, min(max(40, points_a_span(scene, result._beam)), MOST_POINTS // len(scene.beam.spans))))
     envelope = result.envelope(points) if solved else None
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)

@@ -89,11 +89,11 @@ def figure(result: "Result", step: int = -1) -> Figure:
     kinds = plain_kinds(states)
     if stands:
         contact = result.steps[step].contact
-        points = int(max(2, min(max(40, points_a_span(scene, result.beam)), MOST_POINTS // len(scene.beam.spans))))
+        points = int(max(2, min(max(40, points_a_span(scene, result._beam)), MOST_POINTS // len(scene.beam.spans))))
         fields = result.fields(step, points=points)
         panels = [panel for panel in PANELS if getattr(fields, panel[0]) is not None]
         states = result.steps[step].state
-        kinds = kinds_of(result.beam, result.steps[step])
+        kinds = kinds_of(result._beam, result.steps[step])
     elif not result.motion:
         panels = []
 
@@ -126,7 +126,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
             contacts = ()
             if quantity == "deflection":
                 contacts = draw_contacts(panel, scene, supports, float(np.abs(fields.deflection).max()))
-            marks = _curve(panel, fields.x, getattr(fields, quantity), result.extremes(step)[quantity], contacts,
+            marks = _curve(panel, fields.x, getattr(fields, quantity), result._pairs_of_extremes(step)[quantity], contacts,
                            fmt.shown_unit(scene, quantity)[1])  # fmt: skip
             if quantity == "moment":
                 peaks = find_peaks(fields, scene.span_ends(), lambda x: result.at(x, step))

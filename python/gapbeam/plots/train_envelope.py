@@ -37,7 +37,7 @@ def train_envelope_figure(result: "Result") -> Figure:
         position of the train.
     """
     scene = result.scene
-    envelope = result.envelope(int(min(max(POINTS, points_a_span(scene, result.beam)), MOST_POINTS)))
+    envelope = result.envelope(int(min(max(POINTS, points_a_span(scene, result._beam)), MOST_POINTS)))
     states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
     width = (WIDTH - LEFT - RIGHT) * 72
     ground = GroundLanes(scene, width)
@@ -49,7 +49,7 @@ def train_envelope_figure(result: "Result") -> Figure:
     picture = Figure(figsize=(WIDTH, height), dpi=200)
     left = LEFT / WIDTH * 0.25
     picture.text(left, 1 - 0.22 / height, cut_text(fmt.title(scene, "Beam"), 95), fontsize=10, fontweight="bold", va="center")
-    names = ", ".join(dict.fromkeys(member.train for member in envelope.members if member.train))
+    names = ", ".join(dict.fromkeys(member.train for member in envelope._members if member.train))
     number = f" in {fmt.count(len(result.combinations), 'combination')}" if result.combinations else ""
     text = cut_text(f"largest and smallest values{number} while trains pass: {visible(names)}", 110)
     picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3")

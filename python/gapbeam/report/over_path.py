@@ -13,9 +13,9 @@ from ..results.envelopes.over_path import is_followed
 from .writer import Writer
 
 if TYPE_CHECKING:
-    from ..results.envelopes.envelope import Source
     from ..results.envelopes.over_path import PathEnvelope
     from ..results.result import Result
+    from ..results.views.extreme import Source
 
 MOST_ROWS = 20
 """Values at supports that are listed."""
@@ -45,9 +45,9 @@ def write_over_path(say: Writer, result: "Result") -> None:
     say.heading("Largest values over the whole way of the load")
     if not has_cheap_envelope(result):
         say.line("Not looked for: the path has so many states that this takes long; --json has them, and "
-                 "result.history_extremes() in Python.")  # fmt: skip
+                 "result.history_extremes in Python.")  # fmt: skip
         return
-    found = result.history_extremes()
+    found = result.path_envelope()
     legs = len(scene.analysis.history) > 1
     headings = ["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result, legs)]
     rows = []

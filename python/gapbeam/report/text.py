@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import answer
+from ..results.answer import answer, headline
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import write_combined
@@ -106,7 +106,7 @@ def report_text(result: "Result", width: int = 80, verbose: bool = False) -> str
 
 def _answer(say: "Writer", result: "Result") -> None:
     """The answer, before anything else."""
-    say.line(fmt.title(result.scene), "bold")
+    say.line(headline(result), "bold")
     for limit in result.limits[:MOST_LIMITS]:
         causes = ", ".join(f"{fmt.support(result.scene, k)} {event}" for k, event in limit.causes)
         words = f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else "")
@@ -252,7 +252,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
     scene = result.scene
     say.heading(f"Extremes {at}")
     rows = []
-    for quantity, extreme in result.extremes().items():
+    for quantity, extreme in result._pairs_of_extremes().items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
         texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]
         texts += [fmt.shown(scene, quantity, smallest), fmt.number(x_smallest, fmt.DIGITS)]

@@ -5,7 +5,7 @@ The report begins with them, and a result shows them where it is displayed.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,63 +13,27 @@ from ..base.characters import visible
 from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
+from .envelopes.lifted import NONE, Lifted, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .envelopes.tables import KINDS
 from .plausibility import doubts_of_scene
 from .state.ground import TOUCHING, joined
+from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
 
 if TYPE_CHECKING:
-    from .envelopes.envelope import Envelope, Extreme
+    from .envelopes.envelope import Envelope
     from .result import Result
     from .trains.envelope import TrainEnvelope
-    from .trains.members import TrainExtreme
+    from .views.extreme import Extreme
 
 MOST_WORK = 2_000_000
 """States times pieces of the beam up to which values over the whole way of the load are looked for unasked: some seconds."""
 MOST_NAMED = 8
 """Supports without contact that are named."""
-NONE = 1e-10
-"""Openings below this share of the largest deflection are said to be none."""
 WIDTH = 56
 """Characters of two values that stand in one line."""
-MOVING = "free to move: forces are unique, its position is not"
 NOT_FOLLOWED = "the path has so many states that its largest values are looked for on request only"
-
-
-class Lifted(NamedTuple):
-    """A one-sided support without contact, where its opening is largest.
-
-    Attributes
-    ----------
-    support : int
-        Its number in the scene.
-    opening : float
-        Distance of the beam from its seat, the gap included.
-    factor : float or None
-        Load factor; None in a combination at full load and while trains pass.
-    combination, train : str or None
-        Names of the combination, and of the train.
-    position : float or None
-        Of the train.
-    """
-
-    support: int
-    opening: float
-    factor: float | None = None
-    combination: str | None = None
-    train: str | None = None
-    position: float | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        return {key: value for key, value in self._asdict().items() if value is not None}
 
 
 def has_cheap_envelope(result: Result) -> bool:
@@ -87,34 +51,7 @@ def has_cheap_envelope(result: Result) -> bool:
     if not is_followed(result):
         return True
     ones = result.combinations.values() if result.combinations else [result]
-    return sum(count_states(one) for one in ones) * len(result.beam.places.pieces) <= MOST_WORK
-
-
-def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[Lifted]:
-    """Find the supports that are without contact somewhere on the way of the load, in a combination or while trains pass.
-
-    Parameters
-    ----------
-    result : Result
-        Of one load or of combinations.
-    envelope : Envelope or TrainEnvelope
-        Its `Result.envelope`.
-
-    Returns
-    -------
-    list of Lifted
-        In the order of the supports.
-    """
-    deflection = envelope.extremes["deflection"]
-    largest = max((abs(one.value) for one in deflection.values() if one is not None), default=0.0)
-    found = []
-    for k in np.flatnonzero(envelope.supports.values("opening", "max") > NONE * largest).tolist():
-        one = envelope.supports[k]["opening"]["max"]
-        train, factor = getattr(one, "train", None), getattr(one, "factor", None)
-        if factor is None and train is None and one.combination is None and result.steps:
-            factor = result.steps[-1].factor
-        found.append(Lifted(k, one.value, factor, one.combination, train, getattr(one, "position", None)))
-    return found
+    return sum(count_states(one) for one in ones) * len(result._beam.places.pieces) <= MOST_WORK
 
 
 def short(scene: Scene, quantity: str, value: float) -> str:
@@ -143,12 +80,12 @@ def short(scene: Scene, quantity: str, value: float) -> str:
     return f"{fmt.shown(scene, quantity, value)} {fmt.shown_unit(scene, quantity)[0]}".rstrip()
 
 
-def source_in_words(one: Any, scene: Scene, factor: bool = True) -> str:
+def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) -> str:
     """Say where a value comes from: combination, train and its position, load factor.
 
     Parameters
     ----------
-    one : Lifted, Extreme or TrainExtreme
+    one : Lifted or Extreme
         Has some of ``combination``, ``train``, ``position``, ``factor``, ``leg``.
     scene : Scene
         Knows the history of its load.
@@ -161,12 +98,12 @@ def source_in_words(one: Any, scene: Scene, factor: bool = True) -> str:
         Empty where there is nothing to say.
     """
     words = [] if one.combination is None else [visible(one.combination)]
-    train = getattr(one, "train", None)
+    train = one.train
     if train is not None:
         direction = " going left" if getattr(one, "direction", None) == LEFT else ""
         at = "" if one.position is None else f" at {fmt.number(one.position, fmt.DIGITS)}"
         words.append(f"{visible(train)}{at}{direction}")
-    at = getattr(one, "factor", None)
+    at = one.factor
     if factor and at is not None:
         leg = getattr(one, "leg", None)
         on_leg = f" of leg {leg}" if leg and len(scene.analysis.history) > 1 else ""
@@ -257,11 +194,11 @@ def ground_in_words(result: Result) -> list[str]:
     return lines
 
 
-def _place(scene: Scene, one: Extreme | TrainExtreme | Utilisation) -> str:
+def _place(scene: Scene, one: Extreme | Utilisation) -> str:
     return f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
 
 
-def _one(result: Result, name: str, one: Extreme | TrainExtreme, factor: bool) -> str:
+def _one(result: Result, name: str, one: Extreme, factor: bool) -> str:
     scene = result.scene
     source = source_in_words(one, scene, factor)
     return f"{short(scene, name, one.value)} at {_place(scene, one)}{f' ({source})' if source else ''}"
@@ -284,8 +221,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     """
     last = result.steps[-1].factor if result.steps else None
     lines = []
-    def said(one: Extreme | TrainExtreme) -> bool:
-        return getattr(one, "factor", None) not in (None, last)
+    def said(one: Extreme) -> bool:
+        return one.factor not in (None, last)
 
     sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
     if np.isfinite(sizes).any():
@@ -327,6 +264,22 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
     return lines
 
 
+def headline(result: Result) -> str:
+    """Give the first line: the title, and that the beam is free to move where it is.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+
+    Returns
+    -------
+    str
+    """
+    title = fmt.title(result.scene)
+    return f"{title}: {MOVING}" if result._is_neutral else title
+
+
 def outcome_in_words(result: Result) -> list[str]:
     """Say whether the beam stands; nothing where all is well.
 
@@ -346,8 +299,6 @@ def outcome_in_words(result: Result) -> list[str]:
     elif result.status != "solved":
         title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
         lines.append(f"{title}. {fmt.sentence(visible(result.reason))}")
-    if any(step.indifferent for step in result.steps[-1:]):
-        lines.append(f"Solved, but {MOVING}.")
     return lines
 
 

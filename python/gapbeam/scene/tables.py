@@ -12,6 +12,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
+from .held import hold
 from .loads import Load
 from .structs import Foundation, Scene, Section, Support
 from .wording import choice
@@ -53,7 +54,8 @@ class Table(Sequence):
         if isinstance(index, slice):
             return [self[k] for k in range(self._count)[index]]
         k = range(self._count)[index]
-        return self.struct(**{key: _plain(value[k]) if _is_array(value) else value for key, value in self._columns.items()})
+        row = self.struct(**{key: _plain(value[k]) if _is_array(value) else value for key, value in self._columns.items()})
+        return hold(row)  # it is made anew each time, so a change would be lost
 
     def __iter__(self) -> Iterator[Any]:
         """Go through the rows."""

@@ -158,7 +158,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     with pytest.raises(ValueError, match=r"case: expected a whole number, got 1\.5"):
         done.scene_of(1.5)
     assert gapbeam.solve(done.scene_of(3)).reason == found["reason"][3]
-    assert done.failed_chunks() == [0]
+    assert done._failed_chunks() == [0]
 
 
 def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):

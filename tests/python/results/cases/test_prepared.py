@@ -49,7 +49,7 @@ def test_cases_are_scenes_with_scaled_loads(block):
             assert cases.closed[k].tolist() == step.solution.closed.tolist() or step.undecided
             assert full.steps[-1].reaction == pytest.approx(step.reaction, abs=tolerance, rel=1e-11)
             if not step.indifferent:
-                x = np.linspace(0.0, direct.beam.places.end, 7)
+                x = np.linspace(0.0, direct._beam.places.end, 7)
                 for name in ("deflection", "moment"):
                     a, b = getattr(full.at(x), name), getattr(direct.at(x), name)
                     assert a == pytest.approx(b, rel=1e-9, abs=1e-10 * max(np.abs(b).max(), 1e-6)), (seed, name)
@@ -181,7 +181,7 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                 assert fields.shear[k] == pytest.approx(there.shear, rel=1e-10, abs=scale)
                 for name in () if one.steps[-1].indifferent else ("deflection", "rotation"):
                     assert getattr(fields, name)[k] == pytest.approx(getattr(there, name), rel=1e-9, abs=1e-12), name
-                largest = one.extremes()["shear"]["max"][0]
+                largest = one.extremes["shear"]["max"].value
                 assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
                 for name, field in one.extremes().items():
                     if name in ("deflection", "rotation") and one.steps[-1].indifferent:
@@ -207,7 +207,7 @@ def test_extremes_where_digits_or_range_are_short(short, factor):
     """Then the whole case is solved once more."""
     made = scene([5.0, short, 5.0], [at(0), at(1, side="below"), at(2, side="below"), at(3)], [uniform(1.0), force(2.0, 7.0)])
     cases = gapbeam.prepare(made).solve([[factor, 0.5 * factor], [1.0, 1.0]])
-    extremes, states = cases.extremes(), cases.states()
+    extremes, states = cases.extremes(), cases._combined()
     for column, (name, field) in enumerate(extremes.items()):
         for row, kind in enumerate(("max", "min")):
             values = states.extremes[:, column]
@@ -291,7 +291,7 @@ def test_no_cases(supports):
     for cases in (beam.solve(np.zeros((0, 1))), beam.solve(gap={0: []})):
         assert cases.reaction.shape == (0, len(supports))
         assert cases.at([0.2, 0.4, 0.6]).moment.shape == (0, 3)
-        assert cases.extremes()["moment"]["max"][0].shape == cases.states().status.shape == (0,)
+        assert cases.extremes["moment"]["max"].value.shape == cases._combined().status.shape == (0,)
 
 
 def test_great_factors_are_no_infinite_ones(recwarn):

@@ -133,7 +133,7 @@ def check_bounds(result, states, tolerance=1e-10):
     found = result.history_extremes()
     values = np.array([state.extremes()[0] for state in states])
     curves = found.fields
-    for name, column in result.beam.fields.items():
+    for name, column in result._beam.fields.items():
         row = found.extremes[name]
         size = max(abs(one.value) for one in row.values()) or 1.0
         assert values[:, 0, column].max() <= row["max"].value + tolerance * size, name

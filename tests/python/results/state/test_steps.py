@@ -67,7 +67,7 @@ def test_a_step_looked_at_is_the_one_that_was_solved():
     start = np.ones(10, dtype=np.int32)
     solves = 0
     for k in range(40):
-        solution = alone.beam.solve((k + 1) / 40, "block", start)
+        solution = alone._beam.solve((k + 1) / 40, "block", start)
         for step in (result.steps[k], pickle.loads(pickle.dumps(result)).steps[k - 40]):
             assert step.solution == solution
             assert step.solves == step.solution.solves == solution.solves
