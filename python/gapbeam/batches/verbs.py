@@ -68,6 +68,11 @@ class ManyVerbs(Shown):
         raise NotImplementedError
 
     @property
+    def _drawn(self) -> Sequence[str]:
+        """Names of the results, of which each can be drawn."""
+        return self._there
+
+    @property
     def status(self) -> str:
         """``solved`` if all cases that are done are; else the worst outcome of one."""
         outcomes = self._outcomes

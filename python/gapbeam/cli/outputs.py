@@ -14,8 +14,8 @@ from ..base.files import write_files
 
 PICTURES = (".png", ".pdf", ".svg")
 SUFFIXES = {
-    "--json": (".json",), "--csv": (".csv",), "--xlsx": (".xlsx",), "--markdown": (".md",), "--output": (".json",), "--plot": PICTURES,
-    "--path": PICTURES,
+    "--json": (".json",), "--csv": (".csv",), "--xlsx": (".xlsx",), "--markdown": (".md",), "--output": (".json",),
+    "--plot": PICTURES, "--path": PICTURES,
 }  # fmt: skip
 """Suffixes of the files that an option takes; only pictures need one."""
 

@@ -200,6 +200,8 @@ def _column(value: Any) -> Any:
         value = value.to_numpy()
     if isinstance(value, np.ndarray):
         return value if value.ndim else value.item()
+    if isinstance(value, range):
+        return np.array(value)
     if not isinstance(value, list):
         return value
     with suppress(ValueError, OverflowError):  # rows of unequal length, endless integers
@@ -257,6 +259,8 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
     if array.shape[many:] not in ((), (2,)):
         return None
     if name == "node":
+        if array.dtype.kind == "f" and (array == np.round(array)).all():
+            value = array = array.astype(np.int64)
         small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
         return _own(value) if small else None
     return array.astype(float) if array.ndim else float(array)

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ..paths.ground_path import GroundEvent, GroundPath
     from ..paths.path import Event, Path, Segment
 
-MOVING = "solved, but free to move: forces are unique, its position is not"
+MOVING = "solved, but free to move: its position is not unique"
 """Of a beam in neutral equilibrium."""
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""

@@ -12,6 +12,7 @@ from ...base.errors import NoStepError, SceneError
 from ...base.memory import LITTLE, refuse_beyond
 from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
+from .arguments import whole
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -84,6 +85,7 @@ class Steps(Pickled, Sequence[Step]):
         count = len(self)
         if not count and self.outcome[1] is not None:
             raise NoStepError(*self.outcome)
+        index = whole("step", index)
         if not -count <= index < count:
             raise IndexError(f"there is no load step {index}; their numbers go from 0 to {count - 1}, or from -{count} to -1")
         k = index % count

@@ -68,6 +68,7 @@ class Shown:
     display: ClassVar[Display | None] = None
     renamed: ClassVar[Mapping[str, str]] = {}  # attributes by the names that they had
     _kinds: ClassVar[tuple[str, ...]] = ()  # of tables
+    _drawn: ClassVar[tuple[str, ...]] = ()  # names with a dot of what can be drawn
 
     @property
     def ok(self) -> bool:
@@ -135,7 +136,8 @@ the loads push it that way and no support resists
         -------
         matplotlib.figure.Figure
         """
-        if path is None and (isinstance(kind, os.PathLike) or (isinstance(kind, str) and os.path.splitext(kind)[1])):
+        is_file = isinstance(kind, os.PathLike) or (isinstance(kind, str) and os.path.splitext(kind)[1] and kind not in self._drawn)
+        if path is None and is_file:
             kind, path = None, kind
         return self._by.plot(self, kind, path, ax)
 
