@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -47,6 +47,11 @@ class Lazy(Sequence):
 
 class ManyVerbs(Shown):
     """What is asked of the results of a table in the words of results."""
+
+    meant: ClassVar = {
+        "at": "gapbeam.solve(batch.scene_of(case)).at(x)", "state": "gapbeam.solve(batch.scene_of(case))",
+        "result": "gapbeam.solve(batch.scene_of(case))", "historyextremes": "gapbeam.solve(batch.scene_of(case)).history_extremes",
+    }  # fmt: skip
 
     @property
     def _outcomes(self) -> Mapping[str, int]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import fields, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -109,6 +109,7 @@ class CaseVerbs(Shown):
 
     __slots__ = ()
     _kinds = ("cases", "supports", "fields")
+    meant: ClassVar = {"historyextremes": "extremes: every case is one state", "steps": "result(case).steps"}
 
     @property
     def scene(self) -> Scene:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..views.columns import Columns, one_of
 from ..views.labelled import Labelled, by_support
@@ -106,6 +106,7 @@ class PartVerbs(Shown):
         return self._result.envelope(x=x).fields
 
     _kinds = ("supports", "fields")
+    meant: ClassVar = {"historyextremes": "extremes, which are those of the envelope", "steps": "the steps of the result"}
 
     def table(self, kind: str = "supports") -> Columns:
         """Give a table of the largest and smallest values.

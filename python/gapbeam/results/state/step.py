@@ -6,6 +6,8 @@ Signs: deflections positive downward, reactions upward, couples clockwise; at ax
 from __future__ import annotations
 
 import warnings
+from collections import namedtuple
+from collections.abc import Iterator
 from functools import cached_property, partial
 from time import perf_counter
 from typing import NamedTuple
@@ -243,6 +245,11 @@ class Step(Pickled):
         """Exact largest and smallest values of every field, by field, then by ``max`` and ``min``."""
         find = partial(extremes_of_state, self, self._beam, Source(factor=self.factor))
         return Extremes(find, self.solution.extremes, 'step.extremes["moment"]["max"].value')
+
+    def __iter__(self) -> Iterator[tuple]:
+        """Go through the supports: named tuples of their values, of which pandas makes a table."""
+        columns = {name: getattr(self, name) for name in ("state", "reaction", "deflection", "opening", "couple")}
+        return map(namedtuple("Support", columns)._make, zip(*columns.values(), strict=True))
 
     def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
         """Fields at given distances from the left ends of pieces, as `Solution.values`: with the loads that act in this state."""

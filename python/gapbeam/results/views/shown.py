@@ -67,6 +67,7 @@ class Shown:
     __slots__ = ()
     display: ClassVar[Display | None] = None
     renamed: ClassVar[Mapping[str, str]] = {}  # attributes by the names that they had
+    meant: ClassVar[Mapping[str, str]] = {}  # as MEANT, of this kind alone
     _kinds: ClassVar[tuple[str, ...]] = ()  # of tables
     _drawn: ClassVar[tuple[str, ...]] = ()  # names with a dot of what can be drawn
 
@@ -201,4 +202,4 @@ the loads push it that way and no support resists
         if hasattr(type(self), name):  # it is there, and said itself what is wrong
             return object.__getattribute__(self, name)
         known = [one for one in dir(self) if not one.startswith("_")]
-        raise AttributeError(missing(type(self).__name__, name, known, MEANT))
+        raise AttributeError(missing(type(self).__name__, name, known, {**MEANT, **self.meant}))
