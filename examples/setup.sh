@@ -105,7 +105,7 @@ set_up() {
     export PATH PIP_DISABLE_PIP_VERSION_CHECK=1
 
     if fingerprint | cmp -s - ".venv/installed-$extras"; then return; fi
-    say "building and installing the package${extras:+ and the tools to $extras it}, some two minutes on two cores"
+    say "building and installing the package${extras:+ with what its extra $extras takes}, some two minutes on two cores"
     tell_progress &
     progress=$!
     install_package "$extras" || { kill "$progress"; fail "it could not be built: the reason stands above."; }

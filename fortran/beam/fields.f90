@@ -1,22 +1,41 @@
 !> Fields anywhere along the beam, and their extremes
 module gapbeam_fields
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: extreme_margin
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, terms_of_derived, with_derived
     use gapbeam_polynomial, only: roots_between, highest_degree
     implicit none
     private
-    public :: values_at, find_extremes
+    public :: values_at, find_extremes, bending_values, softness_of
 
     !> Degrees of the derivatives of deflection, rotation, moment, shear along a piece
-    integer, parameter :: degree(4) = [4, 3, 2, 1]
+    integer, parameter :: degree_of_state(state_count) = [4, 3, 2, 1]
     !> Binomial coefficients i of n, shape (1:5, 2:5)
     real(wp), parameter :: chosen(5, 2:5) = reshape([real(wp) :: 2, 1, 0, 0, 0, 3, 3, 1, 0, 0, 4, 6, 4, 1, 0, 5, 10, 10, 5, 1], &
                                                     [5, 4])
-    !> Far more than rounding makes of a field, as a share of it
-    real(wp), parameter :: margin = 1.0e-6_wp
 
 contains
+
+    !> 1/EI and 1/GA
+    pure function softness_of(piece) result(softness)
+        type(piece_type), intent(in) :: piece
+        real(wp) :: softness(2)
+
+        softness(:) = [piece%flexibility, piece%shear_flexibility]
+    end function softness_of
+
+    !> The quantities of bending (gapbeam_quantities) of a section
+    pure function bending_values(field, piece, kappa) result(values)
+        type(field_type), intent(in) :: field
+        !> Its piece, and the curvature imposed on that
+        type(piece_type), intent(in) :: piece
+        real(wp), intent(in) :: kappa
+        real(wp) :: values(bending_count)
+
+        values(:) = with_derived([field%deflection, field%rotation, field%moment, field%shear], softness_of(piece), kappa)
+    end function bending_values
 
     !> Fields at given places
     pure subroutine values_at(pieces, dead, live, factor, starts, piece, distance, fields)
@@ -49,14 +68,15 @@ contains
         type(piece_load_type), intent(in) :: dead(:), live(:)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
-        !> Maximum (1) and minimum (2) of deflection, rotation, moment, shear, shape (2, 4), and where they are
+        !> Maximum (1) and minimum (2) of the quantities of bending (gapbeam_quantities), shape (2, bending_count), and where they are
         real(wp), intent(out) :: values(:, :)
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(piece_load_type) :: q
-        real(wp) :: c(0:highest_degree, 4), roots(highest_degree), slope, left(4), right(4)
-        logical :: near(4)
-        integer :: j, k, i, number
+        real(wp) :: c(0:highest_degree, bending_count), roots(highest_degree), slope, left(bending_count), right(bending_count)
+        real(wp) :: share(state_count + 1, derived_count)
+        logical :: near(bending_count)
+        integer :: degree(bending_count), j, k, i, number
 
         values(1, :) = -huge(1.0_wp)
         values(2, :) = huge(1.0_wp)
@@ -65,9 +85,9 @@ contains
         ! Ends of all pieces first, so that little is left to look for inside
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
-            left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
+            left = values_of(starts(j))
             right = fields_here(pieces(j)%length)
-            do k = 1, 4
+            do k = 1, bending_count
                 ! Not of numbers that are none
                 if (left(k) < values(1, k) .and. right(k) < values(1, k) .and. left(k) > values(2, k) &
                     .and. right(k) > values(2, k)) cycle
@@ -75,12 +95,14 @@ contains
                 call consider(j, pieces(j)%length, right(k), values(:, k), piece(:, k), distance(:, k))
             end do
         end do
+        degree(1:state_count) = degree_of_state
+        degree(state_count + 1:) = maxval(spread(degree_of_state, 2, derived_count), 1, terms_of_derived())
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
-            left = [starts(j)%deflection, starts(j)%rotation, starts(j)%moment, starts(j)%shear]
+            left = values_of(starts(j))
             near = .not. far_from(pieces(j), q, left, fields_here(pieces(j)%length), values)
             if (.not. any(near)) cycle
-            ! Derivatives of the four fields as polynomials in the distance from the left end
+            ! Derivatives of the fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
                 slope = (q%qb - q%qa)/pieces(j)%length
                 c = 0.0_wp
@@ -93,7 +115,9 @@ contains
                 c(3, 1) = f*q%qa/6
                 c(4, 1) = f*slope/24
             end associate
-            do k = 1, 4
+            share = shares_of(softness_of(pieces(j)))
+            c(:, state_count + 1:) = matmul(c(:, 1:state_count), share(1:state_count, :))
+            do k = 1, bending_count
                 if (.not. near(k)) cycle
                 if (stays_between(c(0:degree(k), k), pieces(j)%length, left(k), values(:, k))) cycle
                 call roots_between(c(0:degree(k), k), pieces(j)%length, roots, number)
@@ -106,16 +130,22 @@ contains
 
     contains
 
-        !> The four fields at a distance from the left end of the piece at hand
+        !> The quantities at a distance from the left end of the piece at hand
         pure function fields_here(s) result(found)
             real(wp), intent(in) :: s
-            real(wp) :: found(4)
-            type(field_type) :: fields
+            real(wp) :: found(bending_count)
 
-            fields = fields_at(starts(j), s, pieces(j)%length, pieces(j)%flexibility, pieces(j)%shear_flexibility, q%qa, q%qb, &
-                               q%kappa)
-            found = [fields%deflection, fields%rotation, fields%moment, fields%shear]
+            found = values_of(fields_at(starts(j), s, pieces(j)%length, pieces(j)%flexibility, pieces(j)%shear_flexibility, &
+                                        q%qa, q%qb, q%kappa))
         end function fields_here
+
+        !> The quantities of a section of the piece at hand
+        pure function values_of(field) result(values)
+            type(field_type), intent(in) :: field
+            real(wp) :: values(bending_count)
+
+            values = bending_values(field, pieces(j), q%kappa)
+        end function values_of
 
     end subroutine find_extremes
 
@@ -124,12 +154,12 @@ contains
     pure function far_from(piece, load, left, right, known) result(far)
         type(piece_type), intent(in) :: piece
         type(piece_load_type), intent(in) :: load
-        !> The four fields at its ends
-        real(wp), intent(in) :: left(4), right(4)
-        !> Largest and smallest values so far, shape (2, 4)
+        !> The quantities at its ends
+        real(wp), intent(in) :: left(bending_count), right(bending_count)
+        !> Largest and smallest values so far, shape (2, bending_count)
         real(wp), intent(in) :: known(:, :)
-        logical :: far(4)
-        real(wp) :: bend(4), share, most, slope
+        logical :: far(bending_count)
+        real(wp) :: bend(bending_count), shares(state_count + 1, derived_count), share, most, slope
         integer :: k
 
         share = piece%length**2/8
@@ -140,9 +170,11 @@ contains
         bend(2) = piece%flexibility*(max(abs(left(4)), abs(right(4))) + share*slope)
         bend(3) = most
         bend(4) = slope
-        do k = 1, 4
+        shares = shares_of(softness_of(piece))
+        bend(state_count + 1:) = matmul(bend(1:state_count), abs(shares(1:state_count, :)))
+        do k = 1, bending_count
             bend(k) = share*bend(k)
-            bend(k) = bend(k) + margin*(abs(left(k)) + abs(right(k)) + bend(k))
+            bend(k) = bend(k) + extreme_margin*(abs(left(k)) + abs(right(k)) + bend(k))
             far(k) = bend(k) <= huge(1.0_wp)
             if (.not. far(k)) cycle
             far(k) = max(left(k), right(k)) + bend(k) < known(1, k) .and. min(left(k), right(k)) - bend(k) > known(2, k)
@@ -175,15 +207,15 @@ contains
         ! What leaves the range of doubles has no bounds
         yes = size <= huge(size)/64
         if (.not. yes) return
-        yes = size*(1 + margin) < min(known(1), -known(2))
+        yes = size*(1 + extreme_margin) < min(known(1), -known(2))
         if (yes) return
         do i = 1, n
             do j = n, i, -1
                 b(j) = b(j) + b(j - 1)
             end do
         end do
-        low = minval(b(0:n)) - margin*size
-        high = maxval(b(0:n)) + margin*size
+        low = minval(b(0:n)) - extreme_margin*size
+        high = maxval(b(0:n)) + extreme_margin*size
         yes = high < known(1) .and. low > known(2)
         if (yes) return
         ! Halved (de Casteljau): those of the right half pass by at the end of the array, those of the left one are left in it
@@ -198,7 +230,7 @@ contains
         end do
         low = min(low, minval(b(0:n)))
         high = max(high, maxval(b(0:n)))
-        yes = high + margin*size < known(1) .and. low - margin*size > known(2)
+        yes = high + extreme_margin*size < known(1) .and. low - extreme_margin*size > known(2)
     end function stays_between
 
     !> Above and below all numbers

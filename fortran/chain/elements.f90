@@ -5,6 +5,7 @@
 !> 40 bytes of input, 48 of eliminated rows forward, 48 and 16 of output backward at each node.
 module gapbeam_elements
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, &
         sweep_inward, step_alone, meet, sweep_outward
@@ -17,8 +18,6 @@ module gapbeam_elements
     !> Steps assembled at a time
     integer, parameter :: block_size = 64
 
-    !> Splits a double into two halves of 26 bits (Dekker 1971)
-    real(wp), parameter :: splitter = 134217729.0_wp
 
     !> The elements outward of the nodes at hand: half the load, the rotation it would make at their ends; rotation and shear
     !> of a solution at their inward ends, high and low part

@@ -5,6 +5,7 @@
 !> never compile with -ffast-math. It stands here and not in a module of its own so that compilers inline it.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
@@ -21,8 +22,6 @@ module gapbeam_residual
         real(wp) :: low = 0.0_wp
     end type double_double
 
-    !> Splits a number into two halves of its bits
-    real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
     !> Sums of the absolute values of the terms of a node's rows. A difference of deflections or moments is one term: only
     !> the length that divides it can be off

@@ -4,6 +4,7 @@
 !> solution is refined; on a long beam that is not solved from both ends it is kept up to date from then on.
 module gapbeam_evaluation
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: sign_width
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: band_ok, band_stopped
     use gapbeam_model, only: beam_type
@@ -12,7 +13,7 @@ module gapbeam_evaluation
     use gapbeam_update, only: keep_factor, update_scheme, find_groups
     use gapbeam_signs, only: sign_type, prepare_signs, find_clearly_wrong
     use gapbeam_reactions, only: by_stretches
-    use gapbeam_rules, only: find_wrong, first_width
+    use gapbeam_rules, only: find_wrong
     use gapbeam_contact_boundary, only: base_type
     implicit none
     private
@@ -37,7 +38,7 @@ module gapbeam_evaluation
         !> Is this a subdomain of the beam, so that what is found is looked at again in the whole
         logical :: in_subdomain = .false.
         !> Rounding errors beyond which a sign counts
-        real(wp) :: width = first_width
+        real(wp) :: width = sign_width
         !> The scheme solved last, if its solution can be kept up to date; that which nodes in work are those of, if they are of any
         logical, allocatable :: kept(:), applied(:)
         !> The supports whose signs count

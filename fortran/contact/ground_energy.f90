@@ -9,6 +9,7 @@
 module gapbeam_ground_energy
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: proximal_ratio
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
         gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: both
@@ -34,8 +35,6 @@ module gapbeam_ground_energy
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was is enough
     real(wp), parameter :: flat = 0.1_wp
-    !> Weight of the springs that help where the model has no one solution, beside the softest stiffness
-    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> A motion goes so many times the length of the beam at first, and at last
     real(wp), parameter :: first_way = 1e-6_wp, last_way = 1e14_wp
 

@@ -1,17 +1,15 @@
 !> Wrong supports of a contact state, those that a rule changes, and cycles of states.
 module gapbeam_rules
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: sign_width
     use gapbeam_law_margins, only: find_margins, find_wrong_states, find_doubtful_states
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
     public :: find_wrong, find_doubtful
-    public :: keep_worst_pull, keep_local_worst, keep_least_index, first_width
+    public :: keep_worst_pull, keep_local_worst, keep_least_index
     public :: mark_type, set_mark, cycled
-
-    !> Rounding errors beyond which a sign counts
-    real(wp), parameter :: first_width = 32.0_wp
 
     !> A scheme to compare later ones with
     type :: mark_type
@@ -48,7 +46,7 @@ contains
         logical :: not_zero
 
         call find_doubtful_states(beam%supports, closed, work%answers, work%deflection_size, work%reaction, &
-                                  work%reaction_error, first_width, doubtful, not_zero)
+                                  work%reaction_error, sign_width, doubtful, not_zero)
         if (present(in_doubt)) in_doubt = not_zero
     end subroutine find_doubtful
 

@@ -7,6 +7,7 @@
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_scheme
     use gapbeam_kinds, only: wp, dp
+    use gapbeam_tolerances, only: sign_width, proximal_ratio
     use gapbeam_require, only: checked, require
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged
@@ -20,14 +21,12 @@ module gapbeam_scheme
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_reactions, only: by_stretches
     use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme, is_finite
-    use gapbeam_rules, only: find_wrong, first_width
+    use gapbeam_rules, only: find_wrong
     use gapbeam_search, only: settle, refuse_scheme, rule_least_index
     implicit none
     private
     public :: find_scheme, outcome_type
 
-    !> Weak springs relative to the softest stiffness present
-    real(wp), parameter :: proximal_ratio = 10.0_wp**(-precision(1.0_wp)/3)
     !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone
     real(wp), parameter :: least_force = 8*real(epsilon(1.0_dp), wp)
     !> Moves of the reference position before giving up
@@ -98,7 +97,7 @@ contains
             ! Once, so that the last digits are those of the scheme, whatever way led to it
             if (.not. refined) call refine_scheme(beam, closed, work)
             if (.not. (settled .and. (work%from_both_ends .or. by_stretches) .and. is_finite(work))) exit
-            call find_wrong(beam, closed, first_width, work, wrong)
+            call find_wrong(beam, closed, sign_width, work, wrong)
             if (.not. any(wrong)) exit
             ! That has turned a sign, or shown one that elimination had hidden
         end do
@@ -192,7 +191,7 @@ contains
                 if (state == band_needs_pivoting) call refuse_scheme(beam, state, place, error)
                 if (allocated(error)) return
                 if (state == band_ok) then
-                    call find_wrong(beam, closed, first_width, work, wrong)
+                    call find_wrong(beam, closed, sign_width, work, wrong)
                     refined = .not. any(wrong)
                     if (refined) return
                 end if

@@ -9,7 +9,7 @@ module gapbeam_api
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, load_type, gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type, copy_model
-    use gapbeam_units, only: bound_outside, moment_unit, rotation_unit
+    use gapbeam_units, only: bound_outside, quantity_unit
     use gapbeam_assemble, only: assemble_model
     use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_check, only: check_loads
@@ -18,7 +18,9 @@ module gapbeam_api
     use gapbeam_state, only: solve_state, certify_state
     use gapbeam_events, only: event_type, follow_events
     use gapbeam_support_values, only: support_values, find_undecided
-    use gapbeam_query, only: fields_at_places, extremes_of_fields, motion_of_nodes, field_count
+    use gapbeam_query, only: motion_of_nodes
+    use gapbeam_quantities, only: bounded_count, bending
+    use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &
         require_no_path, require_result, require_size, check_call, bad_argument, make_state, summarise
     implicit none
@@ -26,6 +28,9 @@ module gapbeam_api
     public :: prepared_type, options_type, result_type, certificate_type
     public :: prepare_model, replace_loads, count_supports, count_nodes
     public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+
+    !> Fields of get_fields and get_extremes: the first so many quantities (gapbeam_quantities)
+    integer, parameter :: field_count = 6
 
 contains
 
@@ -259,26 +264,15 @@ contains
         !> Places, shape (n)
         real(wp), intent(in) :: x(:)
         !> Deflection (down), rotation (clockwise), moment (sagging), shear, axial force (tension), axial displacement (to the
-        !> right), shape (6, n)
-        real(wp), intent(out) :: fields(:, :)
+        !> right), shape (6, n); get_quantities for others
+        real(wp), intent(inout) :: fields(:, :)
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for a place off the beam
         type(error_type), allocatable, intent(out) :: error
         !> Where a field jumps: its value left of the place; default right of it
         logical, intent(in), optional :: from_left
-        type(environment_type) :: environment
-        logical :: left
+        integer :: k
 
-        call require_result(beam, result, gapbeam_solved, error)
-        if (allocated(error)) return
-        call require_size(field_count, [size(fields, 1)], error)
-        if (allocated(error)) return
-        call require_size(size(x), [size(fields, 2)], error)
-        if (allocated(error)) return
-        left = .false.
-        if (present(from_left)) left = from_left
-        call hold_environment(environment)
-        call fields_at_places(beam%lowered, result%state, x, left, fields, error)
-        call restore_environment(environment)
+        call get_quantities(beam, result, [(k, k=1, field_count)], x, fields, error, from_left)
     end subroutine get_fields
 
     !> Exact extremes of all fields along the beam
@@ -290,17 +284,9 @@ contains
         real(wp), intent(out) :: value(:, :), x(:, :)
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory, or gapbeam_bad_input for arrays of another size
         type(error_type), allocatable, intent(out) :: error
-        type(environment_type) :: environment
+        integer :: k
 
-        call require_result(beam, result, gapbeam_solved, error)
-        if (allocated(error)) return
-        call require_size(2, [size(value, 1), size(x, 1)], error)
-        if (allocated(error)) return
-        call require_size(field_count, [size(value, 2), size(x, 2)], error)
-        if (allocated(error)) return
-        call hold_environment(environment)
-        call extremes_of_fields(beam%lowered, result%state, value, x, error)
-        call restore_environment(environment)
+        call get_quantity_extremes(beam, result, [(k, k=1, field_count)], value, x, error)
     end subroutine get_extremes
 
     !> The free motion of a beam that has no equilibrium; shapes (count_nodes(beam))
@@ -353,8 +339,7 @@ contains
                                                bound_outside(found%of_nodes, units%deflection), &
                                                bound_outside(found%reaction, units%force), &
                                                bound_outside([found%deflection, found%rotation, found%moment, found%shear], &
-                                                             [units%deflection, rotation_unit(units), moment_unit(units), &
-                                                              units%force]))
+                                                             quantity_unit(units, bending(:bounded_count))))
             end associate
         end if
         call restore_environment(environment)

@@ -26,11 +26,16 @@ module gapbeam_api_trains
     use gapbeam_train_ties, only: extreme_type
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
+    use gapbeam_quantities, only: quantity_count, bending, bending_count, needs_axial, needs_ground, quantity_names
+    use gapbeam_api_quantities, only: require_quantities
     use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
-    public :: follow_train, get_train_extremes, get_train_curves
+    public :: follow_train, get_train_extremes, get_train_curves, get_train_quantity_extremes, get_train_quantity_curves
+
+    !> Fields of get_train_extremes and get_train_curves: the first so many of those of bending
+    integer, parameter :: field_count = 4
 
     !> Loads that move together
     type :: moving_train_type
@@ -116,27 +121,57 @@ contains
         type(prepared_type), intent(in) :: beam
         type(passing_type), intent(inout) :: passing
         !> Largest (1) and smallest (2) deflection, rotation, moment, shear
-        type(train_extreme_type), intent(out) :: fields(2, 4)
+        type(train_extreme_type), intent(out) :: fields(2, field_count)
         !> The same of reaction, opening, deflection, couple of every support, shape (2, 4, count_supports(beam))
         type(train_extreme_type), intent(out) :: supports(:, :, :)
         !> gapbeam_not_prepared, gapbeam_bad_input for an array of another size, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        type(environment_type) :: environment
         type(envelope_type) :: envelope
 
         call require_passing(beam, passing, error)
+        if (.not. allocated(error)) call require_size(size(beam%lowered%model%supports), [size(supports, 3)], error)
+        if (.not. allocated(error)) call envelope_of(beam, passing, envelope, error)
         if (allocated(error)) return
-        call require_size(size(beam%lowered%model%supports), [size(supports, 3)], error)
+        fields(:, :) = first_tie(envelope%fields(:, :field_count))
+        supports(:, :, :) = first_tie(envelope%supports)
+    end subroutine get_train_extremes
+
+    !> The same of quantities by their numbers (gapbeam_api_quantities)
+    subroutine get_train_quantity_extremes(beam, passing, quantities, values, error)
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        !> Those of bending, shape (m)
+        integer, intent(in) :: quantities(:)
+        !> Largest (1) and smallest (2), shape (2, m)
+        type(train_extreme_type), intent(out) :: values(:, :)
+        !> As for get_train_extremes; gapbeam_bad_input also for other quantities
+        type(error_type), allocatable, intent(out) :: error
+        type(envelope_type) :: envelope
+        integer :: k
+
+        call require_passing(beam, passing, error)
+        if (.not. allocated(error)) call require_bending(quantities, error)
+        if (.not. allocated(error)) call require_size(size(quantities), [size(values, 2)], error)
+        if (.not. allocated(error)) call envelope_of(beam, passing, envelope, error)
         if (allocated(error)) return
+        do k = 1, size(quantities)
+            values(:, k) = first_tie(envelope%fields(:, findloc(bending, quantities(k), 1)))
+        end do
+    end subroutine get_train_quantity_extremes
+
+    !> Everything that is largest or smallest
+    subroutine envelope_of(beam, passing, envelope, error)
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        type(envelope_type), intent(out) :: envelope
+        type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
+
         call hold_environment(environment)
         passing%track%beam%watch = beam%lowered%beam%watch
         call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
-        if (.not. allocated(error)) then
-            fields(:, :) = first_tie(envelope%fields)
-            supports(:, :, :) = first_tie(envelope%supports)
-        end if
         call restore_environment(environment)
-    end subroutine get_train_extremes
+    end subroutine envelope_of
 
     !> Largest and smallest fields at places of the beam over all positions; where a field jumps, of both sides
     subroutine get_train_curves(beam, passing, x, value, position, error)
@@ -150,37 +185,74 @@ contains
         real(wp), intent(out) :: value(:, :, :), position(:, :, :)
         !> As for get_train_extremes; gapbeam_bad_input also for a place off the beam
         type(error_type), allocatable, intent(out) :: error
+
+        call get_train_quantity_curves(beam, passing, bending(:field_count), x, value, position, error)
+    end subroutine get_train_curves
+
+    !> The same of quantities by their numbers (gapbeam_api_quantities)
+    subroutine get_train_quantity_curves(beam, passing, quantities, x, value, position, error)
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        !> Those of bending, shape (m)
+        integer, intent(in) :: quantities(:)
+        real(wp), intent(in) :: x(:)
+        !> As for get_train_curves, shape (2, m, n)
+        real(wp), intent(out) :: value(:, :, :), position(:, :, :)
+        !> As for get_train_curves; gapbeam_bad_input also for other quantities
+        type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
         integer, allocatable :: piece(:)
-        real(wp), allocatable :: distance(:), other(:, :, :), other_position(:, :, :)
-        integer :: i, stat
+        real(wp), allocatable :: distance(:), found(:, :, :, :), found_at(:, :, :, :)
+        integer :: i, k, side, stat
 
         call require_passing(beam, passing, error)
+        if (.not. allocated(error)) call require_bending(quantities, error)
+        if (.not. allocated(error)) call require_size(size(quantities), [size(value, 2), size(position, 2)], error)
         if (.not. allocated(error)) call require_size(size(x), [size(value, 3), size(position, 3)], error)
         if (allocated(error)) return
-        allocate (other(2, 4, size(x)), other_position(2, 4, size(x)), stat=stat)
+        allocate (found(2, bending_count, size(x), 2), found_at(2, bending_count, size(x), 2), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         call hold_environment(environment)
         passing%track%beam%watch = beam%lowered%beam%watch
-        call find_pieces(beam%lowered, x, .false., piece, distance, error)
-        if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
-                                                     value, position, error)
-        if (.not. allocated(error)) call find_pieces(beam%lowered, x, .true., piece, distance, error)
-        if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, distance, &
-                                                     other, other_position, error)
-        if (.not. allocated(error)) then
-            do i = 1, 2
-                where (merge(1.0_wp, -1.0_wp, i == 1)*(other(i, :, :) - value(i, :, :)) > 0.0_wp)
-                    value(i, :, :) = other(i, :, :)
-                    position(i, :, :) = other_position(i, :, :)
-                end where
-            end do
-        end if
+        do side = 1, 2
+            if (.not. allocated(error)) call find_pieces(beam%lowered, x, side == 2, piece, distance, error)
+            if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, &
+                                                         distance, found(:, :, :, side), found_at(:, :, :, side), error)
+        end do
         call restore_environment(environment)
-    end subroutine get_train_curves
+        if (allocated(error)) return
+        do k = 1, size(quantities)
+            associate (j => findloc(bending, quantities(k), 1))
+                do i = 1, 2
+                    value(i, k, :) = found(i, j, :, 1)
+                    position(i, k, :) = found_at(i, j, :, 1)
+                    where (merge(1.0_wp, -1.0_wp, i == 1)*(found(i, j, :, 2) - found(i, j, :, 1)) > 0.0_wp)
+                        value(i, k, :) = found(i, j, :, 2)
+                        position(i, k, :) = found_at(i, j, :, 2)
+                    end where
+                end do
+            end associate
+        end do
+    end subroutine get_train_quantity_curves
+
+    !> Refuse quantities that are not of bending, which trains do not have
+    subroutine require_bending(quantities, error)
+        integer, intent(in) :: quantities(:)
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+
+        call require_quantities(quantities, quantity_count, error)
+        do k = 1, size(quantities)
+            if (allocated(error)) return
+            if (.not. any(quantities(k) == [needs_axial, needs_ground])) cycle
+            call bad_argument(error, "quantities", "quantities("//trim(whole(k))//"): a train has no "// &
+                              trim(quantity_names(quantities(k))))
+            error%entry = k
+        end do
+    end subroutine require_bending
 
     !> Refuse beams over which no train is followed
     subroutine require_no_more(lowered, error)

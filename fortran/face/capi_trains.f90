@@ -8,6 +8,7 @@ module gapbeam_capi_trains
     use gapbeam_capi_objects, only: get_beam, check_points, report
     implicit none
     private
+    public :: get_train, as_numbers
 
 contains
 
@@ -143,6 +144,19 @@ contains
         end do
     end function c_get_train_extremes
 
+    !> A beam and a train on its way, refused where one is missing
+    subroutine get_train(beam, passing, prepared, handle, error)
+        type(c_ptr), intent(in) :: beam, passing
+        type(beam_handle), pointer, intent(out) :: prepared
+        type(passing_handle), pointer, intent(out) :: handle
+        type(error_type), allocatable, intent(out) :: error
+
+        call find_handle(beam, prepared)
+        call find_handle(passing, handle)
+        if (associated(prepared) .and. associated(handle)) return
+        call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
+    end subroutine get_train
+
     !> Value, x, position, side
     pure function as_numbers(extreme) result(numbers)
         type(train_extreme_type), intent(in) :: extreme
@@ -165,11 +179,8 @@ contains
         type(passing_handle), pointer :: handle
         type(error_type), allocatable :: error
 
-        call find_handle(beam, prepared)
-        call find_handle(passing, handle)
-        if (.not. (associated(prepared) .and. associated(handle))) then
-            call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
-        else
+        call get_train(beam, passing, prepared, handle, error)
+        if (.not. allocated(error)) then
             call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
         end if
         if (.not. allocated(error) .and. count > 0) then

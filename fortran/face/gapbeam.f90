@@ -12,6 +12,7 @@
 !>     call prepare_model(model, beam, error)                                    ! once
 !>     call solve_beam(beam, 1d0, options_type(), result, error)                 ! at every load factor
 !>     call get_fields(beam, result, [3d0], fields, error)                       ! and what it says
+!>     call get_quantities(beam, result, [gapbeam_of_curvature], [3d0], values, error)
 !>
 !> A support may follow a law instead of a stiffness: a polyline of its force over the displacement, which may harden, yield,
 !> soften and break. Where a force falls, or a support keeps a set, the state depends on the way of the load to it:
@@ -63,6 +64,9 @@ module gapbeam
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
         solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes, gapbeam_of_deflection, gapbeam_of_rotation, &
+        gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
+        gapbeam_of_curvature
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
@@ -70,7 +74,8 @@ module gapbeam
     use gapbeam_api_combinations, only: combine_loads
     use gapbeam_api_watch, only: watch_type, watch_beam, stop_calls
     use gapbeam_api_trains, only: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, &
-        follow_train, get_train_extremes, get_train_curves, gapbeam_moves_freely
+        follow_train, get_train_extremes, get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, &
+        gapbeam_moves_freely
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
     implicit none

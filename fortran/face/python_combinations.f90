@@ -1,7 +1,7 @@
 ! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS and NM are
 
 ! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
-subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
                   extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
@@ -18,6 +18,8 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, sp
     integer, intent(in) :: nv
     ! One more than there are spans or foundations, or 1 where they are those of the scene
     integer, intent(in) :: np, nf
+    ! All quantities along the beam (fortran/beam/quantities.f90)
+    integer, intent(in) :: nq
     ! Factor of every load, further movement of every support; settlement, gap and stiffness of every support
     double precision, intent(in) :: factor(nd, nc), settle(nm, nc)
     double precision, intent(in), target :: supp(3, nv, nc)
@@ -31,8 +33,8 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, factor, settle, supp, sp
     double precision, intent(in) :: dist(nx)
     ! Reaction, deflection, opening, couple of the supports
     double precision, intent(out) :: value(nm, 4, nc)
-    ! Maximum and minimum of the fields of GBGVAL, and where they are; the fields at the places
-    double precision, intent(out) :: extr(2, 7, nc), place(2, 7, nc), field(7, nx, nc)
+    ! Maximum and minimum of the quantities, and where they are; the quantities at the places
+    double precision, intent(out) :: extr(2, nq, nc), place(2, nq, nc), field(nq, nx, nc)
     integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)

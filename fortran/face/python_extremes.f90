@@ -2,7 +2,7 @@
 ! and NC are; NP and PC as for GBCASE
 
 ! Find the extremes of the fields of NC cases that GBCASE has solved, and the fields at NX places (one more than there are)
-subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, factor, supp, span, rule, closed, w, ml, mr, want, extr, place, piece, &
+subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, rule, closed, w, ml, mr, want, extr, place, piece, &
                   dist, field, status, there)
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_lane_spans, only: fits_spans
@@ -10,21 +10,23 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, factor, supp, span, rule
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nl, ns, nd, nv, np, nc, pc, nx
+    ! Quantities of bending (fortran/beam/quantities.f90)
+    integer, intent(in) :: nb
     ! As for GBCASE
     double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc), span(2, np, pc)
     integer, intent(in) :: rule
     ! By GBCASE
     integer, intent(in) :: closed(ns + 1, nc)
     double precision, intent(in) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc)
-    ! 1 for those of deflection, rotation, moment and shear that are asked for
-    integer, intent(in) :: want(4)
+    ! 1 for those quantities that are asked for
+    integer, intent(in) :: want(nb)
     ! Maximum and minimum of those, and where they are, in the scene's units; the others as they were, as are all of a case that is
     ! not solved
-    double precision, intent(inout) :: extr(2, 4, nc), place(2, 4, nc)
+    double precision, intent(inout) :: extr(2, nb, nc), place(2, nb, nc)
     ! Places, as for GBVALU, and the fields there
     integer, intent(in) :: piece(nx)
     double precision, intent(in) :: dist(nx)
-    double precision, intent(inout) :: field(4, nx, nc)
+    double precision, intent(inout) :: field(nb, nx, nc)
     ! By GBCASE in; out otherwise where a case has no extremes. Where memory ends some say so
     integer, intent(inout) :: status(nc)
     ! 0: not for such a beam, and nothing is done
@@ -36,6 +38,7 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, factor, supp, span, rule
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
     !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
     !f2py integer, intent(hide), depend(span) :: pc = shape(span, 2)
+    !f2py integer, intent(hide), depend(want) :: nb = shape(want, 0)
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle

@@ -199,24 +199,23 @@ subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
     dist = distances
 end subroutine gbfind
 
-! Fields at distances from the left ends of pieces (from 1), in the scene's units
-subroutine gbvalu(beam, state, fields, nf, nx, piece, dist, value, status, message)
+! Quantities at distances from the left ends of pieces, in the scene's units
+subroutine gbvalu(beam, state, fields, nq, nx, which, piece, dist, value, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
-    use gapbeam_pressure, only: pressure_in_pieces
     use gapbeam_query, only: fields_in_pieces
     implicit none
     integer(8), intent(in) :: beam, state, fields
-    ! Fields, 6, on the ground 7; places
-    integer, intent(in) :: nf, nx
-    integer, intent(in) :: piece(nx)
+    ! Quantities, by their numbers (fortran/beam/quantities.f90); places
+    integer, intent(in) :: nq, nx
+    integer, intent(in) :: which(nq), piece(nx)
     double precision, intent(in) :: dist(nx)
-    ! Deflection, rotation, moment, shear, axial force, axial displacement, pressure of the ground (up)
-    double precision, intent(out) :: value(nf, nx)
+    double precision, intent(out) :: value(nq, nx)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
+    !f2py integer, intent(hide), depend(which) :: nq = shape(which, 0)
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
     type(state_handle_type), pointer :: solved
@@ -228,29 +227,27 @@ subroutine gbvalu(beam, state, fields, nf, nx, piece, dist, value, status, messa
     recovered => fields_of(fields)
     value = 0.0d0
     associate (s => solved%state)
-        call fields_in_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, piece, dist, value(:6, :), &
+        call fields_in_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, piece, dist, value, &
                               error, s%ground)
-        if (nf == 7 .and. .not. allocated(error)) then
-            call pressure_in_pieces(handle%lowered, s%ground, piece, dist, value(7, :), error)
-        end if
     end associate
     call report(error, status, message)
 end subroutine gbvalu
 
-! Maximum and minimum of all fields and their places, in the scene's units; fields as for GBVALU
-subroutine gbextr(beam, state, fields, nf, value, x, status, message)
+! Maximum and minimum of quantities and their places, in the scene's units; WHICH as for GBVALU
+subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
-    use gapbeam_pressure, only: extremes_of_pressure
     use gapbeam_query, only: extremes_of_pieces
     implicit none
     integer(8), intent(in) :: beam, state, fields
-    integer, intent(in) :: nf
-    double precision, intent(out) :: value(2, nf), x(2, nf)
+    integer, intent(in) :: nq
+    integer, intent(in) :: which(nq)
+    double precision, intent(out) :: value(2, nq), x(2, nq)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
+    !f2py integer, intent(hide), depend(which) :: nq = shape(which, 0)
     type(handle_type), pointer :: handle
     type(state_handle_type), pointer :: solved
     type(fields_handle_type), pointer :: recovered
@@ -262,11 +259,8 @@ subroutine gbextr(beam, state, fields, nf, value, x, status, message)
     value = 0.0d0
     x = 0.0d0
     associate (s => solved%state)
-        call extremes_of_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, value(:, :6), x(:, :6), &
-                                error, s%ground)
-        if (nf == 7 .and. .not. allocated(error)) then
-            call extremes_of_pressure(handle%lowered, s%ground, value(:, 7), x(:, 7), error)
-        end if
+        call extremes_of_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, value, x, error, &
+                                s%ground)
     end associate
     call report(error, status, message)
 end subroutine gbextr
@@ -274,6 +268,7 @@ end subroutine gbextr
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)
     use gapbeam_fields, only: find_extremes
+    use gapbeam_quantities, only: bending_count, bounded_count
     use gapbeam_handle, only: handle_type, handle_of
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     implicit none
@@ -283,8 +278,8 @@ subroutine gblarg(beam, state, fields, value)
     type(handle_type), pointer :: handle
     type(state_handle_type), pointer :: solved
     type(fields_handle_type), pointer :: recovered
-    double precision :: found(2, 4), distance(2, 4)
-    integer :: piece(2, 4)
+    double precision :: found(2, bending_count), distance(2, bending_count)
+    integer :: piece(2, bending_count)
 
     handle => handle_of(beam)
     solved => state_of(state)
@@ -293,5 +288,5 @@ subroutine gblarg(beam, state, fields, value)
         call find_extremes(lowered%pieces, lowered%dead, lowered%live, solved%state%factor, recovered%starts, found, piece, &
                            distance)
     end associate
-    value = maxval(abs(found), 1)
+    value = maxval(abs(found(:, :bounded_count)), 1)
 end subroutine gblarg

@@ -84,7 +84,7 @@ subroutine gbtget(train, ns, nl, nt, nk, ne, ends, codes, closed, motion, place,
 end subroutine gbtget
 
 ! Extremes while a train goes over a beam
-subroutine gbtenv(beam, train, nm, fields, field_sides, field_ties, supports, support_sides, support_ties, status, message)
+subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports, support_sides, support_ties, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train, only: track_type
@@ -92,12 +92,12 @@ subroutine gbtenv(beam, train, nm, fields, field_sides, field_ties, supports, su
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     implicit none
     integer(8), intent(in) :: beam, train
-    ! One more than there are
-    integer, intent(in) :: nm
-    ! Of largest (1) and smallest (2) deflection, rotation, moment, shear up to 16 ties: value, x, position
-    double precision, intent(out) :: fields(3, 16, 2, 4)
+    ! One more than there are; quantities of bending (fortran/beam/quantities.f90)
+    integer, intent(in) :: nm, nb
+    ! Of the largest (1) and smallest (2) of each up to 16 ties: value, x, position
+    double precision, intent(out) :: fields(3, 16, 2, nb)
     ! 1 left of x, 2 right of it, 0 both
-    integer, intent(out) :: field_sides(16, 2, 4), field_ties(2, 4)
+    integer, intent(out) :: field_sides(16, 2, nb), field_ties(2, nb)
     ! The same of reaction, opening, deflection, couple of every support
     double precision, intent(out) :: supports(3, 16, 2, 4, nm)
     integer, intent(out) :: support_sides(16, 2, 4, nm), support_ties(2, 4, nm), status
@@ -131,7 +131,7 @@ subroutine gbtenv(beam, train, nm, fields, field_sides, field_ties, supports, su
 end subroutine gbtenv
 
 ! Largest and smallest values at places of the beam while a train goes over it
-subroutine gbtcur(beam, train, nx, piece, dist, value, position, status, message)
+subroutine gbtcur(beam, train, nx, nb, piece, dist, value, position, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train, only: track_type
@@ -139,12 +139,13 @@ subroutine gbtcur(beam, train, nx, piece, dist, value, position, status, message
     use gapbeam_train_curves, only: find_curves
     implicit none
     integer(8), intent(in) :: beam, train
-    integer, intent(in) :: nx
+    ! Places; quantities of bending (fortran/beam/quantities.f90)
+    integer, intent(in) :: nx, nb
     ! Pieces (from 1) and distances from their left ends
     integer, intent(in) :: piece(nx)
     double precision, intent(in) :: dist(nx)
-    ! Largest (1) and smallest (2) deflection, rotation, moment, shear, and the positions of the train
-    double precision, intent(out) :: value(2, 4, nx), position(2, 4, nx)
+    ! Largest (1) and smallest (2) of each, and the positions of the train
+    double precision, intent(out) :: value(2, nb, nx), position(2, nb, nx)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
@@ -163,7 +164,7 @@ subroutine gbtcur(beam, train, nx, piece, dist, value, position, status, message
 end subroutine gbtcur
 
 ! Influence lines of a scheme at a place of the beam
-subroutine gbtinf(beam, train, ns, nm, nx, closed, chosen, piece, dist, x, value, status, message)
+subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, value, status, message)
     use gapbeam_error, only: error_type
     use gapbeam_handle, only: handle_type, handle_of, report
     use gapbeam_train_handle, only: train_handle_type, train_of
@@ -172,13 +173,15 @@ subroutine gbtinf(beam, train, ns, nm, nx, closed, chosen, piece, dist, x, value
     integer(8), intent(in) :: beam, train
     ! One more than there are supports of the engine and of the scene; places of the force
     integer, intent(in) :: ns, nm, nx
+    ! Quantities of bending (fortran/beam/quantities.f90), and one more
+    integer, intent(in) :: nb
     ! Scheme: 1 closed, 0 open; 1 for the supports of the scene whose reactions are meant
     integer, intent(in) :: closed(ns), chosen(nm)
     ! The place: piece (from 1) and distance from its left end; places of the unit force
     integer, intent(in) :: piece
     double precision, intent(in) :: dist, x(nx)
-    ! Deflection, rotation, moment, shear at the place, sum of the reactions
-    double precision, intent(out) :: value(5, nx)
+    ! The quantities at the place, sum of the reactions
+    double precision, intent(out) :: value(nb, nx)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe

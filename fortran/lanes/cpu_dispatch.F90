@@ -4,6 +4,7 @@
 module gapbeam_cpu_dispatch
     use, intrinsic :: iso_c_binding, only: c_int
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: bending_count
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_rounding_type, pack_type, piece_pack_type, &
         lane_spans_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
@@ -240,11 +241,11 @@ contains
         !> As for extremes_of_pack
         type(lane_beam_type), intent(in) :: beam
         type(lane_pieces_type), intent(in) :: pieces
-        logical, intent(in) :: wanted(4)
+        logical, intent(in) :: wanted(bending_count)
         real(wp), intent(in), contiguous :: factors(:, :)
         type(pack_type), intent(inout) :: pack
         type(piece_pack_type), intent(inout) :: fields
-        real(wp), intent(inout) :: extremes(lanes, 6, 4)
+        real(wp), intent(inout) :: extremes(lanes, 6, bending_count)
         real(wp), intent(out) :: poor(lanes)
 
         select case (level + merge(own, 0, size(beam%links, 1) > 1))
@@ -276,7 +277,7 @@ contains
         type(piece_pack_type), intent(inout) :: fields
         integer, intent(in), contiguous :: piece(:)
         real(wp), intent(in), contiguous :: distance(:)
-        real(wp), intent(out) :: values(lanes, size(piece), 4)
+        real(wp), intent(out) :: values(lanes, size(piece), bending_count)
         real(wp), intent(out) :: poor(lanes)
 
         select case (level + merge(own, 0, size(beam%links, 1) > 1))

@@ -7,7 +7,8 @@ module gapbeam_lane_certificate
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
-    use gapbeam_lane_row_errors, only: unit => rounding_unit, greatest, find_sizes, limit_range
+    use gapbeam_tolerances, only: unit => rounding_unit
+    use gapbeam_lane_row_errors, only: greatest, find_sizes, limit_range
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack

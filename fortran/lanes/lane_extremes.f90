@@ -4,10 +4,12 @@
 !> time.
 module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived, deflection => of_deflection, &
+        rotation => of_rotation, moment => of_moment, shear => of_shear
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_fields, only: recover_pack
-    use gapbeam_lane_values, only: deflection, rotation, moment, shear, find_values, deflection_at, rotation_at
+    use gapbeam_lane_values, only: find_values, deflection_at, rotation_at, shares_in_lanes
     use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
     implicit none
     private
@@ -30,24 +32,33 @@ contains
         !> What the cases have in common
         type(lane_beam_type), intent(in) :: beam
         type(lane_pieces_type), intent(in) :: pieces
-        !> Which of deflection, rotation, moment, shear are asked for
-        logical, intent(in) :: wanted(4)
+        !> Which quantities of bending (gapbeam_quantities) are asked for
+        logical, intent(in) :: wanted(bending_count)
         !> Factor of every load, shape (lanes, nload)
         real(wp), intent(in), contiguous :: factors(:, :)
         !> Supports, contact states and solutions
         type(pack_type), intent(inout) :: pack
         type(piece_pack_type), intent(inout) :: fields
-        !> Maximum, its piece and the distance from that one's left end; the same of the minimum, shape (lanes, 6, 4)
-        real(wp), intent(inout) :: extremes(lanes, 6, 4)
+        !> Maximum, its piece and the distance from that one's left end; the same of the minimum, shape (lanes, 6, bending_count)
+        real(wp), intent(inout) :: extremes(lanes, 6, bending_count)
         !> 1 for cases to be solved otherwise: a shear of few digits, or numbers far from 1
         real(wp), intent(out) :: poor(lanes)
         integer :: k, n
 
         n = size(pieces%length)
         call recover_pack(beam, pieces, factors, pack, fields, poor)
-        do k = deflection, shear
+        do k = 1, bending_count
             if (.not. wanted(k)) cycle
-            call take_values_at_ends(pieces, n, k, fields%loads, fields%starts, extremes(:, :, k), fields%room)
+            if (k > state_count) then
+                call find_values(pieces, n, k, pieces%number, 0*pieces%length, fields%loads, fields%starts, fields%room(:, :, 3))
+                call take_values_at_ends(pieces, n, k, fields%loads, fields%starts, fields%room(:, :, 3), extremes(:, :, k), &
+                                         fields%room)
+                call search_derived(pieces, n, k - state_count, fields%loads, fields%starts, fields%room(:, :, 3), &
+                                    extremes(:, :, k))
+                cycle
+            end if
+            call take_values_at_ends(pieces, n, k, fields%loads, fields%starts, fields%starts(:, :, k), extremes(:, :, k), &
+                                     fields%room)
             select case (k)
             case (shear)
                 call take_shear_extremes(pieces, n, fields%loads, fields%starts, extremes(:, :, k))
@@ -60,19 +71,21 @@ contains
     end subroutine extremes_of_pack
 
     !> Ends of all pieces. Room 1 is what is known of the inside, the field in the middle, and room 2 is that at the right end
-    pure subroutine take_values_at_ends(pieces, n, k, loads, starts, best, room)
+    pure subroutine take_values_at_ends(pieces, n, k, loads, starts, left, best, room)
         type(lane_pieces_type), intent(in) :: pieces
         !> Pieces, and the field
         integer, intent(in) :: n, k
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        !> The field at the left ends
+        real(wp), intent(in) :: left(lanes, n)
         real(wp), intent(out) :: best(lanes, 6)
-        real(wp), intent(inout) :: room(lanes, n, 3)
+        real(wp), intent(inout) :: room(lanes, n, 2)
         real(wp) :: x, length
         integer :: j, l
 
         if (k <= rotation) call find_values(pieces, n, k, pieces%number, pieces%half, loads, starts, room(:, :, 1))
         call find_values(pieces, n, k, pieces%number, pieces%length, loads, starts, room(:, :, 2))
-        best(:, 1) = starts(:, 1, k)
+        best(:, 1) = left(:, 1)
         best(:, 2) = 1.0_wp
         best(:, 3) = 0.0_wp
         best(:, 4:6) = best(:, 1:3)
@@ -80,7 +93,7 @@ contains
             length = pieces%length(j)
             !$omp simd private(x)
             do l = 1, lanes
-                x = starts(l, j, k)
+                x = left(l, j)
                 call consider(x, real(j, wp), 0.0_wp, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
                 x = room(l, j, 2)
                 call consider(x, real(j, wp), length, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
@@ -160,6 +173,70 @@ contains
             end do
         end do
     end subroutine take_moment_extremes
+
+    !> A derived quantity inside pieces: where its derivative, the sum of the shares of those of the state, changes sign
+    subroutine search_derived(pieces, n, d, loads, starts, left, best)
+        type(lane_pieces_type), intent(in) :: pieces
+        !> Pieces, and the quantity among the derived ones
+        integer, intent(in) :: n, d
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), left(lanes, n)
+        real(wp), intent(inout) :: best(lanes, 6)
+        real(wp) :: c(lanes, 0:4), share(lanes, state_count + 1), roots(lanes, 4), there(lanes, 4), open(lanes), length, x, s
+        logical :: is_term(state_count, derived_count)
+        integer :: j, l, m
+
+        is_term(:, :) = terms_of_derived()
+        do j = 1, n
+            length = pieces%length(j)
+            share(:, :) = shares_in_lanes(pieces, j, d)
+            c(:, :) = 0.0_wp
+            do m = 1, state_count
+                if (is_term(m, d)) call add_derivative(pieces, n, j, m, loads, starts, share(:, m), c)
+            end do
+            call find_open(length, left(:, j), c, best(:, 1), best(:, 4), open)
+            if (.not. any(open > 0.5_wp)) cycle
+            call find_roots(c, spread(length, 1, lanes), roots, there)
+            do m = 1, 4
+                do l = 1, lanes
+                    s = merge(roots(l, m), 0.0_wp, there(l, m) > 0.5_wp)
+                    x = left(l, j) + s*(c(l, 0) + s*(c(l, 1)/2 + s*(c(l, 2)/3 + s*(c(l, 3)/4 + s*(c(l, 4)/5)))))
+                    call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
+                end do
+            end do
+        end do
+    end subroutine search_derived
+
+    !> Add a share of the derivative of deflection, rotation, moment or shear along a piece
+    pure subroutine add_derivative(pieces, n, j, k, loads, starts, share, c)
+        type(lane_pieces_type), intent(in) :: pieces
+        !> Pieces; the piece and the field
+        integer, intent(in) :: n, j, k
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), share(lanes)
+        real(wp), intent(inout) :: c(lanes, 0:4)
+        real(wp) :: own(0:4), slope
+        integer :: l, m
+
+        do l = 1, lanes
+            m = min(l, stiffness_lanes)
+            associate (length => pieces%length(j), f => pieces%flexibility(m, j), g => pieces%shear_flexibility(m, j), &
+                       load => loads(l, j, :), start => starts(l, j, :))
+                slope = (load(2) - load(1))/length
+                select case (k)
+                case (deflection)
+                    call derive_deflection(length, f, g, load(1), load(2), load(3), start(2), start(3), start(4), own(0), own(1), &
+                                           own(2), own(3), own(4))
+                case (rotation)
+                    call derive_rotation(length, f, load(1), load(2), load(3), start(3), start(4), own(0), own(1), own(2), &
+                                         own(3), own(4))
+                case (moment)
+                    own(:) = [start(4), -load(1), -slope/2, 0.0_wp, 0.0_wp]
+                case default
+                    own(:) = [-load(1), -slope, 0.0_wp, 0.0_wp, 0.0_wp]
+                end select
+            end associate
+            c(l, :) = c(l, :) + share(l)*own
+        end do
+    end subroutine add_derivative
 
     !> Deflection or rotation inside pieces
     subroutine search_inside(pieces, n, k, loads, starts, room, best)

@@ -2,6 +2,7 @@
 !> That is gapbeam_reactions and gapbeam_law for ordinary supports, number by number.
 module gapbeam_lane_reactions
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_fixity, link_reach
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_shared, only: find_levels, share_forces
@@ -9,8 +10,6 @@ module gapbeam_lane_reactions
     private
     public :: complete, find_shears, doubt_corrections
 
-    !> As first_width of gapbeam_rules, worst_digits and worst_correction of gapbeam_extended_precision
-    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp, worst_correction = 1e-6_wp
 
 contains
 
@@ -206,7 +205,7 @@ contains
                 rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, i)))
                 margin = merge(side*r, margin, c > 0.5_wp)
                 rounding = merge(r_error, rounding, c > 0.5_wp)
-                bad = merge(0.0_wp, changes, margin > width*rounding)
+                bad = merge(0.0_wp, changes, margin > sign_width*rounding)
                 ! Not a number, or beyond the range
                 c = abs(w(l, i)) + abs(ml(l, i)) + abs(mr(l, i)) + abs(r)
                 bad = merge(bad, 1.0_wp, c <= huge(1.0_wp))
@@ -234,7 +233,7 @@ contains
             !$omp simd private(beyond)
             do l = 1, lanes
                 largest(l) = merge(abs(w(l, i)), largest(l), abs(w(l, i)) > largest(l))
-                beyond = merge(abs(dw(l, i)), 0.0_wp, abs(dw(l, i)) > width*epsilon(1.0_wp)*room(l, i, 2))
+                beyond = merge(abs(dw(l, i)), 0.0_wp, abs(dw(l, i)) > sign_width*epsilon(1.0_wp)*room(l, i, 2))
                 change(l) = merge(beyond, change(l), beyond > change(l))
             end do
         end do

@@ -1,6 +1,7 @@
 !> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: splitter
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
@@ -9,8 +10,6 @@ module gapbeam_lane_residual
 
     !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
     integer, parameter :: block = 64
-    !> Splits a number into two halves of its bits
-    real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
 contains
 

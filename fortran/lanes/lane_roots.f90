@@ -2,13 +2,12 @@
 !> As gapbeam_fields and gapbeam_polynomial find them for one (Lane and Riesenfeld 1981).
 module gapbeam_lane_roots
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: extreme_margin
     use gapbeam_lane_types, only: lanes
     implicit none
     private
     public :: find_open, count_turns, find_only_root, find_roots
 
-    !> Far more than rounding makes of a field, as a share of it
-    real(wp), parameter :: margin = 1.0e-6_wp
     !> Reciprocal binomial coefficients i of 5, over i, and i of 4
     real(wp), parameter :: of_5(5) = [1.0_wp/5, 1.0_wp/20, 1.0_wp/30, 1.0_wp/20, 1.0_wp/5]
     real(wp), parameter :: of_4(0:4) = [1.0_wp, 1.0_wp/4, 1.0_wp/6, 1.0_wp/4, 1.0_wp]
@@ -67,8 +66,8 @@ contains
         end do
         !$omp simd private(x)
         do l = 1, lanes
-            x = merge(0.0_wp, 1.0_wp, high(l) + margin*size(l) < most(l))
-            leaves(l) = merge(x, 1.0_wp, low(l) - margin*size(l) > least(l))
+            x = merge(0.0_wp, 1.0_wp, high(l) + extreme_margin*size(l) < most(l))
+            leaves(l) = merge(x, 1.0_wp, low(l) - extreme_margin*size(l) > least(l))
         end do
     end subroutine find_open
 
@@ -119,7 +118,7 @@ contains
         end do
         ! What is zero at an end may have any sign there
         do l = 1, lanes
-            turns(l) = merge(0.0_wp, 2.0_wp, abs(b(l, 0)) > margin*size(l) .and. abs(b(l, 4)) > margin*size(l))
+            turns(l) = merge(0.0_wp, 2.0_wp, abs(b(l, 0)) > extreme_margin*size(l) .and. abs(b(l, 4)) > extreme_margin*size(l))
         end do
         do i = 1, 4
             !$omp simd

@@ -1,13 +1,12 @@
 !> Errors of the rows of the systems of eight cases: residuals, rounding, last digits of the data.
 module gapbeam_lane_row_errors
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: rounding_unit
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, link_faa, link_fab, link_fbb
     implicit none
     private
-    public :: rounding_unit, greatest, find_sizes, limit_range
+    public :: greatest, find_sizes, limit_range
 
-    !> As safety and roundings of gapbeam_certificate
-    real(wp), parameter :: rounding_unit = 4*epsilon(1.0_wp)
     !> Beyond first order, so long as what is off is a small share
     real(wp), parameter :: second_order = 1 + 2.0_wp**(-16)
     !> Numbers beyond these leave too little room for their squares

@@ -4,13 +4,12 @@
 !> their forces beside the load
 module gapbeam_lane_shared
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: sign_width
     use gapbeam_lane_types, only: lanes, lane_beam_type
     implicit none
     private
     public :: keep_loads, join_supports, find_levels, find_wrong_beside, wait_beside, share_forces
 
-    !> As first_width of gapbeam_rules
-    real(wp), parameter :: width = 32.0_wp
 
 contains
 
@@ -235,7 +234,7 @@ contains
                     rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, j)))
                     margin = merge(side*r, margin, c > 0.5_wp)
                     rounding = merge(r_error, rounding, c > 0.5_wp)
-                    bad = merge(0.0_wp, changes, margin > width*rounding)
+                    bad = merge(0.0_wp, changes, margin > sign_width*rounding)
                     bad = merge(bad, 1.0_wp, abs(r) <= huge(1.0_wp))
                     doubtful(l) = doubtful(l) + bad
                 end do

@@ -2,6 +2,7 @@
 !> That is gapbeam_system, gapbeam_reactions and gapbeam_law for ordinary supports, one at a node, number by number
 module gapbeam_segment_finish
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: sign_width, worst_digits
     use gapbeam_lane_types, only: lanes
     use gapbeam_lane_residual, only: find_rest_along
     use gapbeam_lane_audit, only: audit_along
@@ -12,8 +13,6 @@ module gapbeam_segment_finish
     private
     public :: solve_long_beam, audit_long_beam
 
-    !> As first_width of gapbeam_rules and worst_digits of gapbeam_extended_precision
-    real(wp), parameter :: width = 32.0_wp, worst_digits = 1e-8_wp
 
 contains
 
@@ -270,7 +269,7 @@ contains
             rounding = epsilon(1.0_wp)*larger(deflection_size(i), abs(contact(i)))
             margin = merge(beam%side(i)*r, margin, c > 0.5_wp)
             rounding = merge(r_error, rounding, c > 0.5_wp)
-            bad = merge(0.0_wp, abs(beam%changing(i)), margin > width*rounding)
+            bad = merge(0.0_wp, abs(beam%changing(i)), margin > sign_width*rounding)
             ! Not a number, or beyond the range
             bad = merge(bad, 1.0_wp, abs(w(i)) + 2*abs(m(i)) + abs(r) <= huge(1.0_wp))
             wrong = wrong + bad

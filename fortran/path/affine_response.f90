@@ -6,7 +6,7 @@ module gapbeam_affine_response
     use gapbeam_law_adapters, only: drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_rules, only: first_width
+    use gapbeam_tolerances, only: sign_width
     implicit none
     private
     public :: response_type, response_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
@@ -84,8 +84,8 @@ contains
             call margin_in_scheme(incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
                                   live%reaction, live%reaction_error, response%v1, response%error_of_v1)
         end associate
-        response%error_of_v0 = first_width*response%error_of_v0
-        response%error_of_v1 = first_width*response%error_of_v1
+        response%error_of_v0 = sign_width*response%error_of_v0
+        response%error_of_v1 = sign_width*response%error_of_v1
     end function response_of
 
     !> Value at a factor

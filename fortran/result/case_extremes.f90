@@ -3,13 +3,15 @@
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: has_laws
-    use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit
+    use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit, quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
-    use gapbeam_query, only: extremes_of_fields, fields_in_pieces, field_count
+    use gapbeam_quantities, only: bending_count, bending
+    use gapbeam_query, only: extremes_of_fields, fields_in_pieces
     use gapbeam_cases, only: case_loads_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
@@ -21,8 +23,6 @@ module gapbeam_case_extremes
     private
     public :: has_lane_extremes, extremes_of_cases
 
-    !> Exponents of units up to which a power of two is a double
-    integer, parameter :: most_power = 1000
 
 contains
 
@@ -34,7 +34,7 @@ contains
         associate (beam => assembled%beam, units => assembled%units)
             yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
-                          abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_power
+                          abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_unit_power
         end associate
     end function has_lane_extremes
 
@@ -51,12 +51,12 @@ contains
         !> Solutions: contact states, deflections and moments as solve_in_lanes gives them
         integer, intent(in), contiguous :: closed(:, :)
         real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :)
-        !> Which of deflection, rotation, moment and shear are asked for
-        logical, intent(in) :: wanted(4)
-        !> Maximum and minimum of those and their places, in the scene's units, shape (2, 4, ncase)
+        !> Which quantities of bending (gapbeam_quantities) are asked for
+        logical, intent(in) :: wanted(bending_count)
+        !> Maximum and minimum of those and their places, in the scene's units, shape (2, bending_count, ncase)
         real(wp), intent(inout) :: extremes(:, :, :), places(:, :, :)
-        !> Places (piece, and distance from its left end in the scene's units), shape (n); there deflection, rotation, moment and
-        !> shear, shape (4, n, ncase)
+        !> Places (piece, and distance from its left end in the scene's units), shape (n); there all of them, shape
+        !> (bending_count, n, ncase)
         integer, intent(in) :: piece(:)
         real(wp), intent(in) :: distance(:)
         real(wp), intent(inout) :: fields(:, :, :)
@@ -72,7 +72,7 @@ contains
         type(combination_type) :: combined
         integer, allocatable :: solved(:)
         real(wp), allocatable :: factors_of(:, :), at_places(:, :, :), turned(:, :)
-        real(wp) :: found(lanes, 6, 4), poor(lanes)
+        real(wp) :: found(lanes, 6, bending_count), poor(lanes)
         integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
         logical :: lost, made, fits, outside(lanes)
 
@@ -85,7 +85,7 @@ contains
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
         if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), &
-                            at_places(lanes, size(piece), 4), turned(lanes, 3*size(values, 2)), stat=stat)
+                            at_places(lanes, size(piece), bending_count), turned(lanes, 3*size(values, 2)), stat=stat)
         if (.not. made .or. stat /= 0) then
             status(:) = gapbeam_no_memory
             return
@@ -148,7 +148,7 @@ contains
             integer, intent(in) :: i
             type(state_type) :: state
             type(error_type), allocatable :: error
-            real(wp) :: value(2, field_count), x(2, field_count), all_fields(field_count, size(piece))
+            real(wp) :: value(2, bending_count), x(2, bending_count), all_fields(bending_count, size(piece))
             real(wp), target :: own(3, size(values, 2)), own_spans(2, size(spans, 2))
             type(varied_type) :: varied
 
@@ -172,21 +172,21 @@ contains
             end if
             status(i) = state%status
             if (state%status /= gapbeam_solved) return
-            call extremes_of_fields(combined%assembled, state, value, x, error)
+            call extremes_of_fields(combined%assembled, state, bending, value, x, error)
             if (.not. allocated(error)) then
-                call fields_in_pieces(combined%assembled, 1.0_wp, state%starts, state%displacement, state%tension, piece, &
-                                      distance, all_fields, error)
+                call fields_in_pieces(combined%assembled, 1.0_wp, state%starts, state%displacement, state%tension, bending, &
+                                      piece, distance, all_fields, error)
             end if
             if (allocated(error)) then
                 status(i) = error%code
                 return
             end if
-            do k = 1, 4
+            do k = 1, bending_count
                 if (.not. wanted(k)) cycle
                 extremes(:, k, i) = value(:, k)
                 places(:, k, i) = x(:, k)
             end do
-            fields(:, :, i) = all_fields(:4, :)
+            fields(:, :, i) = all_fields
         end subroutine solve_alone
 
     end subroutine extremes_of_cases
@@ -194,18 +194,18 @@ contains
     !> The extremes of a case in the scene's units, if these hold them
     pure subroutine give_extremes(assembled, wanted, found, l, extremes, places, made)
         type(assembled_type), intent(in) :: assembled
-        logical, intent(in) :: wanted(4)
+        logical, intent(in) :: wanted(bending_count)
         !> By extremes_of_pack, and the lane
-        real(wp), intent(in) :: found(lanes, 6, 4)
+        real(wp), intent(in) :: found(lanes, 6, bending_count)
         integer, intent(in) :: l
         real(wp), intent(inout) :: extremes(:, :), places(:, :)
         logical, intent(out) :: made
         real(wp) :: value
-        integer :: powers(4), i, k, piece
+        integer :: powers(bending_count), i, k, piece
 
-        powers = powers_of(assembled)
+        powers = quantity_unit(assembled%units, bending)
         made = .true.
-        do k = 1, 4
+        do k = 1, bending_count
             if (.not. wanted(k)) cycle
             do i = 1, 2
                 value = scale(found(l, 3*i - 2, k), powers(k))
@@ -225,23 +225,13 @@ contains
         integer, intent(in) :: l
         real(wp), intent(inout) :: fields(:, :)
         logical, intent(out) :: made
-        integer :: powers(4), i
+        integer :: powers(bending_count), i
 
-        powers = powers_of(assembled)
+        powers = quantity_unit(assembled%units, bending)
         do i = 1, size(fields, 2)
             fields(:, i) = scale(found(l, i, :), powers)
         end do
         made = all(abs(fields) <= huge(1.0_wp))
     end subroutine give_fields
-
-    !> Exponents of the units of the fields
-    pure function powers_of(assembled) result(powers)
-        type(assembled_type), intent(in) :: assembled
-        integer :: powers(4)
-
-        associate (units => assembled%units)
-            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
-        end associate
-    end function powers_of
 
 end module gapbeam_case_extremes

@@ -10,8 +10,8 @@ module gapbeam_combinations
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_support_values, only: support_values
-    use gapbeam_query, only: extremes_of_fields, fields_in_pieces, make_starts, field_count
-    use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
+    use gapbeam_query, only: extremes_of_fields, fields_in_pieces, make_starts
+    use gapbeam_quantities, only: quantity_count
     implicit none
     private
     public :: combination_type, varied_type, combine, solve_combination, values_of_combination
@@ -131,31 +131,22 @@ contains
         real(wp), intent(in) :: distance(:)
         !> Reaction, deflection, opening and couple of the supports, shape (nsupport, 4)
         real(wp), intent(out) :: at_supports(:, :)
-        !> Maximum and minimum of every field and of the pressure of the ground, and where they are, shape (2, field_count + 1)
+        !> Maximum and minimum of every quantity along the beam, and where they are, shape (2, quantity_count)
         real(wp), intent(inout) :: extremes(:, :), places(:, :)
-        !> The same at the places, shape (field_count + 1, n)
+        !> The same at the places, shape (quantity_count, n)
         real(wp), intent(inout) :: fields(:, :)
         !> A value out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        integer :: conditions(size(at_supports, 1))
+        integer :: conditions(size(at_supports, 1)), i
 
         call support_values(assembled, state, at_supports(:, 1), at_supports(:, 2), at_supports(:, 3), at_supports(:, 4), &
                             conditions)
-        extremes(:, field_count + 1) = 0.0_wp
-        places(:, field_count + 1) = 0.0_wp
-        call extremes_of_fields(assembled, state, extremes(:, :field_count), places(:, :field_count), error)
-        if (allocated(state%ground) .and. .not. allocated(error)) then
-            call extremes_of_pressure(assembled, state%ground, extremes(:, field_count + 1), places(:, field_count + 1), error)
-        end if
+        call extremes_of_fields(assembled, state, [(i, i=1, quantity_count)], extremes, places, error)
         if (allocated(error) .or. size(piece) == 0) return
         if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        fields(field_count + 1, :) = 0.0_wp
-        call fields_in_pieces(assembled, 1.0_wp, state%starts, state%displacement, state%tension, piece, distance, &
-                              fields(:field_count, :), error, state%ground)
-        if (allocated(state%ground) .and. .not. allocated(error)) then
-            call pressure_in_pieces(assembled, state%ground, piece, distance, fields(field_count + 1, :), error)
-        end if
+        call fields_in_pieces(assembled, 1.0_wp, state%starts, state%displacement, state%tension, [(i, i=1, quantity_count)], &
+                              piece, distance, fields, error, state%ground)
     end subroutine values_of_combination
 
 end module gapbeam_combinations

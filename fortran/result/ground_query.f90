@@ -2,6 +2,9 @@
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
+    use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_fields, only: bending_values
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
@@ -105,53 +108,61 @@ contains
         end associate
     end subroutine curved_in
 
-    !> Largest and smallest deflection, rotation, moment and shear, and where they are
-    subroutine ground_extremes(assembled, solution, values, piece, distance)
-        !> As for ground_values
+    !> Largest and smallest quantities of bending (gapbeam_quantities), and where they are. Those of derived ones are sought where
+    !> those of what they are made of are: one of deflection, rotation, moment, shear, for shares do not change inside a piece
+    subroutine ground_extremes(assembled, solution, factor, values, piece, distance)
+        !> As for ground_values, and the factor of the live loads
         type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
-        !> Maximum (1) and minimum (2), shape (2, 4)
+        real(wp), intent(in) :: factor
+        !> Maximum (1) and minimum (2), shape (2, bending_count)
         real(wp), intent(out) :: values(:, :)
-        !> Pieces of the beam and distances from their left ends, shape (2, 4)
+        !> Pieces of the beam and distances from their left ends, shape (2, bending_count)
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(field_type) :: field
         type(curved_type), allocatable :: curved
+        type(piece_load_type) :: load
         real(wp), allocatable :: xi(:)
-        integer :: i, j, k, number
+        logical :: is_term(state_count, derived_count)
+        integer :: i, j, k, d, number
 
+        is_term(:, :) = terms_of_derived()
         values(1, :) = -huge(1.0_wp)
         values(2, :) = huge(1.0_wp)
         piece(:, :) = 1
         distance(:, :) = 0.0_wp
         do i = 1, size(solution%piece)
+            load = combine_loads(assembled%dead(solution%piece(i)), assembled%live(solution%piece(i)), factor)
             do j = 0, 1
                 call values_in(assembled, solution, i, real(j, wp), field)
-                do k = 1, 4
-                    call consider(real(j, wp))
+                do k = 1, bending_count
+                    call consider(k, real(j, wp))
                 end do
             end do
             call curved_in(assembled, solution, i, curved)
-            do k = 1, 4
+            do k = 1, state_count
                 call peaks_in(solution, i, k, 0.0_wp, curved, xi, number)
                 do j = 1, number
                     call values_in(assembled, solution, i, xi(j), field)
-                    call consider(xi(j))
+                    call consider(k, xi(j))
+                    do d = 1, derived_count
+                        if (is_term(k, d)) call consider(state_count + d, xi(j))
+                    end do
                 end do
             end do
         end do
 
     contains
 
-        !> Compare a field with its extremes so far
-        subroutine consider(at)
+        !> Compare a quantity with its extremes so far
+        subroutine consider(k, at)
+            integer, intent(in) :: k
             real(wp), intent(in) :: at
-            real(wp) :: value, place
+            real(wp) :: all_of_them(bending_count), value, place
 
-            value = field%shear
-            if (k == 1) value = field%deflection
-            if (k == 2) value = field%rotation
-            if (k == 3) value = field%moment
+            all_of_them(:) = bending_values(field, assembled%pieces(solution%piece(i)), load%kappa)
+            value = all_of_them(k)
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
             if (value > values(1, k) + same*abs(values(1, k))) then
                 values(1, k) = value

@@ -3,6 +3,7 @@
 !> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type
     use gapbeam_law, only: has_laws
@@ -21,8 +22,6 @@ module gapbeam_lane_cases
     !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
     !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
     integer, parameter :: most_links = 1000
-    !> Exponents of units up to which a power of two is a double
-    integer, parameter :: most_power = 1000
     !> Ways in which schemes are solved
     integer, parameter :: ways = 3
 
@@ -62,7 +61,7 @@ contains
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
-                < most_power
+                < most_unit_power
         end associate
     end function fits_lanes
 

@@ -10,7 +10,7 @@ module gapbeam_lane_model
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, &
         link_sum_b, link_bending, link_determinant, link_fixity, link_reach
-    use gapbeam_lane_spans, only: proximal_ratio
+    use gapbeam_tolerances, only: proximal_ratio
     implicit none
     private
     public :: prepare_lanes, take_supports, take_starts, units_of_supports

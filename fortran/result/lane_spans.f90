@@ -1,6 +1,7 @@
 !> Links of cases whose spans have stiffnesses of their own (gapbeam_lane_links).
 module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: proximal_ratio
     use gapbeam_element, only: moment_integrals
     use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
     use gapbeam_law_adapters, only: least_stiffness
@@ -12,10 +13,8 @@ module gapbeam_lane_spans
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private
-    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links, proximal_ratio
+    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links
 
-    !> Weak springs relative to the softest stiffness present, as in gapbeam_scheme
-    real(wp), parameter :: proximal_ratio = 1e-5_wp
     !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
     integer, parameter :: most_power = 100
     !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles

@@ -3,6 +3,8 @@ module gapbeam_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown
+    use gapbeam_quantities, only: of_pressure, quantity_names, quantity_remedies
+    use gapbeam_units, only: quantity_unit
     use gapbeam_input_error, only: refuse_range
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
@@ -34,7 +36,7 @@ contains
             return
         end if
         call ground_pressure(assembled, solution, piece, scale(distance, -assembled%units%length), found)
-        found(:) = scale(found, pressure_unit(assembled))
+        found(:) = scale(found, quantity_unit(assembled%units, of_pressure))
         i = findloc(abs(found) <= huge(found), .false., 1)
         if (i == 0) then
             pressure(:) = found
@@ -57,7 +59,7 @@ contains
         integer :: piece(2), i
 
         call pressure_extremes(assembled, solution, value, piece, distance)
-        value = scale(value, pressure_unit(assembled))
+        value = scale(value, quantity_unit(assembled%units, of_pressure))
         do i = 1, 2
             x(i) = point_x(assembled, piece(i) - 1) + scale(distance(i), assembled%units%length)
             if (abs(value(i)) <= huge(value) .or. allocated(error)) cycle
@@ -65,21 +67,13 @@ contains
         end do
     end subroutine extremes_of_pressure
 
-    !> Exponent of the unit of force per length
-    pure function pressure_unit(assembled) result(power)
-        type(assembled_type), intent(in) :: assembled
-        integer :: power
-
-        power = assembled%units%force - assembled%units%length
-    end function pressure_unit
-
     !> A pressure is too great for the user's units
     pure subroutine refuse_pressure(x, error)
         real(wp), intent(in) :: x
         type(error_type), allocatable, intent(out) :: error
 
-        call refuse_range(error, "the pressure of the ground at x = "//trim(shown(x))//" is too great", &
-                          "choose a greater unit of force")
+        call refuse_range(error, "the "//trim(quantity_names(of_pressure))//" at x = "//trim(shown(x))//" is too great", &
+                          trim(quantity_remedies(of_pressure)))
     end subroutine refuse_pressure
 
 end module gapbeam_pressure

@@ -1,30 +1,29 @@
 !> Fields of a solved state in the user's units: at places, extremes, the free motion.
 module gapbeam_query
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: position_tolerance, end_tolerance
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
-    use gapbeam_fields, only: values_at, find_extremes
-    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_fields, only: bending_values, values_at, find_extremes
+    use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_quantities, only: quantity_count, bending_count, bending, of_axial_force, of_axial_displacement, &
+        of_pressure, needs_axial, quantity_names, quantity_remedies
+    use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
-    use gapbeam_stations, only: locate, position_tolerance, end_tolerance
+    use gapbeam_stations, only: locate
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range
     use gapbeam_memory, only: reserve_memory, for_fields
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_query, only: ground_values, ground_extremes
+    use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: recover_state
     implicit none
     private
     public :: make_starts, find_starts, find_pieces, fields_in_pieces, extremes_of_pieces
     public :: fields_at_places, extremes_of_fields, motion_of_nodes, node_places
-    public :: field_count
-
-    !> Fields: deflection, rotation, moment, shear, axial force, axial displacement
-    integer, parameter :: field_count = 6
-    character(len=*), parameter :: field_names(field_count) = [character(len=18) :: "deflection", "rotation", "moment", "shear", &
-                                                               "axial force", "axial displacement"]
 
 contains
 
@@ -66,15 +65,17 @@ contains
     end subroutine find_starts
 
     !> Fields of a state at given places
-    subroutine fields_at_places(assembled, state, x, from_left, fields, error)
+    subroutine fields_at_places(assembled, state, quantities, x, from_left, fields, error)
         !> The beam, and its solved state
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
+        !> Numbers of the quantities (gapbeam_quantities)
+        integer, intent(in) :: quantities(:)
         !> The places, shape (n)
         real(wp), intent(in) :: x(:)
         !> Where a field jumps: its value left of the place; otherwise right of it
         logical, intent(in) :: from_left
-        !> Shape (field_count, n); written only where none is out of range
+        !> Shape (size(quantities), n); written only where none is out of range
         real(wp), intent(inout) :: fields(:, :)
         !> A place outside the beam, a field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
@@ -84,8 +85,8 @@ contains
         call find_pieces(assembled, x, from_left, piece, distance, error)
         if (.not. (allocated(error) .or. allocated(state%ground))) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        call fields_in_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, piece, distance, fields, &
-                              error, state%ground)
+        call fields_in_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, quantities, piece, &
+                              distance, fields, error, state%ground)
     end subroutine fields_at_places
 
     !> Pieces of given places
@@ -121,60 +122,80 @@ contains
     end subroutine find_pieces
 
     !> Fields at given distances from the left ends of pieces
-    subroutine fields_in_pieces(assembled, factor, starts, displacement, tension, piece, distance, fields, error, ground)
+    subroutine fields_in_pieces(assembled, factor, starts, displacement, tension, quantities, piece, distance, fields, error, &
+                                ground)
         type(assembled_type), intent(in) :: assembled
         !> Factor of the live loads, fields at the left ends of all pieces, and the solution along the axis (state_type)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
         real(wp), intent(in) :: displacement(0:), tension(:)
-        !> The pieces, and the distances in the user's units, shape (n)
-        integer, intent(in) :: piece(:)
+        !> Numbers of the quantities; the pieces, and the distances in the user's units, shape (n)
+        integer, intent(in) :: quantities(:), piece(:)
         real(wp), intent(in) :: distance(:)
-        !> In the user's units, shape (field_count, n); written only where none is out of range
+        !> In the user's units, shape (size(quantities), n), zero of what the beam does not have; written only where none is out of
+        !> range
         real(wp), intent(inout) :: fields(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         !> The solution on the ground, instead of the fields at the pieces
         type(ground_solution_type), intent(in), optional :: ground
         type(field_type), allocatable :: bent(:)
-        real(wp), allocatable :: found(:, :)
-        integer :: powers(field_count), i, k, stat
+        type(piece_load_type) :: load
+        real(wp), allocatable :: found(:, :), pressure(:)
+        real(wp) :: all_of_them(quantity_count)
+        integer :: powers(size(quantities)), i, k, stat
 
-        allocate (found(field_count, size(piece)), bent(size(piece)), stat=stat)
+        allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        powers = field_units(assembled)
-        found(1, :) = scale(distance, -assembled%units%length)
+        powers = units_of_fields(assembled, quantities)
+        pressure(:) = scale(distance, -assembled%units%length)
         if (present(ground)) then
-            call ground_values(assembled, ground, piece, found(1, :), bent)
+            call ground_values(assembled, ground, piece, pressure, bent)
         else
-            call values_at(assembled%pieces, assembled%dead, assembled%live, factor, starts, piece, found(1, :), bent)
+            call values_at(assembled%pieces, assembled%dead, assembled%live, factor, starts, piece, pressure, bent)
         end if
+        pressure(:) = 0.0_wp
+        all_of_them(:) = 0.0_wp
         do i = 1, size(piece)
-            found(1:4, i) = [bent(i)%deflection, bent(i)%rotation, bent(i)%moment, bent(i)%shear]
-            call axial_fields(assembled, displacement, tension, piece(i), distance(i), found(5, i), found(6, i))
+            load = combine_loads(assembled%dead(piece(i)), assembled%live(piece(i)), factor)
+            all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa)
+            call axial_fields(assembled, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
+                              all_of_them(of_axial_displacement))
+            found(:, i) = all_of_them(quantities)
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
             if (k == 0) cycle
-            call refuse_field(assembled, k, found(k, i), point_x(assembled, piece(i) - 1) + distance(i), error)
+            call refuse_field(assembled, quantities(k), found(k, i), point_x(assembled, piece(i) - 1) + distance(i), error)
             error%entry = i
             return
         end do
+        if (present(ground) .and. any(quantities == of_pressure)) then
+            call pressure_in_pieces(assembled, ground, piece, distance, pressure, error)
+            if (allocated(error)) return
+        end if
         do i = 1, size(piece)
-            fields(:, i) = scale(found(:, i), powers)
+            fields(:, i) = merge(pressure(i), scale(found(:, i), powers), quantities == of_pressure)
         end do
     end subroutine fields_in_pieces
 
-    !> Exponents of the units of all fields
-    pure function field_units(assembled) result(powers)
+    !> Exponents of the units of fields
+    pure function units_of_fields(assembled, quantities) result(powers)
         type(assembled_type), intent(in) :: assembled
-        integer :: powers(field_count)
+        !> Their numbers
+        integer, intent(in) :: quantities(:)
+        integer :: powers(size(quantities))
+        integer :: k
 
-        associate (units => assembled%units, axial => assembled%axial%units)
-            powers = [units%deflection, rotation_unit(units), moment_unit(units), units%force, axial%force, axial%deflection]
-        end associate
-    end function field_units
+        do k = 1, size(quantities)
+            if (any(quantities(k) == needs_axial)) then
+                powers(k) = quantity_unit(assembled%axial%units, quantities(k))
+            else
+                powers(k) = quantity_unit(assembled%units, quantities(k))
+            end if
+        end do
+    end function units_of_fields
 
     !> A field is too great for the user's units, or no number
     subroutine refuse_field(assembled, field, value, x, error)
@@ -183,18 +204,10 @@ contains
         integer, intent(in) :: field
         real(wp), intent(in) :: value, x
         type(error_type), allocatable, intent(out) :: error
-        character(len=40) :: remedy
 
-        if (abs(value) <= huge(value) .or. field > 4) then
-            select case (field)
-            case (1, 6)
-                remedy = "choose a greater unit of length"
-            case (2)
-                remedy = "give a stiffer beam or smaller loads"
-            case default
-                remedy = "choose a greater unit of force"
-            end select
-            call refuse_range(error, "the "//trim(field_names(field))//" at x = "//trim(shown(x))//" is too great", trim(remedy))
+        if (abs(value) <= huge(value) .or. any(field == needs_axial)) then
+            call refuse_range(error, "the "//trim(quantity_names(field))//" at x = "//trim(shown(x))//" is too great", &
+                              trim(quantity_remedies(field)))
         else
             call name_farthest(assembled, error)
         end if
@@ -272,64 +285,77 @@ contains
         displacement = displacements(bar - 1) + tension*way
     end subroutine axial_fields
 
-    !> Largest and smallest values of all fields of a state, and where they are
-    subroutine extremes_of_fields(assembled, state, value, x, error)
+    !> Largest and smallest values of fields of a state, and where they are
+    subroutine extremes_of_fields(assembled, state, quantities, value, x, error)
         !> The beam, and its solved state
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(inout) :: state
-        !> Maximum (1) and minimum (2) of every field, and their places, shape (2, field_count)
+        !> Numbers of the quantities (gapbeam_quantities)
+        integer, intent(in) :: quantities(:)
+        !> Maximum (1) and minimum (2) of each, and their places, shape (2, size(quantities))
         real(wp), intent(out) :: value(:, :), x(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        call extremes_of_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, value, x, error, &
-                                state%ground)
+        call extremes_of_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, quantities, value, x, &
+                                error, state%ground)
     end subroutine extremes_of_fields
 
     !> The same from the fields at the left ends of all pieces
-    subroutine extremes_of_pieces(assembled, factor, starts, displacement, tension, value, x, error, ground)
+    subroutine extremes_of_pieces(assembled, factor, starts, displacement, tension, quantities, value, x, error, ground)
         !> As for fields_in_pieces
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
         real(wp), intent(in) :: displacement(0:), tension(:)
         !> As for extremes_of_fields
+        integer, intent(in) :: quantities(:)
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
         type(ground_solution_type), intent(in), optional :: ground
-        real(wp) :: found(2, field_count), distance(2, 4)
-        integer :: piece(2, 4), powers(field_count), i, k
+        real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count)
+        integer :: piece(2, bending_count), powers(size(quantities)), i, k
 
+        found(:, :) = 0.0_wp
+        places(:, :) = 0.0_wp
         if (present(ground)) then
-            call ground_extremes(assembled, ground, found(:, 1:4), piece, distance)
+            call ground_extremes(assembled, ground, factor, bent, piece, distance)
         else
-            call find_extremes(assembled%pieces, assembled%dead, assembled%live, factor, starts, found(:, 1:4), piece, distance)
+            call find_extremes(assembled%pieces, assembled%dead, assembled%live, factor, starts, bent, piece, distance)
         end if
-        do k = 1, 4
+        found(:, bending) = bent
+        do k = 1, bending_count
             do i = 1, 2
-                x(i, k) = point_x(assembled, piece(i, k) - 1) + scale(distance(i, k), assembled%units%length)
+                places(i, bending(k)) = point_x(assembled, piece(i, k) - 1) + scale(distance(i, k), assembled%units%length)
             end do
         end do
-        found(:, 5:6) = 0.0_wp
-        x(:, 5:6) = 0.0_wp
         if (allocated(assembled%axial%point)) then
             associate (point => assembled%axial%point)
-                found(:, 5) = [maxval(tension), minval(tension)]
-                x(:, 5) = [point_x(assembled, point(maxloc(tension, 1) - 1)), point_x(assembled, point(minloc(tension, 1) - 1))]
-                found(:, 6) = [maxval(displacement), minval(displacement)]
-                x(:, 6) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
-                           point_x(assembled, point(minloc(displacement, 1) - 1))]
+                found(:, of_axial_force) = [maxval(tension), minval(tension)]
+                places(:, of_axial_force) = [point_x(assembled, point(maxloc(tension, 1) - 1)), &
+                                             point_x(assembled, point(minloc(tension, 1) - 1))]
+                found(:, of_axial_displacement) = [maxval(displacement), minval(displacement)]
+                places(:, of_axial_displacement) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
+                                                    point_x(assembled, point(minloc(displacement, 1) - 1))]
             end associate
         end if
-        powers = field_units(assembled)
-        do k = 1, field_count
-            value(:, k) = scale(found(:, k), powers(k))
-            i = findloc(abs(value(:, k)) <= huge(factor), .false., 1)
-            if (i == 0) cycle
-            call refuse_field(assembled, k, found(i, k), x(i, k), error)
-            return
+        powers = units_of_fields(assembled, quantities)
+        x(:, :) = places(:, quantities)
+        do k = 1, size(quantities)
+            associate (quantity => quantities(k))
+                if (quantity == of_pressure .and. present(ground)) then
+                    call extremes_of_pressure(assembled, ground, value(:, k), x(:, k), error)
+                    if (allocated(error)) return
+                    cycle
+                end if
+                value(:, k) = scale(found(:, quantity), powers(k))
+                i = findloc(abs(value(:, k)) <= huge(factor), .false., 1)
+                if (i == 0) cycle
+                call refuse_field(assembled, quantity, found(i, quantity), x(i, k), error)
+                return
+            end associate
         end do
     end subroutine extremes_of_pieces
 

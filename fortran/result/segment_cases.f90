@@ -3,6 +3,7 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
     use gapbeam_law, only: both, is_rigid, has_laws
@@ -20,8 +21,6 @@ module gapbeam_segment_cases
 
     !> Least links: shorter segments feel each other too much; from so many on several cases are solved faster one by one, too
     integer, parameter :: least_links = 200, least_alone = 700
-    !> Exponents of units up to which a power of two is a double
-    integer, parameter :: most_power = 1000
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: segments_type
@@ -46,7 +45,7 @@ contains
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
-                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_power
+                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
         end associate
     end function fits_segments
 

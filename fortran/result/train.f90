@@ -11,7 +11,7 @@ module gapbeam_train
     use gapbeam_link, only: piece_load_type, recover_link
     use gapbeam_model, only: beam_type
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_stations, only: position_tolerance
+    use gapbeam_tolerances, only: position_tolerance
     implicit none
     private
     public :: train_type, uniform_type, track_type, new_track, degree_of, least_distance

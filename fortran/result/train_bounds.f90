@@ -10,9 +10,11 @@
 !> passes an end of the beam.
 module gapbeam_train_bounds
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
+    use gapbeam_quantities, only: bending_count
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: interval_type
@@ -23,10 +25,8 @@ module gapbeam_train_bounds
         mark_stretches
     implicit none
     private
-    public :: bounds_type, find_bounds, slack, most_lost
+    public :: bounds_type, find_bounds, most_lost
 
-    !> Values that differ by less than this share of the largest may be the same, for they are not refined
-    real(wp), parameter :: slack = 2.0_wp**(-26)
     !> Share by which they are off at most, where they are to be trusted
     real(wp), parameter :: most_lost = 2.0_wp**(-34)
     !> The longest way without a look, as a share of a link
@@ -39,18 +39,19 @@ module gapbeam_train_bounds
     !> A link on stretches in a row
     type :: part_type
         integer :: link = 0, first = 0, last = 0
-        !> Largest (1) and negative smallest (2) deflection, rotation, moment, shear at most
-        real(wp) :: bound(2, 4) = 0.0_wp
+        !> Largest (1) and negative smallest (2) quantities of bending (gapbeam_quantities) at most
+        real(wp) :: bound(2, bending_count) = 0.0_wp
     end type part_type
 
     !> What is known of extremes
     type :: bounds_type
-        !> Largest (1) and negative smallest (2) deflection, rotation, moment, shear that are reached, in the engine's units, and
-        !> the largest absolute value
-        real(wp) :: reached(2, 4) = -huge(1.0_wp), size(4) = 0.0_wp
+        !> Largest (1) and negative smallest (2) quantities of bending that are reached, in the engine's units, and the largest
+        !> absolute value
+        real(wp) :: reached(2, bending_count) = -huge(1.0_wp), size(bending_count) = 0.0_wp
         !> Stretches on which they are
-        integer :: where_reached(2, 4) = 0
-        !> The same at most on every stretch; -huge where no extreme value is, huge where nothing is known; shape (2, 4, number)
+        integer :: where_reached(2, bending_count) = 0
+        !> The same at most on every stretch; -huge where no extreme value is, huge where nothing is known; shape (2, bending_count,
+        !> number)
         real(wp), allocatable :: at_most(:, :, :)
         !> Stretches on which a support may have an extreme value
         logical, allocatable :: of_supports(:)
@@ -81,8 +82,9 @@ contains
         n = size(track%beam%links)
         call new_view(assembled, track, train, bounds%view, stat)
         if (stat == 0) call new_support_bounds(assembled, bounds%supports, stat)
-        if (stat == 0) allocate (bounds%at_most(2, 4, traversal%number), bounds%of_supports(traversal%number), parts(256), &
-                                 start(n), begin(n), touched(n), first_at_link(n), slopes(n), stat=stat)
+        if (stat == 0) allocate (bounds%at_most(2, bending_count, traversal%number), &
+                                 bounds%of_supports(traversal%number), parts(256), start(n), begin(n), touched(n), &
+                                 first_at_link(n), slopes(n), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -227,8 +229,8 @@ contains
             real(wp), intent(in) :: way
             type(slopes_type), intent(in) :: slopes
             type(link_bounds_type), intent(in) :: first, last
-            real(wp) :: bound(2, 4)
-            real(wp) :: high(4), low(4), rise(4)
+            real(wp) :: bound(2, bending_count)
+            real(wp), dimension(bending_count) :: high, low, rise
 
             high(:) = max(first%high, last%high)
             low(:) = min(first%low, last%low)
@@ -261,8 +263,8 @@ contains
             integer :: f
 
             counts = .true.
-            do f = 1, 4
-                if (any(.not. part%bound(:, f) < bounds%reached(:, f) - slack*bounds%size(f))) return
+            do f = 1, bending_count
+                if (any(.not. part%bound(:, f) < bounds%reached(:, f) - train_slack*bounds%size(f))) return
             end do
             counts = .false.
         end function counts
@@ -326,13 +328,13 @@ contains
             !> Halves that are left
             integer, intent(in) :: halves
             type(link_bounds_type) :: middle
-            real(wp) :: bound(2, 4)
-            logical :: high(2, 4)
+            real(wp) :: bound(2, bending_count)
+            logical :: high(2, bending_count)
 
             bound(:, :) = bound_of(i, (to - from)*bounds%view%columns%length, slopes, first, last)
-            high(:, :) = .not. bound < bounds%reached - slack*spread(bounds%size, 1, 2)
+            high(:, :) = .not. bound < bounds%reached - train_slack*spread(bounds%size, 1, 2)
             if (.not. any(high)) return
-            if (halves > 0 .and. any(high .and. bound > bounds%reached + slack*spread(bounds%size, 1, 2))) then
+            if (halves > 0 .and. any(high .and. bound > bounds%reached + train_slack*spread(bounds%size, 1, 2))) then
                 call bound_link(assembled, track, bounds%view, i, from + (to - from)/2, middle)
                 call reach_values(middle, k)
                 call bound_between(i, k, slopes, from, from + (to - from)/2, first, middle, halves - 1)

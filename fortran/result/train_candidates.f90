@@ -1,14 +1,13 @@
 !> Candidates for extreme values: parts of a train's way that bounds do not rule out.
 module gapbeam_train_candidates
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_equal
     use gapbeam_patch, only: patch_type
     use gapbeam_train_cells, only: cell_type
     implicit none
     private
-    public :: candidate_type, candidates_type, equal, least_of, raise, upper_bound, offer
+    public :: candidate_type, candidates_type, least_of, raise, upper_bound, offer
 
-    !> Values nearer to the largest than this share of the largest absolute value are equal to it
-    real(wp), parameter :: equal = 2.0_wp**(-40)
 
     !> A part of a stretch that may hold an extreme value
     type :: candidate_type
@@ -32,7 +31,7 @@ contains
         type(candidates_type), intent(in) :: candidates
         real(wp) :: least
 
-        least = candidates%known - equal*candidates%largest
+        least = candidates%known - train_equal*candidates%largest
     end function least_of
 
     !> A value is reached
@@ -73,7 +72,7 @@ contains
             ! Those that are no longer in question make room
             count = 0
             do q = 1, candidates%number
-                if (upper_bound(candidates%list(q)%patch) < candidates%known - equal*candidates%largest) cycle
+                if (upper_bound(candidates%list(q)%patch) < candidates%known - train_equal*candidates%largest) cycle
                 count = count + 1
                 if (count < q) candidates%list(count) = candidates%list(q)
             end do
@@ -88,7 +87,7 @@ contains
             associate (before => candidates%list(candidates%number))
                 if (before%last == stretch - 1 .and. is_level(patch, candidates%largest) .and. &
                     is_level(before%patch, candidates%largest) .and. &
-                    abs(patch%b(0, 0) - before%patch%b(0, 0)) <= equal*candidates%largest) then
+                    abs(patch%b(0, 0) - before%patch%b(0, 0)) <= train_equal*candidates%largest) then
                     before%last = last
                     return
                 end if
@@ -105,7 +104,7 @@ contains
         real(wp), intent(in) :: largest
         logical :: level
 
-        level = all(abs(patch%b(0, 0:patch%across) - patch%b(0, 0)) <= equal*largest)
+        level = all(abs(patch%b(0, 0:patch%across) - patch%b(0, 0)) <= train_equal*largest)
     end function is_level
 
 end module gapbeam_train_candidates

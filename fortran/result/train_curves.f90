@@ -1,13 +1,16 @@
 !> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack, train_equal
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: sample_points, to_coefficients
     use gapbeam_patch, only: patch_type, greatest_on_patch
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_load_type, combine_loads
-    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_fields, only: bending_values
+    use gapbeam_quantities, only: state_count, bending_count, bending
+    use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cells_type, cell_ends
@@ -15,8 +18,7 @@ module gapbeam_train_curves
     use gapbeam_train_columns, only: at_distance
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link, &
         slopes_in_link, greatest_curvature
-    use gapbeam_train_bounds, only: slack, most_lost
-    use gapbeam_train_candidates, only: equal
+    use gapbeam_train_bounds, only: most_lost
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
@@ -40,21 +42,21 @@ contains
         !> Pieces, and the distances from their left ends in the user's units, shape (n)
         integer, intent(in) :: piece(:)
         real(wp), intent(in) :: distance(:)
-        !> Largest (1) and smallest (2) of deflection, rotation, moment, shear in the user's units, and the positions of the
-        !> train, shape (2, 4, n); where no stretch is solved -huge and huge
+        !> Largest (1) and smallest (2) of the quantities of bending (gapbeam_quantities) in the user's units, and the positions of
+        !> the train, shape (2, bending_count, n); where no stretch is solved -huge and huge
         real(wp), intent(out) :: value(:, :, :), position(:, :, :)
         type(error_type), allocatable, intent(out) :: error
         type(samples_type) :: samples
         real(wp), allocatable :: starts(:, :, :), matrix(:, :)
         type(piece_load_type), allocatable :: loads(:)
         real(wp) :: points(0:degree_of(train)), on_whole(0:degree_of(train), 0:degree_in_position(train))
-        real(wp) :: at_place(0:degree_of(train), 0:degree_of(train)), sizes(4), near
+        real(wp) :: at_place(0:degree_of(train), 0:degree_of(train)), sizes(bending_count), near
         type(view_type) :: view
         type(field_type), allocatable :: seen(:, :)
         real(wp), allocatable :: reached(:, :, :), curvature(:, :)
         logical, allocatable :: wanted(:)
         logical :: told
-        integer :: powers(4), d, f, k, n, stat, q
+        integer :: powers(bending_count), d, f, k, n, stat, q
 
         value(1, :, :) = -huge(1.0_wp)
         value(2, :, :) = huge(1.0_wp)
@@ -63,8 +65,9 @@ contains
         if (allocated(error)) return
         n = samples%degree
         call new_view(assembled, track, train, view, stat)
-        if (stat == 0) allocate (starts(0:n, 4, size(samples%starts, 2)), matrix(0:n, 0:n), seen(size(samples%starts, 2), 3), &
-                                 reached(2, 4, size(piece)), curvature(4, size(track%beam%links)), wanted(size(piece)), stat=stat)
+        if (stat == 0) allocate (starts(0:n, state_count, size(samples%starts, 2)), matrix(0:n, 0:n), &
+                                 seen(size(samples%starts, 2), 3), reached(2, bending_count, size(piece)), &
+                                 curvature(bending_count, size(track%beam%links)), wanted(size(piece)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -102,13 +105,11 @@ contains
         end if
         do q = 1, size(piece)
             do k = 1, 2
-                call keep_prescribed(track%beam, node_of_place(q), equal*sizes(1), value(k, 1, q))
+                call keep_prescribed(track%beam, node_of_place(q), train_equal*sizes(1), value(k, 1, q))
             end do
         end do
-        associate (units => assembled%units)
-            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
-        end associate
-        do f = 1, 4
+        powers(:) = quantity_unit(assembled%units, bending)
+        do f = 1, bending_count
             where (abs(value(:, f, :)) < huge(1.0_wp)) value(:, f, :) = scale(value(:, f, :), powers(f))
         end do
         call end_if_stopped(track%beam%watch, error)
@@ -165,9 +166,9 @@ contains
                 if (allocated(error)) return
                 if (told .and. view%clear) then
                     do c = 1, samples%cells%number
-                        associate (a => seen(c, 2), b => samples%starts(n, c))
-                            told = told .and. all(abs([a%deflection - b%deflection, a%rotation - b%rotation, &
-                                                       a%moment - b%moment, a%shear - b%shear]) <= most_lost*sizes)
+                        associate (p => samples%pieces(n, c), kappa => samples%loads(n, c)%kappa)
+                            told = told .and. all(abs(bending_values(seen(c, 2), p, kappa) &
+                                                      - bending_values(samples%starts(n, c), p, kappa)) <= most_lost*sizes)
                         end associate
                     end do
                     if (.not. told) return
@@ -215,7 +216,7 @@ contains
             real(wp), intent(in) :: from, to
 
             if (purpose == looking) then
-                call search_position(piece(q), distance(q), cell, from, to, reached(:, :, q) - slack*spread(sizes, 1, 2), &
+                call search_position(piece(q), distance(q), cell, from, to, reached(:, :, q) - train_slack*spread(sizes, 1, 2), &
                                      value(:, :, q), position(:, :, q))
             else
                 call glance(q, cell, from, to, purpose)
@@ -226,7 +227,7 @@ contains
         subroutine glance(q, cell, from, to, purpose)
             integer, intent(in) :: q, cell, purpose
             real(wp), intent(in) :: from, to
-            real(wp) :: first(4), last(4), rise(4)
+            real(wp), dimension(bending_count) :: first, last, rise
 
             if (purpose == reaching) then
                 if (from <= view%ends(1)) call reach(q, fields_seen(q, cell, from))
@@ -238,16 +239,16 @@ contains
             last(:) = first
             if (to > from) last(:) = fields_seen(q, cell, to)
             rise(:) = ((to - from)*view%columns%to_length)**2/8*curvature(:, track%link(piece(q)))
-            wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - slack*sizes .and. &
+            wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - train_slack*sizes .and. &
                             max(first, last) + rise > value(1, :, q) + the_same*sizes) .or. &
-                any(rise - min(first, last) >= reached(2, :, q) - slack*sizes .and. &
+                any(rise - min(first, last) >= reached(2, :, q) - train_slack*sizes .and. &
                     min(first, last) - rise < value(2, :, q) - the_same*sizes)
         end subroutine glance
 
         !> Values that are reached at a place
         subroutine reach(q, found)
             integer, intent(in) :: q
-            real(wp), intent(in) :: found(4)
+            real(wp), intent(in) :: found(bending_count)
 
             reached(1, :, q) = max(reached(1, :, q), found)
             reached(2, :, q) = max(reached(2, :, q), -found)
@@ -258,7 +259,7 @@ contains
             !> Place, cell that is there, and position
             integer, intent(in) :: q, cell
             real(wp), intent(in) :: s
-            real(wp) :: found(4)
+            real(wp) :: found(bending_count)
             type(link_bounds_type) :: at_link
             type(field_type) :: at
             real(wp) :: t, qa, slope
@@ -276,8 +277,8 @@ contains
                 qa = load%qa + slope*(t/p%length) + there%q
                 at = fields_at(seen(cell, i), max(0.0_wp, distance(q)*view%columns%to_length - t), p%length, p%flexibility, &
                                p%shear_flexibility, qa, qa + slope, load%kappa)
+                found(:) = bending_values(at, p, load%kappa)
             end associate
-            found(:) = [at%deflection, at%rotation, at%moment, at%shear]
         end function fields_seen
 
         !> A place between two positions
@@ -290,7 +291,7 @@ contains
             type(patch_type) :: patch
             type(field_type) :: at
             type(piece_load_type) :: load
-            real(wp) :: values(0:d, 4), start(4), s, u, left, right
+            real(wp) :: values(0:d, bending_count), start(state_count), s, u, left, right
             logical :: whole
             integer :: p, field
 
@@ -314,11 +315,11 @@ contains
                     at = fields_at(field_type(start(1), start(2), start(3), start(4)), distance, piece%length, piece%flexibility, &
                                    piece%shear_flexibility, load%qa, load%qa + slope, load%kappa)
                 end associate
-                values(p, :) = [at%deflection, at%rotation, at%moment, at%shear]
+                values(p, :) = bending_values(at, assembled%pieces(j), load%kappa)
             end do
             patch%along = 0
             patch%across = d
-            do field = 1, 4
+            do field = 1, bending_count
                 do p = 0, d
                     if (values(p, field) > largest(1, field)) then
                         largest(1, field) = values(p, field)

@@ -5,38 +5,43 @@
 !> left is looked into (gapbeam_bernstein).
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack, train_equal
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
-    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_fields, only: bending_values
+    use gapbeam_quantities, only: bending_count, bending
+    use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
-        load_degree, lebesgue
+        degree_along, lebesgue
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
-    use gapbeam_train_candidates, only: candidates_type, equal, least_of, raise, offer
+    use gapbeam_train_candidates, only: candidates_type, least_of, raise, offer
     use gapbeam_train_prescribed_deflections, only: keep_prescribed_extreme
     use gapbeam_train_ties, only: extreme_type, drop_rounding
     use gapbeam_train_extremes, only: find_extreme, ends_of
-    use gapbeam_train_bounds, only: bounds_type, find_bounds, slack, most_lost
+    use gapbeam_train_bounds, only: bounds_type, find_bounds, most_lost
     implicit none
     private
     public :: envelope_type, find_envelope
 
+    !> Values of a support: reaction, opening, deflection, couple
+    integer, parameter :: at_support = 4
     !> Stretches on which it is tried whether bounds are to be trusted
     integer, parameter :: trials = 8
 
     !> Largest (1) and smallest (2) values in the user's units; none where no stretch is solved
     type :: envelope_type
-        !> Deflection, rotation, moment, shear, shape (2, 4)
-        type(extreme_type) :: fields(2, 4)
-        !> Reaction, opening, deflection, couple of every support, shape (2, 4, nsupport)
+        !> Of the quantities of bending (gapbeam_quantities), shape (2, bending_count)
+        type(extreme_type) :: fields(2, bending_count)
+        !> Reaction, opening, deflection, couple of every support, shape (2, at_support, nsupport)
         type(extreme_type), allocatable :: supports(:, :, :)
     end type envelope_type
 
@@ -57,14 +62,15 @@ contains
         real(wp), allocatable :: matrix(:, :), of_nodes(:, :), starts(:, :, :)
         logical, allocatable :: stays(:, :), wanted(:)
         logical :: told, renewed
-        integer :: powers(4), c, f, i, k, last, m, n, sampled, stat
+        integer :: powers(bending_count), c, f, i, k, last, m, n, sampled, stat
 
         m = size(assembled%model%supports)
         call new_samples(assembled, track, train, samples, error)
         if (allocated(error)) return
         n = samples%degree
-        allocate (of_fields(2, 4), of_supports(2, 4, m), envelope%supports(2, 4, m), matrix(0:n, 0:n), &
-                  of_nodes(0:degree_of(train), 0:degree_of(train)), starts(0:n, 4, size(samples%starts, 2)), stays(4, m), &
+        allocate (of_fields(2, bending_count), of_supports(2, at_support, m), envelope%supports(2, at_support, m), &
+                  matrix(0:n, 0:n), of_nodes(0:degree_of(train), 0:degree_of(train)), &
+                  starts(0:n, bending_count, size(samples%starts, 2)), stays(at_support, m), &
                   wanted(traversal%number), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -78,9 +84,9 @@ contains
         if (allocated(error)) return
         do k = 1, traversal%number
             wanted(k) = .not. told
-            do f = 1, 4
+            do f = 1, bending_count
                 do i = 1, 2
-                    wanted(k) = wanted(k) .or. bounds%at_most(i, f, k) >= of_fields(i, f)%known - slack*bounds%size(f)
+                    wanted(k) = wanted(k) .or. bounds%at_most(i, f, k) >= of_fields(i, f)%known - train_slack*bounds%size(f)
                 end do
             end do
         end do
@@ -100,7 +106,7 @@ contains
                 call sample_supports(assembled, track, train, traversal, k, samples, error)
                 if (allocated(error)) return
                 do i = 1, m
-                    do f = 1, 4
+                    do f = 1, at_support
                         if (.not. stays(f, i)) call add_support(i, f)
                     end do
                 end do
@@ -112,22 +118,26 @@ contains
                 call add_cell(c)
             end do
         end do
-        associate (units => assembled%units)
-            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
-        end associate
-        do f = 1, 4
+        powers(:) = quantity_unit(assembled%units, bending)
+        do f = 1, bending_count
             do i = 1, 2
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
                 call find_extreme(assembled, track, train, traversal, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
                                   envelope%fields(i, f))
+            end do
+        end do
+        do f = 1, at_support
+            do i = 1, 2
+                call end_if_stopped(track%beam%watch, error)
+                if (allocated(error)) return
                 do c = 1, m
                     call find_extreme(assembled, track, train, traversal, samples%cells, of_supports(i, f, c), i, 0, .false., &
                                       envelope%supports(i, f, c))
                     if (f <= 2) call drop_rounding(f == 1, assembled%model%supports(c)%side, &
-                                                   equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
+                                                   train_equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
                     if (f == 3) call keep_prescribed_extreme(track%beam, assembled%node_of_point(assembled%support_point(c)), &
-                                                             assembled%units%deflection, equal*of_supports(i, f, c)%largest, &
+                                                             assembled%units%deflection, train_equal*of_supports(i, f, c)%largest, &
                                                              envelope%supports(i, f, c))
                 end do
             end do
@@ -137,26 +147,23 @@ contains
 
         !> Sample the fields on a stretch
         subroutine sample_fields()
-            integer :: j
+            integer :: j, p
 
             if (sampled == k) return
             sampled = k
             call sample_stretch(assembled, track, train, traversal, k, samples, error)
             if (allocated(error)) return
             do j = 1, samples%cells%number
-                associate (a => samples%starts(:, j))
-                    starts(:, 1, j) = a%deflection
-                    starts(:, 2, j) = a%rotation
-                    starts(:, 3, j) = a%moment
-                    starts(:, 4, j) = a%shear
-                end associate
+                do p = 0, n
+                    starts(p, :, j) = bending_values(samples%starts(p, j), samples%pieces(p, j), samples%loads(p, j)%kappa)
+                end do
             end do
         end subroutine sample_fields
 
         !> Look first where large values are reached, so that few stretches are left, and whether bounds are to be trusted there
         !> and on some other stretches
         subroutine try_bounds()
-            logical :: known(2, 4)
+            logical :: known(2, bending_count)
             integer :: apart, field, way
 
             told = .true.
@@ -170,7 +177,7 @@ contains
                 k = maxval(bounds%where_reached, .not. known)
                 call try_stretch()
                 if (allocated(error) .or. .not. told) return
-                do field = 1, 4
+                do field = 1, bending_count
                     do way = 1, 2
                         if (bounds%where_reached(way, field) /= k) cycle
                         call raise_known(field, way)
@@ -194,8 +201,8 @@ contains
                 call bound_link(assembled, track, bounds%view, link, 1.0_wp, at_link, seen)
             end do
             do j = 1, samples%cells%number
-                told = told .and. all(abs([seen(j)%deflection, seen(j)%rotation, seen(j)%moment, seen(j)%shear] - starts(n, :, j)) &
-                                      <= most_lost*bounds%size)
+                told = told .and. all(abs(bending_values(seen(j), samples%pieces(n, j), samples%loads(n, j)%kappa) &
+                                          - starts(n, :, j)) <= most_lost*bounds%size)
             end do
         end subroutine try_stretch
 
@@ -203,7 +210,7 @@ contains
         subroutine raise_known(field, way)
             integer, intent(in) :: field, way
             type(patch_type) :: patch
-            real(wp) :: low(4), high(4), value, v, u
+            real(wp) :: low(bending_count), high(bending_count), value, v, u
             integer :: j
 
             associate (candidates => of_fields(way, field))
@@ -247,7 +254,7 @@ contains
             patch%along = 0
             patch%across = degree_of(train)
             do i = 1, m
-                do f = 1, 4
+                do f = 1, at_support
                     if (.not. stays(f, i)) cycle
                     associate (value => samples%supports(0, f, i))
                         call raise(of_supports(1, f, i), value)
@@ -268,8 +275,7 @@ contains
             real(wp) :: values(0:most_along, 0:n)
             integer :: p
 
-            ! One degree more from shear to moment to rotation; the deflection under shear has no more than that under bending
-            patch%along = 4 - field + load_degree(samples%loads(:, c))
+            patch%along = degree_along(field, samples%loads(:, c))
             patch%across = n
             do p = 0, n
                 call along_cell(field, patch%along, samples%starts(p, c), samples%pieces(p, c), samples%loads(p, c), &
@@ -282,16 +288,16 @@ contains
         subroutine add_cell(c)
             integer, intent(in) :: c
             type(patch_type) :: patch
-            real(wp) :: low(4), high(4)
+            real(wp) :: low(bending_count), high(bending_count)
             integer :: field
 
             if (.not. any(samples%pieces(:, c)%length > 0.0_wp)) return
-            do field = 1, 4
+            do field = 1, bending_count
                 call raise(of_fields(1, field), maxval(starts(:, field, c)))
                 call raise(of_fields(2, field), -minval(starts(:, field, c)))
             end do
             call bound_fields(samples%starts(:, c), samples%pieces(:, c), samples%loads(:, c), low, high)
-            do field = 1, 4
+            do field = 1, bending_count
                 if (high(field) < least_of(of_fields(1, field)) .and. -low(field) < least_of(of_fields(2, field))) cycle
                 call make_patch(c, field, patch)
                 call offer(of_fields(1, field), patch, samples%cells%cells(c), k, k)

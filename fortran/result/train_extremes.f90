@@ -1,13 +1,14 @@
 !> Largest value among candidates while a train goes over a beam, exact in place and position.
 module gapbeam_train_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_equal
     use gapbeam_bernstein, only: value_of
     use gapbeam_patch, only: greatest_on_patch
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type, least_distance
     use gapbeam_train_cells, only: cell_type, cells_type, cell_ends, x_in_cell
     use gapbeam_train_traversal, only: traversal_type
-    use gapbeam_train_candidates, only: candidate_type, candidates_type, equal, upper_bound
+    use gapbeam_train_candidates, only: candidate_type, candidates_type, upper_bound
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_ties, only: tie_type, extreme_type, add_tie
     implicit none
@@ -50,9 +51,9 @@ contains
         found(1, :) = -huge(1.0_wp)
         do step = 1, candidates%number
             next = maxloc(upper, 1)
-            if (upper(next) < best - equal*candidates%largest) exit
+            if (upper(next) < best - train_equal*candidates%largest) exit
             associate (one => candidates%list(next))
-                call greatest_on_patch(one%patch, best - equal*candidates%largest, value, v, u, &
+                call greatest_on_patch(one%patch, best - train_equal*candidates%largest, value, v, u, &
                                        ends_of(track, traversal, cells, one%cell, one%stretch))
             end associate
             found(:, next) = [value, v, u]
@@ -67,16 +68,16 @@ contains
             if (step == 0) then
                 if (candidates%number == 0) return
                 if (candidates%list(next)%cell%piece == 0) cycle
-                if (.not. any(found(1, :next - 1) >= best - equal*candidates%largest .and. &
+                if (.not. any(found(1, :next - 1) >= best - train_equal*candidates%largest .and. &
                               found(1, :next - 1) < found(1, next) - rounding*candidates%largest)) cycle
                 q = next
             end if
-            if (found(1, q) < best - equal*candidates%largest) cycle
+            if (found(1, q) < best - train_equal*candidates%largest) cycle
             tie%value = merge(found(1, q), -found(1, q), which == 1)
             if (of_deflection) call keep_prescribed(track%beam, node_at(candidates%list(q)%cell, found(2, q)), &
-                                                    equal*candidates%largest, tie%value)
+                                                    train_equal*candidates%largest, tie%value)
             tie%value = scale(tie%value, power)
-            call place_tie(candidates%list(q), found(2, q), found(3, q), equal*candidates%largest, tie)
+            call place_tie(candidates%list(q), found(2, q), found(3, q), train_equal*candidates%largest, tie)
             call add_tie(extreme, tie)
         end do
         do q = 1, extreme%number

@@ -9,7 +9,9 @@ module gapbeam_train_influence
     use gapbeam_link, only: piece_load_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
-    use gapbeam_units, only: moment_unit, rotation_unit
+    use gapbeam_fields, only: bending_values
+    use gapbeam_quantities, only: bending_count, bending, of_shear
+    use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
@@ -35,8 +37,8 @@ contains
         real(wp), intent(in) :: distance
         !> Places of the force, shape (n)
         real(wp), intent(in) :: places(:)
-        !> Deflection, rotation, moment, shear at the place, and the sum of the reactions of the supports, in the user's units,
-        !> shape (5, n)
+        !> The quantities of bending (gapbeam_quantities) at the place, and the sum of the reactions of the supports, in the user's
+        !> units, shape (bending_count + 1, n)
         real(wp), intent(out) :: value(:, :)
         !> No unique state, or no memory
         type(error_type), allocatable, intent(out) :: error
@@ -49,7 +51,7 @@ contains
         type(workspace_type) :: work
         type(field_type) :: at
         real(wp) :: left, right
-        integer :: powers(4), c, j, k, state, place, stat
+        integer :: powers(bending_count), c, j, k, state, place, stat
 
         bare = track
         empty = assembled
@@ -79,9 +81,7 @@ contains
             call no_memory(error)
             return
         end if
-        associate (units => assembled%units)
-            powers(:) = [units%deflection, rotation_unit(units), moment_unit(units), units%force]
-        end associate
+        powers(:) = quantity_unit(assembled%units, bending)
         do k = 1, size(places)
             call find_intervals(bare, unit, places(k), places(k), intervals, error)
             if (allocated(error)) return
@@ -101,11 +101,13 @@ contains
             call cell_ends(bare, cells, cells%cells(c), places(k), left, right)
             at = fields_in_cell(cells%starts(c), scale(max(0.0_wp, track%x(piece - 1) + distance - left), -track%length_unit), &
                                 cells%pieces(c), cells%loads(c))
-            value(1:4, k) = scale([at%deflection, at%rotation, at%moment, at%shear], powers)
-            value(5, k) = 0.0_wp
-            do j = 1, size(closed)
-                if (support(assembled%normal(j))) value(5, k) = value(5, k) + scale(work%reaction(j), powers(4))
-            end do
+            value(:, k) = [scale(bending_values(at, cells%pieces(c), cells%loads(c)%kappa), powers), 0.0_wp]
+            associate (sum_of_reactions => value(bending_count + 1, k))
+                do j = 1, size(closed)
+                    if (.not. support(assembled%normal(j))) cycle
+                    sum_of_reactions = sum_of_reactions + scale(work%reaction(j), powers(of_shear))
+                end do
+            end associate
         end do
     end subroutine find_influence
 

@@ -3,7 +3,9 @@
 module gapbeam_train_link_bounds
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
+    use gapbeam_fields, only: softness_of
     use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, with_derived
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: interval_type, enter_interval
@@ -16,9 +18,9 @@ module gapbeam_train_link_bounds
     public :: view_type, link_bounds_type, slopes_type, new_view, enter_stretch, enter_next_interval, bound_link, slopes_in_link, &
         greatest_curvature, greater
 
-    !> Deflection, rotation, moment, shear in a link at one position: bounds, and values that are there
+    !> Quantities of bending (gapbeam_quantities) in a link at one position: bounds, and values that are there
     type :: link_bounds_type
-        real(wp) :: high(4), low(4), top(4), bottom(4)
+        real(wp), dimension(bending_count) :: high, low, top, bottom
     end type link_bounds_type
 
     !> Largest first and second derivatives of the moments and deflections at the ends of a link in the position
@@ -233,6 +235,7 @@ contains
                     at_link%top(4) = max(at_link%top(4), v, v1)
                     at_link%bottom(4) = min(at_link%bottom(4), v, v1)
                 end if
+                call bound_derived(softness_of(p), load%kappa, [w, r, m, v], [w1, r1, m1, v1], abs(slope))
             end associate
             t = t1
             w = w1
@@ -242,6 +245,32 @@ contains
         end do
 
     contains
+
+        !> Bounds of the derived quantities in a cell: no farther from the chord of their ends than length**2/8 times the largest second
+        !> derivative
+        subroutine bound_derived(softness, kappa, left, right, steep)
+            !> 1/EI and 1/GA; imposed curvature; deflection, rotation, moment, shear at the ends of the cell; slope of the load
+            real(wp), intent(in) :: softness(2), kappa, left(state_count), right(state_count), steep
+            real(wp) :: bend(state_count), share(state_count + 1, derived_count), first(bending_count), last(bending_count), rise
+            integer :: d
+
+            bend(4) = steep
+            bend(3) = most
+            bend(2) = softness(1)*(max(abs(left(4)), abs(right(4))) + l**2/8*steep)
+            bend(1) = abs(kappa) + softness(1)*(max(abs(left(3)), abs(right(3))) + l**2/8*most) &
+                + softness(2)*most
+            share(:, :) = shares_of(softness)
+            first(:) = with_derived(left, softness, kappa)
+            last(:) = with_derived(right, softness, kappa)
+            do d = state_count + 1, bending_count
+                rise = l**2/8*dot_product(bend, abs(share(1:state_count, d - state_count)))
+                at_link%high(d) = max(at_link%high(d), max(first(d), last(d)) + rise)
+                at_link%low(d) = min(at_link%low(d), min(first(d), last(d)) - rise)
+                if (.not. l > 0.0_wp) cycle
+                at_link%top(d) = max(at_link%top(d), first(d), last(d))
+                at_link%bottom(d) = min(at_link%bottom(d), first(d), last(d))
+            end do
+        end subroutine bound_derived
 
         !> Bounds of what is nearly a cubic, and what it reaches
         pure subroutine bound_cubic(b, rest, enough, high, low, top, bottom)
@@ -344,10 +373,10 @@ contains
         integer, intent(in) :: i
         type(slopes_type), intent(in) :: slopes
         !> Greatest speed, length of the way, and bounds of all fields at both ends of it
-        real(wp), intent(in) :: speed, h, high(4), low(4)
-        !> Of deflection, rotation, moment, shear
-        real(wp) :: k(4)
-        real(wp) :: moment, shear, moment_s, slope_s, rotation_ss, deflection_ss
+        real(wp), intent(in) :: speed, h, high(bending_count), low(bending_count)
+        !> Of the quantities of bending; shares of derived ones are greatest where 1/EI and 1/GA are
+        real(wp) :: k(bending_count)
+        real(wp) :: moment, shear, moment_s, slope_s, rotation_ss, deflection_ss, share(state_count + 1, derived_count)
 
         associate (link => track%beam%links(i), l => track%beam%links(i)%length, n => track%beam%links(i)%inverse, &
                    f => view%worst(i)%flexibility, g => view%worst(i)%shear_flexibility, axles => view%axles(i), &
@@ -364,6 +393,8 @@ contains
             deflection_ss = w2 + (f*l**2/8 + 2*g)*m2 + axles*f*l/4 + 2*q*(f*l**2/8 + 2*g)
             k(2) = rotation_ss + speed*(2*f*moment_s + f*shear)
             k(1) = deflection_ss + speed*(2*slope_s + f*moment + worst%curvature + g*(worst%load + q))
+            share(:, :) = shares_of([f, g])
+            k(state_count + 1:) = matmul(k(1:state_count), abs(share(1:state_count, :)))
         end associate
     end function greatest_curvature
 

@@ -8,7 +8,7 @@ module gapbeam_train_margins
     use gapbeam_law_margins, only: find_margins
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, set_loads
-    use gapbeam_rules, only: first_width
+    use gapbeam_tolerances, only: sign_width
     use gapbeam_system, only: solve_and_refine
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_intervals, only: interval_type
@@ -59,7 +59,7 @@ contains
             if (.not. all(abs(work%answers%deflection) <= huge(1.0_wp))) return
             call find_margins(track%beam%supports, closed, work%answers, work%deflection_size, work%reaction, &
                               work%reaction_error, values(p, :), rounding)
-            margins%slack(:size(closed)) = max(margins%slack(:size(closed)), first_width*rounding)
+            margins%slack(:size(closed)) = max(margins%slack(:size(closed)), sign_width*rounding)
         end do
         do k = 1, size(closed)
             margins%b(0:n, k) = matmul(matrix, values(:, k))
@@ -85,7 +85,7 @@ contains
         do p = 0, n
             call place_train(track, train, interval, now + points(p)*(interval%to - now))
             call work_of_loads(track%beam, 1.0_wp, motion, [0, ubound(motion, 1)], values(p), parts)
-            margins%slack(1) = max(margins%slack(1), first_width*epsilon(1.0_wp)*parts)
+            margins%slack(1) = max(margins%slack(1), sign_width*epsilon(1.0_wp)*parts)
         end do
         margins%b(0:n, 1) = matmul(to_coefficients(n), values)
     end subroutine sample_work

@@ -13,6 +13,8 @@ module gapbeam_train_samples
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_fields, only: bending_values, softness_of
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, terms_of_derived
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
     use gapbeam_assembled_model, only: assembled_type
@@ -27,7 +29,7 @@ module gapbeam_train_samples
     implicit none
     private
     public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &
-        load_degree, lebesgue
+        degree_along, lebesgue
 
     !> No polynomial of these degrees leaves its samples by more than this times what they differ by (the Lebesgue constant of the
     !> sample points is 2.2 at most)
@@ -185,10 +187,12 @@ contains
         type(field_type), intent(in) :: a(0:)
         type(piece_type), intent(in) :: pieces(0:)
         type(piece_load_type), intent(in) :: loads(0:)
-        !> Of deflection, rotation, moment, shear
-        real(wp), intent(out) :: low(4), high(4)
+        !> Of the quantities of bending (gapbeam_quantities)
+        real(wp), intent(out) :: low(bending_count), high(bending_count)
         type(field_type) :: end
-        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, deviation(4), change(4)
+        real(wp) :: length, change_of_length, q, change_of_q, curvature, moment, rotation, shear, change(state_count)
+        real(wp), dimension(bending_count) :: deviation, first, last
+        real(wp) :: share(state_count + 1, derived_count)
 
         length = maxval(pieces%length)
         change_of_length = maxval(abs(pieces%length - pieces(0)%length))
@@ -200,18 +204,20 @@ contains
             moment = max(abs(a(0)%moment), abs(end%moment)) + length**2*q
             curvature = f*moment + abs(loads(0)%kappa)
             rotation = max(abs(a(0)%rotation), abs(end%rotation)) + length*curvature
-            deviation = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
+            deviation(1:state_count) = [length**2*(curvature + g*q)/8, length*curvature/2, length**2*q/8, length*q]
             change(4) = maxval(abs(a%shear - a(0)%shear)) + change_of_length*q + length*change_of_q
             change(3) = maxval(abs(a%moment - a(0)%moment)) + length*change(4) + change_of_length*shear
             change(2) = maxval(abs(a%rotation - a(0)%rotation)) + length*f*change(3) + change_of_length*curvature
             change(1) = maxval(abs(a%deflection - a(0)%deflection)) + length*(change(2) + g*change(4)) &
                 + change_of_length*(rotation + g*shear)
         end associate
-        deviation(:) = deviation + lebesgue*change
-        high(:) = [max(a(0)%deflection, end%deflection), max(a(0)%rotation, end%rotation), max(a(0)%moment, end%moment), &
-                   max(a(0)%shear, end%shear)] + deviation
-        low(:) = [min(a(0)%deflection, end%deflection), min(a(0)%rotation, end%rotation), min(a(0)%moment, end%moment), &
-                  min(a(0)%shear, end%shear)] - deviation
+        deviation(1:state_count) = deviation(1:state_count) + lebesgue*change
+        share(:, :) = shares_of(softness_of(pieces(0)))
+        deviation(state_count + 1:) = matmul(deviation(1:state_count), abs(share(1:state_count, :)))
+        first(:) = bending_values(a(0), pieces(0), loads(0)%kappa)
+        last(:) = bending_values(end, pieces(0), loads(0)%kappa)
+        high(:) = max(first, last) + deviation
+        low(:) = min(first, last) - deviation
     end subroutine bound_fields
 
     !> Degree of the load in the cells
@@ -224,22 +230,68 @@ contains
         if (any(abs(loads%qb - loads%qa) > 0.0_wp)) degree = 2
     end function load_degree
 
-    !> Bernstein coefficients of a field along a cell
-    pure subroutine along_cell(field, degree, a, p, q, b)
-        !> 1 deflection, 2 rotation, 3 moment, 4 shear; its degree
-        integer, intent(in) :: field, degree
+    !> Degree of a quantity of bending along the cells: one more from shear to moment to rotation; the deflection under shear has no
+    !> more than that under bending
+    pure function degree_along(quantity, loads) result(degree)
+        integer, intent(in) :: quantity
+        type(piece_load_type), intent(in) :: loads(:)
+        integer :: degree
+        logical :: is_term(state_count, derived_count)
+        integer :: first
+
+        first = quantity
+        if (quantity > state_count) then
+            is_term(:, :) = terms_of_derived()
+            first = findloc(is_term(:, quantity - state_count), .true., 1)
+        end if
+        degree = 4 - first + load_degree(loads)
+    end function degree_along
+
+    !> Bernstein coefficients of a quantity of bending along a cell
+    pure subroutine along_cell(quantity, degree, a, p, q, b)
+        !> Its number among them; its degree
+        integer, intent(in) :: quantity, degree
         !> Fields at the left end, the cell, and its load
         type(field_type), intent(in) :: a
         type(piece_type), intent(in) :: p
         type(piece_load_type), intent(in) :: q
         !> Shape (0:degree)
         real(wp), intent(out) :: b(0:)
-        real(wp) :: c(0:most_along), slope, weight
+        real(wp) :: c(0:most_along), share(state_count + 1, derived_count), weight
         integer :: i, k
+
+        if (quantity <= state_count) then
+            c(:) = powers_along(quantity, a, p, q)
+        else
+            share(:, :) = shares_of(softness_of(p))
+            c(:) = 0.0_wp
+            c(0) = share(state_count + 1, quantity - state_count)*q%kappa
+            do k = 1, state_count
+                c(:) = c + share(k, quantity - state_count)*powers_along(k, a, p, q)
+            end do
+        end if
+        do i = 0, degree
+            b(i) = 0.0_wp
+            weight = 1.0_wp
+            do k = 0, i
+                b(i) = b(i) + weight*c(k)
+                if (k < i) weight = weight*(i - k)/(degree - k)
+            end do
+        end do
+    end subroutine along_cell
+
+    !> Coefficients of deflection (1), rotation, moment or shear (4) along a cell, of powers of the share of its length
+    pure function powers_along(field, a, p, q) result(c)
+        integer, intent(in) :: field
+        !> As for along_cell
+        type(field_type), intent(in) :: a
+        type(piece_type), intent(in) :: p
+        type(piece_load_type), intent(in) :: q
+        real(wp) :: c(0:most_along)
+        real(wp) :: slope
 
         slope = q%qb - q%qa
         c(:) = 0.0_wp
-        ! Coefficients of powers of the share of the length
         associate (l => p%length, f => p%flexibility, g => p%shear_flexibility)
             select case (field)
             case (1)
@@ -261,14 +313,6 @@ contains
                 c(0:2) = [a%shear, -l*q%qa, -l*slope/2]
             end select
         end associate
-        do i = 0, degree
-            b(i) = 0.0_wp
-            weight = 1.0_wp
-            do k = 0, i
-                b(i) = b(i) + weight*c(k)
-                if (k < i) weight = weight*(i - k)/(degree - k)
-            end do
-        end do
-    end subroutine along_cell
+    end function powers_along
 
 end module gapbeam_train_samples

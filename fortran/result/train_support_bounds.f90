@@ -3,6 +3,7 @@
 !> between the values at both ends, moved by h**2/8 of the second derivative (gapbeam_train_columns)
 module gapbeam_train_support_bounds
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: train_slack
     use gapbeam_law, only: both
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type
@@ -14,8 +15,6 @@ module gapbeam_train_support_bounds
 
     !> Values at the node of a support that tell its reaction, deflection or couple
     integer, parameter :: force = 1, deflection = 2, couple = 3
-    !> Values that differ by less than this share of the largest may be the same, for they are not refined
-    real(wp), parameter :: slack = 2.0_wp**(-26)
 
     !> What changes of a support in a scheme: which of its four values, and from what
     type :: watch_type
@@ -156,7 +155,7 @@ contains
                 most = max(abs(first), abs(last)) + rise
                 bounds%size(watch%what) = max(bounds%size(watch%what), most)
                 associate (reached => bounds%reached(:, watch%what, watch%support), &
-                           near => bounds%size(watch%what)*slack)
+                           near => bounds%size(watch%what)*train_slack)
                     reached(1) = max(reached(1), first, last)
                     reached(2) = max(reached(2), -first, -last)
                     most = max(first, last) + rise
@@ -214,7 +213,7 @@ contains
         kept = 0
         do q = 1, bounds%count
             associate (w => bounds%which(:, q))
-                if (bounds%bound(q) < bounds%reached(w(1), w(2), w(3)) - bounds%size(w(2))*slack) cycle
+                if (bounds%bound(q) < bounds%reached(w(1), w(2), w(3)) - bounds%size(w(2))*train_slack) cycle
             end associate
             kept = kept + 1
             bounds%stretch(kept) = bounds%stretch(q)

@@ -9,7 +9,7 @@ module gapbeam_assemble_laws
     use gapbeam_law, only: always_closed
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_stations, only: position_tolerance
+    use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, of_supports, twice
     implicit none
     private

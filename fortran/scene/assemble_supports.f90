@@ -9,7 +9,7 @@ module gapbeam_assemble_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
-    use gapbeam_stations, only: position_tolerance
+    use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
     implicit none
     private

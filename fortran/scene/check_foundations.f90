@@ -6,7 +6,7 @@ module gapbeam_check_foundations
     use gapbeam_scene, only: model_type, foundation_type, ground_point_type, ground_law_point_type, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_law_cubic, gapbeam_table_of_k, gapbeam_table_of_gap, &
         gapbeam_table_of_parameter
-    use gapbeam_stations, only: position_tolerance
+    use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, of_foundations, not_expected, bad_law
     use gapbeam_layers, only: parameters_of_law
     use gapbeam_check_ground_laws, only: check_law_kind, check_parameter, check_parameters, has_parameter, may_be_negative, &

@@ -7,15 +7,11 @@
 !> two points of a span are nearer to each other than that. python/gapbeam/places.py does the same for scenes.
 module gapbeam_stations
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: position_tolerance
     use gapbeam_scene, only: span_type
     implicit none
     private
-    public :: place_span_ends, locate, merge_stations, position_tolerance, end_tolerance
-
-    !> Positions whose difference is at most this share of the larger one are the same place
-    real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
-    !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off
-    real(wp), parameter :: end_tolerance = 1.0e-12_wp
+    public :: place_span_ends, locate, merge_stations
 
 contains
 

@@ -4,9 +4,10 @@
 !> unit of the lengths. python/gapbeam/units.py does the same for scenes.
 module gapbeam_units
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: quantity_units
     implicit none
     private
-    public :: units_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, units_with_loads
+    public :: units_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, quantity_unit, units_with_loads
     public :: exponents_type, middle, largest, no_exponent, ordinary_exponent, middle_of, bound_outside
 
     !> Units of other models are 1: those whose lengths, forces and deflections are within two to this power
@@ -62,6 +63,15 @@ contains
 
         power = moment_unit(units) - rotation_unit(units)
     end function turning_unit
+
+    !> Exponent of the unit of a quantity along the beam, by its number (gapbeam_quantities)
+    elemental function quantity_unit(units, quantity) result(power)
+        type(units_type), intent(in) :: units
+        integer, intent(in) :: quantity
+        integer :: power
+
+        power = dot_product(quantity_units(:, quantity), [units%force, units%length, units%deflection])
+    end function quantity_unit
 
     !> Meet a number, with a power of two added to its exponent
     elemental subroutine note(self, value, power)

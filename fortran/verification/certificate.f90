@@ -7,6 +7,7 @@
 module gapbeam_certificate
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: unit => rounding_unit
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
@@ -36,8 +37,6 @@ module gapbeam_certificate
     !> Movements are taken so many times: they are estimates, hardly ever more than so many times too small; so are the forces of
     !> weak springs, since levers make more of them
     real(wp), parameter :: safety = 4.0_wp
-    !> Roundings of a term of a field's polynomial, at most
-    real(wp), parameter :: roundings = 4.0_wp
     !> Error of the solution in quadruple precision, relative to the sizes of its terms
     real(qp), parameter :: fine_error = 2.0_qp**20*epsilon(1.0_qp)
 
@@ -330,7 +329,6 @@ contains
         type(certificate_type), intent(inout) :: certificate
         type(field_type) :: error
         real(wp) :: q, kappa
-        real(wp), parameter :: unit = roundings*epsilon(1.0_wp)
 
         q = max(abs(dead%qa) + factor*abs(live%qa), abs(dead%qb) + factor*abs(live%qb))
         kappa = abs(dead%kappa) + factor*abs(live%kappa)

@@ -7,13 +7,14 @@
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
 module gapbeam_extended_precision
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_law, only: always_closed, has_laws
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, method_pivoting
-    use gapbeam_rules, only: find_doubtful, find_wrong, first_width
+    use gapbeam_rules, only: find_doubtful, find_wrong
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
     use gapbeam_scheme, only: find_scheme, outcome_type
@@ -44,9 +45,7 @@ module gapbeam_extended_precision
     !> Of more supports near zero than these all are named
     integer, parameter :: most_examined = 64
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
-    real(wp), parameter :: worst_digits = 1e-8_wp
     !> And correction of deflections, relative to the largest, that refining them once may leave too much of
-    real(wp), parameter :: worst_correction = 1e-6_wp
     !> Of the largest load smaller shares are what is left out of reactions as rounding, and what rounding may do to one of which
     !> nothing is left
     real(qp), parameter :: most_left_out = 2.0_qp**(-27), most_hidden = 2.0_qp**(-10)
@@ -167,7 +166,7 @@ contains
         call solve_and_refine(beam, closed, work, state, place)
         if (state /= band_ok) return
         allocate (wrong(size(closed)))
-        call find_wrong(beam, closed, first_width, work, wrong)
+        call find_wrong(beam, closed, sign_width, work, wrong)
         if (any(wrong) .or. digits_lost(work) .or. .not. all(abs(work%answers%deflection) <= huge(1.0_wp))) return
         call find_doubtful(beam, closed, work, undecided)
         outcome%indifferent = held_by_ties(beam, closed, undecided)
@@ -184,7 +183,7 @@ contains
         if (lost .or. work%method == method_pivoting .or. allocated(work%end_shear)) return
         ! Elimination loses what springs hold that are next to nothing beside the links: the correction tells
         associate (change => abs(work%correction%deflection))
-            lost = maxval(change, change > first_width*epsilon(1.0_wp)*work%deflection_size) &
+            lost = maxval(change, change > sign_width*epsilon(1.0_wp)*work%deflection_size) &
                 > worst_correction*maxval(abs(work%answers%deflection))
         end associate
     end function digits_lost
@@ -379,7 +378,7 @@ contains
             ! What is held stiffly beside a soft spring may move it by rounding
             least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
             if (closed(k)) rounding(k) = max(rounding(k), least_force)
-            undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             ! At a breakpoint of a law the margin may be zero, and the reaction is not
             if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) then
                 work%reaction(k) = 0.0_qp

@@ -3,7 +3,7 @@
 module gapbeam_ground_solution
     use gapbeam_kinds, only: wp, qp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
-    use gapbeam_rules, only: first_width
+    use gapbeam_tolerances, only: sign_width
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
     use gapbeam_foundation_taylor_quad, only: expand, terms_of, most_terms
@@ -120,7 +120,7 @@ contains
         do k = 1, size(closed)
             solution%undecided(k) = .false.
             if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
-            solution%undecided(k) = abs(margin(k)) <= first_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            solution%undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         associate (a => work%answers(grounded%node))

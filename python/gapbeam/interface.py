@@ -7,6 +7,7 @@ from .base.hints import missing
 from .batches import sample
 from .batches.batch import Batch
 from .batches.run import batch
+from .report.result_schema import result_schema
 from .results.cases.cases import Prepared, prepare
 from .results.cases.combined import CombinedResult
 from .results.cases.solved_cases import Cases
@@ -81,6 +82,7 @@ __all__ = [
     "prepare",
     "read_scene",
     "replace",
+    "result_schema",
     "sample",
     "scene_schema",
     "solve",

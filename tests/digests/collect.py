@@ -1,35 +1,34 @@
 """Digests of what one gapbeam makes of scenes; it knows nothing of the package but what users call.
 
-    python tests/digests/collect.py SCENES [LIBRARY]
+    python tests/digests/collect.py SCENES FIRST LAST [LIBRARY [TESTS]]
 
-Each line of SCENES is a name and a scene; each line printed is a name, what it is a digest of, and the digest.
+Each line of SCENES is a name and a scene; those from FIRST to before LAST are solved. Each line printed is a name, the way that it went,
+and a digest for every kind of number: `steps.supports.reaction` is one. LIBRARY is called by the `clibrary.py` of the folder TESTS:
+that of its own commit, for structures grow.
 """
 
+import contextlib
 import hashlib
+import importlib
+import itertools
 import json
-import os
 import sys
-
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from collections import defaultdict
+from pathlib import Path
 
 import gapbeam
 import numpy as np
-from languages.clibrary import GROUND_LAWS, F77Beam, Library
 
 # Words may change, and clocks do
-NOT_NUMBERS = {
-    "title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema",
-    "lifted", "utilisations",
-}  # fmt: skip
-MOST_NODES = 200  # in C and Fortran 77
+NOT_NUMBERS = {"title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema"}
+GROUND_LAWS = {"plastic", "hardening", "hyperbolic", "tanh", "cubic"}  # in C and Fortran 77
+MOST_NODES = 200  # there
 NO_EQUILIBRIUM = 1
 WHOLE_ONLY = {"sections", "trains", "combinations", "envelopes"}
 
 
 def spelled(value):
     """A value such that two of them are equal if all their bits are."""
-    if isinstance(value, dict):
-        return {str(key): spelled(item) for key, item in value.items() if key not in NOT_NUMBERS}
     if isinstance(value, np.ndarray):
         return [str(value.dtype), value.shape, value.tobytes().hex()]
     if isinstance(value, (list, tuple)):
@@ -39,9 +38,25 @@ def spelled(value):
     return value.item() if isinstance(value, np.generic) else value
 
 
-def digest(value):
-    """The sha256 of a value."""
-    return hashlib.sha256(json.dumps(spelled(value), sort_keys=True).encode()).hexdigest()
+def sort_out(value, kind, found):
+    """Put numbers to others of their kind: the keys that lead to them, whatever their place in lists of dicts."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            if key not in NOT_NUMBERS:
+                sort_out(item, f"{kind}.{key}" if kind else str(key), found)
+    elif isinstance(value, (list, tuple)) and any(isinstance(item, dict) for item in value):
+        found[f"{kind}#"].append(len(value))
+        for item in value:
+            sort_out(item, kind, found)
+    else:
+        found[kind].append(spelled(value))
+
+
+def digests(value):
+    """The sha256 of every kind of number in a value."""
+    found = defaultdict(list)
+    sort_out(value, "", found)
+    return {kind: hashlib.sha256(json.dumps(values).encode()).hexdigest() for kind, values in found.items()}
 
 
 def arrays_of(found):
@@ -86,9 +101,9 @@ def in_c(made, library):
         beam.close()
 
 
-def in_fortran_77(made, library):
+def in_fortran_77(made, library, beam_of):
     """A solve, values at supports and fields, or the motion."""
-    beam = F77Beam(library, made)
+    beam = beam_of(library, made)
     if beam.info_:
         return beam.info_
     info = beam.solve(1.0)
@@ -97,7 +112,8 @@ def in_fortran_77(made, library):
     if info:
         return info
     x = np.linspace(0.0, float(np.sum(made["beam"]["spans"])), 9)
-    return [beam.at_supports(), beam.fields(x), beam.extremes(), beam.contact() if made.get("foundation") else []]
+    found = {"supports": beam.at_supports(), "fields": beam.fields(x), "extremes": beam.extremes()}
+    return found | {"contact": beam.contact() if made.get("foundation") else []}
 
 
 def is_for_all(made):
@@ -121,11 +137,21 @@ def attempt(call, *arguments):
         return type(error).__name__
 
 
-def main(scenes, library=None):
-    """Print the digests of all scenes of a file."""
-    library = library and Library(library)
+def callers(library, tests):
+    """The library as C and as Fortran 77 call it, by the classes of its own commit."""
+    sys.path.insert(0, str(tests))
+    for name in ("languages.clibrary", "clibrary"):
+        with contextlib.suppress(ModuleNotFoundError):
+            module = importlib.import_module(name)
+            return module.Library(library), module.F77Beam
+    raise SystemExit(f"{tests}: there is no clibrary.py")
+
+
+def main(scenes, first, last, library=None, tests=None):
+    """Print the digests of scenes of a file."""
+    called = library and callers(library, tests or Path(__file__).resolve().parents[1])
     with open(scenes, encoding="utf-8") as lines:
-        for line in lines:
+        for line in itertools.islice(lines, int(first), int(last)):
             name, made = json.loads(line)
             cases = made.pop("cases", None) if isinstance(made.get("cases"), dict) and "factors" in made["cases"] else None
             calls = {"python": (in_python, made)}
@@ -133,11 +159,10 @@ def main(scenes, library=None):
                 calls["cases"] = (in_cases, made, cases)
             if library and is_for_all(made):
                 made = {"supports": [], "loads": [], **made}
-                calls["C"] = (in_c, made, library)
-                if hasattr(library.c, "ghprep_"):  # work arrays before 0.4
-                    calls["Fortran 77"] = (in_fortran_77, made, library)
+                calls["C"] = (in_c, made, called[0])
+                calls["Fortran 77"] = (in_fortran_77, made, *called)
             for what, call in calls.items():
-                print(json.dumps([name, what, digest(attempt(*call))]), flush=True)
+                print(json.dumps([name, what, digests(attempt(*call))]), flush=True)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from digests import command
-from digests.collect import digest, is_for_all
+from digests.collect import digests, is_for_all
 from digests.drawn import FAMILIES, write_scenes
 
 COUNT = 500
@@ -13,10 +13,20 @@ COUNT = 500
 
 def test_the_last_bit_is_seen_and_words_are_not():
     one = {"x": [1.0, 2.0], "reason": "a", "n": np.arange(3.0)}
-    assert digest(one) == digest({"n": np.arange(3.0), "x": [1.0, 2.0], "reason": "b", "seconds": 3.0})
-    assert digest(one) != digest({**one, "x": [1.0, np.nextafter(2.0, 3.0)]})
-    assert digest(one) != digest({**one, "n": np.nextafter(np.arange(3.0), 9.0)})
-    assert digest(-0.0) != digest(0.0)
+    assert digests(one) == digests({"n": np.arange(3.0), "x": [1.0, 2.0], "reason": "b", "seconds": 3.0})
+    for key, value in (("x", [1.0, np.nextafter(2.0, 3.0)]), ("n", np.nextafter(np.arange(3.0), 9.0))):
+        other = digests({**one, key: value})
+        assert [kind for kind, digest in digests(one).items() if other[kind] != digest] == [key]
+    assert digests(-0.0) != digests(0.0)
+
+
+def test_numbers_are_sorted_by_the_keys_that_lead_to_them():
+    steps = [{"factor": 1.0, "supports": [{"reaction": 2.0}, {"reaction": 3.0}]}]
+    one = digests({"steps": steps})
+    assert set(one) == {"steps#", "steps.factor", "steps.supports#", "steps.supports.reaction"}
+    steps[0]["supports"].reverse()
+    other = digests({"steps": steps})
+    assert [kind for kind in one if one[kind] != other[kind]] == ["steps.supports.reaction"]
 
 
 def test_two_processes_give_the_same_digests(tmp_path, installed):
@@ -25,13 +35,15 @@ def test_two_processes_give_the_same_digests(tmp_path, installed):
     names = [json.loads(line)[0] for line in scenes.read_text().splitlines()]
     assert len(set(names)) == number >= COUNT
     assert {name.split()[0] for name in names} >= set(FAMILIES)
-    both = [command.collect(scenes, installed.library, tmp_path / str(number)) for number in range(2)]
-    here, there = (command.read_digests(*begun) for begun in both)
-    assert not command.changed(here, there)
-    assert {name for name, _ in here} == set(names)
-    found = [sum(kind == what for _, kind in here) for what in ("python", "cases", "C", "Fortran 77")]
+    both = []
+    for which in ("here", "there"):
+        (tmp_path / which).write_bytes(b"".join(command.collect(scenes, number, command.Progress(which, "scenes"), installed.library)))
+        both.append(command.read_digests(tmp_path / which))
+    assert command.changed(*both) == ([], [])
+    assert {name for name, *_ in both[0]} == set(names)
+    found = [len({name for name, kind, _ in both[0] if kind == what}) for what in ("python", "cases", "C", "Fortran 77")]
     assert found[0] == number
-    assert found[1] == COUNT // len(FAMILIES)
+    assert found[1] == -(-COUNT // len(FAMILIES))
     assert min(found[2:]) > COUNT // 3
 
 
@@ -43,11 +55,15 @@ def test_scenes_that_other_languages_cannot_hold():
 
 
 def test_what_has_changed_is_said(capsys):
-    here = {("a", "C"): "1", ("b", "C"): "2"}
+    here = {("a", "C", "x"): "1", ("b", "C", "x"): "2"}
     assert command.said(here, dict(here), 2, "HEAD") == 0
-    assert command.said(here, {**here, ("b", "C"): "3"}, 2, "HEAD") == 1
+    assert command.said(here, {**here, ("b", "C", "x"): "3"}, 2, "HEAD") == 1
+    assert command.said({**here, ("b", "C", "y"): "4"}, here, 2, "HEAD") == 0
+    assert command.said(here, {**here, ("b", "C", "z"): "4"}, 2, "HEAD") == 1
     assert command.said({}, {}, 0, "HEAD") == 1
     said = capsys.readouterr().out
-    assert "changed: b (C)" in said
-    assert "C                 2 digests, 1 changed" in said
+    assert "changed: b (C): x" in said
+    assert "changed: b (C): z" in said
+    assert "new: y (C)" in said
+    assert "C                 2 scenes        2 digests, 1 changed" in said
     assert "nothing has changed" in said

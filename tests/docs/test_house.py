@@ -117,7 +117,7 @@ def test_imports_inside_functions_are_of_what_a_command_may_not_need():
         if any(not at_top for _, at_top in modules_of(path))
     }
     elsewhere = {path for path in late if not path.startswith(("cli/", "studies/"))}
-    assert elsewhere == {"report/text.py", "batches/sample.py", "batches/tables.py", "show/display.py"}
+    assert elsewhere == {"batches/sample.py", "batches/tables.py", "show/display.py"}
 
 
 @pytest.mark.parametrize("language", ["fortran", "python/gapbeam"])

@@ -208,6 +208,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
+    run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
+                     "(.html); - is standard output, without report")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
     run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
     run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
@@ -222,11 +224,12 @@ def _parser() -> argparse.ArgumentParser:
     check.set_defaults(command=_check)
 
     schema = commands.add_parser(
-        "schema", help="print the JSON Schema of scenes", formatter_class=plain,
+        "schema", help="print the JSON Schema of scenes or results", formatter_class=plain,
         description="Print the JSON Schema of scenes: editors complete and check scenes by it.",
         epilog="For editors with Taplo (Even Better TOML): gapbeam schema > gapbeam.schema.json, and as the first\n"
         f"line of a scene\n\n  #:schema ./gapbeam.schema.json\n\n{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
+    schema.add_argument("--results", action="store_true", help="that of the JSON output instead, for programs that read it")
     schema.set_defaults(command=_schema)
 
     add_batch(commands)
@@ -252,7 +255,7 @@ class _Version(argparse.Action):
 
 def _run(arguments: argparse.Namespace) -> int:
     names = {"--json": arguments.json, "--csv": arguments.csv, "--xlsx": arguments.xlsx, "--plot": arguments.plot,
-             "--path": arguments.path}  # fmt: skip
+             "--path": arguments.path, "--html": arguments.html}  # fmt: skip
     outputs = Outputs(names, arguments.scene)
     if "--xlsx" in outputs and find_spec("xlsxwriter") is None:
         raise SceneError("--xlsx", 'needs xlsxwriter, which is not installed: pip install "gapbeam[excel]"')
@@ -291,6 +294,10 @@ def _run(arguments: argparse.Namespace) -> int:
         from ..plots.save import picture
 
         contents["--path"] = picture(path_figure(result), outputs.suffix("--path"))
+    if "--html" in outputs:
+        from ..html.page import Source, html_page
+
+        contents["--html"] = [html_page(result, None if arguments.scene == "-" else Source.of_file(arguments.scene))]
     outputs.write(contents)
     if not arguments.quiet and not outputs.on_standard_output:
         with until_closed():  # after the files: the reader of the report, such as head, may leave early
@@ -335,11 +342,14 @@ def _foundations(scene: "Scene") -> list[str]:
     return [f"{count(len(scene.foundation), 'foundation')}, {one_sided:,} of them one-sided"] if scene.foundation else []
 
 
-def _schema(_: argparse.Namespace) -> int:
+def _schema(arguments: argparse.Namespace) -> int:
     import json
 
-    from ..scene.schema import scene_schema
+    if arguments.results:
+        from ..report.result_schema import result_schema as schema
+    else:
+        from ..scene.schema import scene_schema as schema
 
     with until_closed():
-        print(json.dumps(scene_schema(), indent=2, allow_nan=False))
+        print(json.dumps(schema(), indent=2, allow_nan=False))
     return SOLVED

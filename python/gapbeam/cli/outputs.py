@@ -15,7 +15,7 @@ from ..base.files import write_files
 PICTURES = (".png", ".pdf", ".svg")
 SUFFIXES = {
     "--json": (".json",), "--csv": (".csv",), "--xlsx": (".xlsx",), "--markdown": (".md",), "--output": (".json",),
-    "--plot": PICTURES, "--path": PICTURES,
+    "--plot": PICTURES, "--path": PICTURES, "--html": (".html", ".htm"),
 }  # fmt: skip
 """Suffixes of the files that an option takes; only pictures need one."""
 

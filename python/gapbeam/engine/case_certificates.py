@@ -8,11 +8,11 @@ import numpy as np
 
 from ..base.errors import check_ended
 from . import calls as _engine
+from . import quantities
 from .beam import RULES, Beam
 from .combinations import Varied
-from .quantities import BENDING
 
-BOUNDED = (*BENDING, "reaction")
+BOUNDED = (*quantities.BOUNDED, "reaction")
 """What has error bounds."""
 RESIDUALS = ("compatibility", "equilibrium", "complementarity")
 """Relative residuals."""

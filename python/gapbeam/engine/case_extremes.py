@@ -86,8 +86,8 @@ def _follow(
     nodes: tuple[np.ndarray, ...], names: Collection[str], piece: np.ndarray, distance: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:  # fmt: skip
     """Find extremes, their places, and fields."""
-    cases, places = len(factors), len(piece)
-    extremes, x, fields = (np.full((cases, *shape), np.nan) for shape in ((4, 2), (4, 2), (places + 1, 4)))
+    cases, places, rows = len(factors), len(piece), len(BENDING)
+    extremes, x, fields = (np.full((cases, *shape), np.nan) for shape in ((rows, 2), (rows, 2), (places + 1, rows)))
     about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
     want = [int(name in names) for name in BENDING]
     state = status.astype(np.int32)

@@ -12,6 +12,7 @@ from ..base.errors import check_ended
 from ..base.records import Record
 from . import calls as _engine
 from .beam import RULES, Beam
+from .quantities import FIELDS
 
 NODES_AT_A_TIME = 20_000
 """Nodes of all combinations in the first call; later calls take about `SECONDS`, by what the one before took."""
@@ -122,7 +123,7 @@ def solve_combinations(
     about = np.append(piece, 1).astype(np.int32), np.append(distance, 0.0)
     schemes = np.zeros((count, beam.supports + 1), dtype=np.int32)
     schemes[:, :-1] = closed
-    most = max(NUMBERS_AT_A_TIME // (7 * (len(piece) + 1)), 1)
+    most = max(NUMBERS_AT_A_TIME // (len(FIELDS) * (len(piece) + 1)), 1)
     some, first = min(max(NODES_AT_A_TIME // (beam.links + 1), 1), most), 0
     while first < count:
         part = slice(first, min(first + some, count))
@@ -133,7 +134,7 @@ def solve_combinations(
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
         values, extremes, places, fields_at, solves, status = _engine.gbcomb(
-            beam.handle, np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
+            beam.handle, len(FIELDS), np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
         )
         check_ended(status)
         yield part, Combined(

@@ -1,7 +1,7 @@
 """Quantities along the beam, declared once: name, unit, what determines it, how it is drawn.
 
-How they come from the solution stands in Fortran: `fields_at` in fortran/beam/element.f90 for bending, in fortran/result/query.f90
-for axial ones, in fortran/result/pressure.f90 for the ground. Their order is that of the engine's arrays.
+How they come from the solution stands in Fortran: in fortran/beam/quantities.f90, in fortran/result/query.f90 for axial ones, in
+fortran/result/pressure.f90 for the ground. They have the same order there, and the engine's arrays have it.
 """
 
 from __future__ import annotations
@@ -18,10 +18,16 @@ class Quantity(NamedTuple):
         As in results, JSON and CSV.
     unit : str
         Of ``{force}`` and ``{length}``.
+    meaning : str
+        What it is, with its sign, in a sentence.
     of : {"bending", "axial", "ground"}
         What a scene must have for it; every beam bends.
     by_equilibrium : bool
         Whether forces determine it, so that it is unique where the beam can move freely without work of the loads.
+    bounded : bool
+        Whether error bounds are found for it.
+    reported : bool
+        Whether it stands among the largest and smallest values of the report.
     panel : str or None
         Its words beside an axis; None where it is not drawn.
     downward : bool
@@ -30,22 +36,40 @@ class Quantity(NamedTuple):
 
     name: str
     unit: str
+    meaning: str
     of: str = "bending"
     by_equilibrium: bool = False
+    bounded: bool = False
+    reported: bool = True
     panel: str | None = None
     downward: bool = False
 
 
 QUANTITIES = (
-    Quantity("deflection", "{length}", panel="deflection", downward=True),
-    Quantity("rotation", "rad"),
-    Quantity("moment", "{force} {length}", by_equilibrium=True, panel="moment", downward=True),
-    Quantity("shear", "{force}", by_equilibrium=True, panel="shear"),
-    Quantity("axial_force", "{force}", "axial", panel="axial force"),
-    Quantity("axial_displacement", "{length}", "axial"),
-    Quantity("pressure", "{force}/{length}", "ground", panel="pressure"),
+    Quantity("deflection", "{length}", "Deflection (length), positive downward.",
+             bounded=True, panel="deflection", downward=True),
+    Quantity("rotation", "rad", "Rotation (rad), positive clockwise.", bounded=True),
+    Quantity("moment", "{force} {length}", "Bending moment (force*length), positive sagging.",
+             by_equilibrium=True, bounded=True, panel="moment", downward=True),
+    Quantity("shear", "{force}", "Shear force (force), the derivative of the moment.",
+             by_equilibrium=True, bounded=True, panel="shear"),
+    Quantity("axial_force", "{force}", "Axial force (force), tension positive; only with axial loads.",
+             "axial", panel="axial force"),
+    Quantity("axial_displacement", "{length}",
+             "Displacement along the beam (length), positive to the right; only with axial loads.",
+             "axial"),
+    Quantity("pressure", "{force}/{length}",
+             "Line reaction of the ground (force/length), positive where it pushes the beam up; only with foundations.",
+             "ground", panel="pressure"),
+    Quantity("curvature", "1/{length}", "Curvature M/EI less what is imposed (1/length), positive as the sagging moment.",
+             by_equilibrium=True, reported=False, downward=True),
 )
 
 FIELDS = tuple(one.name for one in QUANTITIES)
+NUMBERS = {name: number for number, name in enumerate(FIELDS, start=1)}
+"""Their numbers in the engine."""
 BENDING = tuple(one.name for one in QUANTITIES if one.of == "bending")
-"""Those that every beam has; error bounds, cases side by side and trains have them."""
+"""Those that every beam has; cases side by side and trains have them."""
+BOUNDED = tuple(one.name for one in QUANTITIES if one.bounded)
+"""Those of bending that have error bounds, which come first."""
+REPORTED = tuple(one.name for one in QUANTITIES if one.reported)

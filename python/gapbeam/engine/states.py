@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import check_status
 from ..base.records import Record, read_only
 from . import calls as _engine
-from .quantities import BENDING
+from .quantities import BOUNDED, FIELDS, NUMBERS
 from .units import scaled
 
 if TYPE_CHECKING:
@@ -21,6 +21,8 @@ GROUND_ROWS = 19
 """Rows of `Ground.values` beside those of the layers, as in gapbeam_state_handle."""
 ON_DEMAND = ("deflection", "moment_left", "moment_right", "shear", "reaction", "motion", "displacement", "tension")
 """Arrays of a state that come out of the compiled layer where they are asked for, in the order of GBSGET."""
+ALL = np.array(list(NUMBERS.values()), dtype=np.int32)
+"""Numbers of all quantities along the beam."""
 
 
 class State:
@@ -279,18 +281,18 @@ class Solution(Record):
         Returns
         -------
         numpy.ndarray
-            6 by places, 7 with foundations, in the scene's units, in the order of FIELDS.
+            FIELDS by places, in the scene's units; zero of what the beam does not have.
 
         Raises
         ------
         EngineError
             A field left the range of doubles.
         """
-        state, count = self.state, 6 if self.ground is None else 7
-        found = np.empty((count, len(piece)))
+        state = self.state
+        found = np.empty((len(FIELDS), len(piece)))
         for part in _engine.parts(len(piece)):
             found[:, part], status, message = _engine.gbvalu(
-                state.beam.handle, state.stretches, state.handle, state.fields, count, piece[part], distance[part]
+                state.beam.handle, state.stretches, state.handle, state.fields, ALL, piece[part], distance[part]
             )
             check_status(status, message)
         return found
@@ -308,9 +310,9 @@ class Solution(Record):
         EngineError
             A field left the range of doubles.
         """
-        state, count = self.state, 6 if self.ground is None else 7
+        state = self.state
         values, x, status, message = _engine.gbextr(
-            state.beam.handle, state.beam.pieces, state.stretches, state.handle, state.fields, count
+            state.beam.handle, state.beam.pieces, state.stretches, state.handle, state.fields, ALL
         )
         check_status(status, message)
         return values, x
@@ -325,5 +327,6 @@ class Solution(Record):
         state, beam = self.state, self.state.beam
         if self.ground is not None:
             values, _ = self.extremes()
-            return scaled(np.abs(values[:, : len(BENDING)]).max(axis=0), -np.array(beam.units.field))
+            bounded = [FIELDS.index(name) for name in BOUNDED]
+            return scaled(np.abs(values[:, bounded]).max(axis=0), -np.array(beam.units.field))
         return _engine.gblarg(beam.handle, beam.pieces, state.handle, state.fields)

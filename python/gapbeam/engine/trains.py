@@ -10,6 +10,7 @@ from ..base.errors import check_status
 from ..base.records import Record
 from . import calls as _engine
 from .beam import Beam
+from .quantities import BENDING
 
 NOT_UNIQUE = 2
 """Status of stretches on which the beam can move freely without work of the loads, as in gapbeam_train_path."""
@@ -19,16 +20,16 @@ SIDES = (None, "left", "right")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Extremes(Record):
-    """Largest and smallest values of four quantities, with all ties.
+    """Largest and smallest values of some quantities, with all ties.
 
     Attributes
     ----------
     count : numpy.ndarray of int
-        Ties of the largest (first) and of the smallest value of every quantity, 2 by 4.
+        Ties of the largest (first) and of the smallest value of every quantity, 2 by quantities.
     values : numpy.ndarray
-        Value, x, position of every tie, 2 by 4 by ties by 3.
+        Value, x, position of every tie, 2 by quantities by ties by 3.
     sides : numpy.ndarray of int
-        Index into SIDES; 2 by 4 by ties.
+        Index into SIDES; 2 by quantities by ties.
     """
 
     count: np.ndarray
@@ -103,7 +104,7 @@ class Traversal:
         Returns
         -------
         fields : Extremes
-            Of deflection, rotation, moment, shear.
+            Of `BENDING`.
         supports : list of Extremes
             Of reaction, opening, deflection, couple of every support of the scene.
 
@@ -114,7 +115,7 @@ class Traversal:
         """
         count = self.beam.scene_supports
         fields, sides, ties, supports, support_sides, support_ties, status, message = _engine.gbtenv(
-            self.beam.handle, self._handle, count + 1
+            self.beam.handle, self._handle, count + 1, len(BENDING)
         )
         check_status(status, message)
         return Extremes(ties, fields.T.swapaxes(0, 1), sides.T.swapaxes(0, 1)), [
@@ -133,7 +134,7 @@ class Traversal:
         Returns
         -------
         values, positions : numpy.ndarray
-            Largest and smallest, by deflection, rotation, moment, shear, by places; positions of the train. Infinite where no
+            Largest and smallest, by `BENDING`, by places; positions of the train. Infinite where no
             position is solved.
 
         Raises
@@ -141,7 +142,7 @@ class Traversal:
         EngineError
             No memory.
         """
-        values, positions, status, message = _engine.gbtcur(self.beam.handle, self._handle, piece, distance)
+        values, positions, status, message = _engine.gbtcur(self.beam.handle, self._handle, len(BENDING), piece, distance)
         check_status(status, message)
         largest = np.finfo(float).max
         values[values >= largest], values[values <= -largest] = np.inf, -np.inf
@@ -166,7 +167,7 @@ class Traversal:
         Returns
         -------
         numpy.ndarray
-            Deflection, rotation, moment, shear at the place, and sum of the reactions, 5 by places.
+            `BENDING` at the place, and sum of the reactions, by places.
 
         Raises
         ------
@@ -174,7 +175,7 @@ class Traversal:
             The state is not unique.
         """
         values, status, message = _engine.gbtinf(
-            self.beam.handle, self._handle, np.append(closed, 0).astype(np.int32), np.append(supports, False).astype(np.int32),
+            self.beam.handle, self._handle, len(BENDING) + 1, np.append(closed, 0).astype(np.int32), np.append(supports, False).astype(np.int32),
             piece, distance, places,
         )  # fmt: skip
         check_status(status, message)

@@ -6,18 +6,23 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import short
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
+from ..results.envelopes.lifted import NONE
+from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..scene.names import labels
+from .ground import free_span_headings
 from .over_path import write_over_path
+from .system import write_system
 from .trains import write_trains
-from .writer import Writer, cut
+from .writer import Writer, chosen
 
 if TYPE_CHECKING:
     from ..results.cases.combined import CombinedResult
-    from ..results.envelopes.envelope import Extreme
+    from ..results.envelopes.envelope import Envelope, Extreme
     from ..results.envelopes.ground_envelope import GroundExtreme
+    from ..results.envelopes.hints import Hint
+    from ..scene.structs import Scene
 
 MOST_FOLLOWED = 100
 """Combinations that are followed from event to event for the report, to find factors between that govern."""
@@ -25,10 +30,12 @@ MOST_TIES = 2
 """Further combinations with the same value that are named."""
 MOST_ROWS = 24
 """Combinations whose reactions are listed."""
+MOST_SUPPORTS = 40
+"""Supports whose reactions are listed."""
 PLACES = (("max", "largest"), ("min", "smallest"))
 
 
-def write_combined(say: Writer, result: "CombinedResult") -> None:
+def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False) -> None:
     """Print what a person wants to know of combinations.
 
     Parameters
@@ -37,6 +44,8 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
         Where to write.
     result : CombinedResult
         What `gapbeam.solve` returned.
+    verbose : bool
+        Whether equations are told.
     """
     scene = result.scene
     _fallen(say, result)
@@ -50,8 +59,37 @@ def write_combined(say: Writer, result: "CombinedResult") -> None:
         _factors_between(say, result)
     write_over_path(say, result)
     _list(say, result)
+    if verbose:
+        write_system(say, result)
     say.line()
-    say.line(f"Solved with {fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}.", "dim")
+    words = f"{fmt.count(result.solves, 'solve')}, {fmt.duration(result.seconds)}"
+    say.line(f"{bound_in_words(_bound(result))}{words}. More: --verbose.", "dim")
+
+
+def _bound(result: "CombinedResult") -> float | None:
+    """The largest error bound of the combinations, where they are few."""
+    if result.scene.trains or len(result.names) > MOST_FOLLOWED:
+        return None
+    ends = [one.steps[-1].certificate["error_bound"] for one in result.combinations.values() if one.status == "solved"]
+    return max(ends) if ends and None not in ends else None
+
+
+def bound_in_words(bound: float | None) -> str:
+    """Word an error bound.
+
+    Parameters
+    ----------
+    bound : float or None
+        As a share of the largest values.
+
+    Returns
+    -------
+    str
+        To stand before other words; empty where there is none.
+    """
+    if bound is None:
+        return ""
+    return f"Error bound {bound:.0e} (relative); " if bound < 1.0 else "All values are within their error bounds; "
 
 
 def _fallen(say: Writer, result: "CombinedResult") -> None:
@@ -82,41 +120,77 @@ def _when(result: "CombinedResult") -> str:
 
 
 def _reactions(say: Writer, result: "CombinedResult") -> None:
-    """Tabulate reactions by combination, with what has lifted off."""
+    """Tabulate reactions by combination, with what has lifted off, and their sums beside those of the loads."""
     scene = result.scene
     if not scene.supports:
         return
     envelope, up = result.envelope(), "^" if say.plain else "\u2191"
     reaction, opening = (envelope.at_supports[:, AT_SUPPORTS.index(name)] for name in ("reaction", "opening"))
+    deflection = np.nanmax(np.abs(envelope.at_supports[:, AT_SUPPORTS.index("deflection")]))
+    lifted = opening > NONE * deflection
+    shown, supports = _rows_of(envelope, lifted), _columns_of(reaction, lifted)
     rows = []
-    for k in cut(range(len(envelope.sources)), MOST_ROWS)[0]:
+    for k in shown:
+        name, one = visible(envelope.sources[k].combination or ""), envelope.result_of(k)
+        if one.status != "solved":
+            rows.append([name, *["-"] * (len(supports) + 2)])
+            continue
+        forces = fmt.without_noise(reaction[k].tolist())
         texts = [
-            f"0 {up}{short(scene, 'opening', gone).split()[0]}" if gone > 0.0 else fmt.number(force, fmt.DIGITS)
-            for force, gone in zip(reaction[k].tolist(), opening[k].tolist(), strict=True)
-        ]
-        rows.append([visible(envelope.sources[k].combination or ""), *texts])
+            f"0 {up}{fmt.number(fmt.shown_unit(scene, 'opening')[1] * opening[k, i], 3)}" if lifted[k, i]
+            else fmt.number(forces[i], fmt.DIGITS)
+            for i in supports
+        ]  # fmt: skip
+        step = one.steps[-1]
+        sums = sum_of_reactions(one.scene, step).force, sum_of_loads(one.scene, step.factor).force
+        rows.append([name, *texts, *(fmt.number(value, fmt.DIGITS) for value in sums)])
     for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
-        rows.append([words, *(fmt.number(value, fmt.DIGITS) for value in best(reaction, axis=0).tolist())])
-    unit = fmt.unit(scene, "reaction")
+        ends = fmt.without_noise(best(reaction, axis=0).tolist())
+        rows.append([words, *(fmt.number(ends[i], fmt.DIGITS) for i in supports), "", ""])
+    unit, names = fmt.unit(scene, "reaction"), labels(scene.supports)
     say.heading("Reactions by combination" + (f" [{unit}]" if unit else ""))
-    say.table_by_name(["", *labels(scene.supports)], rows)
-    hidden = len(envelope.sources) - (len(rows) - 2)
-    more = f" {hidden:,} combinations in the middle are left out here; --json has all." if hidden else ""
+    say.table_by_name(["", *(names[i] for i in supports), "sum", "loads"], rows)
     length, _ = fmt.shown_unit(scene, "opening")
-    lifted = f"; {up} lifted off, with its opening{f' in {length}' if length else ''}" if (opening > 0.0).any() else ""
-    say.line(f"Upward positive{lifted}.{more}", "dim")
+    mark = f"; {up} no contact, with its opening{f' in {length}' if length else ''}" if lifted.any() else ""
+    words = [f"Upward positive{mark}."]
+    if hidden := len(envelope.sources) - len(shown):
+        words.append(f"{hidden:,} combinations are left out here, which neither govern nor lift a support more; --json has all.")
+    if hidden := len(names) - len(supports):
+        lost = [i for i in np.flatnonzero(lifted.any(axis=0)).tolist() if i not in supports]
+        words.append(f"{hidden:,} supports are left out here{f'; no contact at {fmt.ranges(lost)}' if lost else ''}.")
+    if scene.foundation:
+        words.append("The sum has the ground in it.")
+    say.line(" ".join(words), "dim")
+
+
+def _rows_of(envelope: "Envelope", lifted: np.ndarray) -> list[int]:
+    """Choose combinations: those that govern a reaction or an opening, then those with supports without contact."""
+    count = len(envelope.sources)
+    if count <= MOST_ROWS:
+        return list(range(count))
+    numbers = {source: k for k, source in enumerate(envelope.sources)}
+    ends = [row[what][kind].source for row in envelope.supports[:MOST_SUPPORTS]
+            for what, kind in (("opening", "max"), ("reaction", "max"), ("reaction", "min"))]  # fmt: skip
+    ranked = [*(numbers[source] for source in ends), *np.flatnonzero(lifted.any(axis=1)).tolist(), *range(count)]
+    return sorted(list(dict.fromkeys(ranked))[:MOST_ROWS])
+
+
+def _columns_of(reaction: np.ndarray, lifted: np.ndarray) -> list[int]:
+    """Choose supports: those without contact somewhere, then those with the largest reactions."""
+    most = np.nanmax(np.abs(reaction), axis=0)
+    ranked = sorted(range(len(most)), key=lambda i: (not lifted[:, i].any(), -most[i]))
+    return sorted(ranked[:MOST_SUPPORTS])
 
 
 def _fields(say: Writer, result: "CombinedResult") -> None:
     scene, envelope = result.scene, result.envelope()
     say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
-    for quantity, row in envelope.extremes.items():
-        for kind, words in PLACES:
-            one = row[kind]
-            name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
-            value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
-            rows.append([name, words, value, x, _source(one)])
+    for quantity, row in fmt.reported(envelope.extremes).items():
+        values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
+        for (kind, words), value in zip(PLACES, values, strict=True):
+            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
+            rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
     say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
              "each other.", "dim")  # fmt: skip
@@ -128,8 +202,13 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
         return
     say.heading(f"Supports, all combinations {_when(result)}")
     one_sided = any(support.side != "both" for support in scene.supports)
-    rows = []
-    for name, row in zip(fmt.numbered(scene.supports), result.envelope().supports, strict=True):
+    rows, names, envelope = [], fmt.numbered(scene.supports), result.envelope()
+    lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
+    for k in chosen(len(names), lifted, MOST_ROWS):
+        if k is None:
+            rows.append(["..."] * (6 if one_sided else 4))
+            continue
+        name, row = names[k], envelope.supports[k]
         for kind, words in PLACES:
             one = row["reaction"][kind]
             texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
@@ -140,7 +219,7 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
     headings = ["", "", fmt.stacked(scene, "reaction"), "combination"]
     if one_sided:
         headings += [fmt.shown_column(scene, "opening", [])[0], "combination"]
-    say.table(headings, rows, left=(0, 1, 3, 5))
+    say.table(headings, rows, left=(0, 1, 3, 5), longest=len(rows))
     say.line("Reactions upward positive.", "dim")
 
 
@@ -162,17 +241,16 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
         for kind, one in row["free_span"].items():
             if one is not None:
                 span = one.span
-                numbers = [fmt.number(value, 4) for value in (span.from_, span.to, span.to - span.from_, span.sag)]
+                numbers = [fmt.number(value, 4) for value in (span.from_, span.to, span.to - span.from_)]
+                numbers.append(fmt.shown(scene, "sag", span.sag))
                 rows.append([name if kind == "longest" else "", kind, *numbers, _source(one)])
     if not rows:
-        say.line("Resultants upward positive. The beam hangs free nowhere.", "dim")
+        say.line("Resultants upward positive. There is no free span.", "dim")
         return
     say.line("Resultants upward positive.", "dim")
     say.heading(f"Free spans, all combinations {_when(result)}")
-    quantities = (("x", "from"), ("x", "to"), ("length", "length"), ("sag", "sag"))
-    headings = [fmt.stacked(scene, quantity, words) for quantity, words in quantities]
-    say.table(["", "", *headings, "combination"], rows, left=(0, 1, 6))
-    say.line("Sag: largest distance between beam and ground.", "dim")
+    say.table(["", "", *free_span_headings(scene), "combination"], rows, left=(0, 1, 6))
+    say.line("Clearance: largest distance between beam and ground.", "dim")
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
@@ -197,9 +275,9 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
     words = dict(PLACES)
     rows = [
         [
-            hint.quantity if hint.support is None else f"{hint.quantity} of {names[hint.support]}", words[hint.kind],
-            fmt.number(hint.value), fmt.number(hint.x), visible(hint.combination or ""), fmt.number(hint.factor, 5),
-            fmt.number(largest[hint.quantity, hint.support, hint.kind]),
+            _of(hint, names, scene), words[hint.kind], fmt.shown(scene, hint.quantity, hint.value), fmt.number(hint.x, fmt.DIGITS),
+            visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
+            fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind]),
         ]
         for hint in found
     ]  # fmt: skip
@@ -207,6 +285,11 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
     say.table(headings, rows, left=(0, 1, 4))
     say.line("With supports that open and close the full load need not be the worst: these values are greater where the loads "
              "(all but the dead ones) have that part of their factors.")  # fmt: skip
+
+
+def _of(hint: "Hint", names: list[str], scene: "Scene") -> str:
+    """Name the quantity of a hint, with its unit."""
+    return fmt.shown_heading(scene, hint.quantity) + ("" if hint.support is None else f" of {names[hint.support]}")
 
 
 def _list(say: Writer, result: "CombinedResult") -> None:

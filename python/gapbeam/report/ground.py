@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..results import formatting as fmt
-from ..results.answer import ground_in_words
+from ..results.contact import ground_in_words
+from ..results.equilibrium import balance_in_words
+from ..results.event_words import state_in_words
 from ..results.state.ground import Contact, FreeSpan, joined
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
@@ -12,9 +14,11 @@ from .scheme import symbol
 from .writer import LONGEST, Writer
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..results.result import Result
     from ..results.state.step import Step
-    from ..scene.structs import Foundation
+    from ..scene.structs import Foundation, Scene
 
 MOST_ROWS = 24
 """Zones and free spans that are listed, a dozen of each; of more some in the middle are left out, and a summary stands below."""
@@ -46,17 +50,18 @@ def write_foundations(say: Writer, result: "Result", at: str) -> None:
     from_, to = zip(*(fmt.stretch(scene, item) for item in scene.foundation), strict=True)
     columns = [
         ("", fmt.numbered(scene.foundation)),
-        (fmt.stacked(scene, "x", "from"), fmt.column(from_)),
-        (fmt.stacked(scene, "x", "to"), fmt.column(to)),
+        (fmt.stacked(scene, "x", "from"), fmt.column(from_, fmt.DIGITS)),
+        (fmt.stacked(scene, "x", "to"), fmt.column(to, fmt.DIGITS)),
         ("side", [item.side for item in scene.foundation]),
         (fmt.stacked(scene, "k"), ["law" if item.law is not None else _pair(item.k) for item in scene.foundation]),
-        (fmt.stacked(scene, "gap"), [_gap(item) for item in scene.foundation]),
-        (fmt.stacked(scene, "length", "in contact"), fmt.column(touched)),
-        (fmt.stacked(scene, "resultant"), fmt.column(carried)),
+        (f"gap\n{fmt.shown_unit(scene, 'gap')[0]}".rstrip(), [_gap(scene, item) for item in scene.foundation]),
+        (fmt.stacked(scene, "length", "in contact"), fmt.column(touched, fmt.DIGITS)),
+        (fmt.stacked(scene, "resultant"), fmt.column(carried, fmt.DIGITS)),
     ]
     say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(3,))
-    label = fmt.unit(scene, "force")
-    say.line(f"Resultants (upward positive) add up to {_number(sum(carried))} {label}".rstrip() + ".", "dim")
+    if not scene.supports:
+        for line in balance_in_words(scene, step):
+            say.line(line, "dim")
 
 
 def write_contact(say: Writer, result: "Result", at: str) -> None:
@@ -73,16 +78,18 @@ def write_contact(say: Writer, result: "Result", at: str) -> None:
     say.heading(f"Contact with the ground {at}")
     stretches = sorted([*step.contact, *step.free_spans], key=lambda item: (item.foundation, item.from_, item.to))
     ends = [_ends(item) for item in stretches]
-    places = fmt.column(x for both in ends for x in both)
+    places = fmt.column((x for both in ends for x in both), fmt.DIGITS)
     free = [isinstance(item, FreeSpan) for item in stretches]
     states = ["free" if isinstance(item, FreeSpan) else item.state for item in stretches]
+    resultants = [None if isinstance(item, FreeSpan) else item.resultant for item in stretches]
+    sags = [item.sag if isinstance(item, FreeSpan) else None for item in stretches]
     columns = [
         (fmt.stacked(scene, "x", "from"), places[::2]),
         (fmt.stacked(scene, "x", "to"), places[1::2]),
-        (fmt.stacked(scene, "length"), fmt.column(map(_length, ends))),
-        ("state", [f"{symbol('open' if state == 'free' else state, say.plain)} {state}" for state in states]),
-        (fmt.stacked(scene, "resultant"), _some([None if isinstance(item, FreeSpan) else item.resultant for item in stretches])),
-        (fmt.stacked(scene, "sag"), _some([item.sag if isinstance(item, FreeSpan) else None for item in stretches])),
+        (fmt.stacked(scene, "length"), fmt.column(map(_length, ends), fmt.DIGITS)),
+        ("state", [f"{symbol('open' if state == 'free' else state, say.plain)} {state_in_words(state)}" for state in states]),
+        (fmt.stacked(scene, "resultant"), _some(lambda values: fmt.column(values, fmt.DIGITS), resultants)),
+        (clearance_heading(scene), _some(lambda values: fmt.shown_column(scene, "sag", values, 4)[1], sags)),
     ]
     if not any(free):
         del columns[-1]
@@ -93,7 +100,7 @@ def write_contact(say: Writer, result: "Result", at: str) -> None:
     if len(stretches) > MOST_ROWS:
         _summary(say, result, step)
     if any(free):
-        say.line("Sag: largest distance between beam and ground.", "dim")
+        say.line("Clearance: largest distance between beam and ground.", "dim")
 
 
 def write_contact_history(say: Writer, result: "Result") -> None:
@@ -111,10 +118,12 @@ def write_contact_history(say: Writer, result: "Result") -> None:
     not_shown = range(LONGEST // 2, len(steps) - LONGEST // 2)
     shown = [k for k in range(len(steps)) if k not in not_shown]
     rows = [_step_in_a_row(result.scene.foundation, steps[k]) for k in shown]
-    columns = [fmt.column([steps[k].factor for k in shown]), *(fmt.column(values) for values in list(zip(*rows, strict=True))[:3])]
+    lengths, resultants, sags = list(zip(*rows, strict=True))[:3]
+    columns = [fmt.column(values, fmt.DIGITS) for values in ([steps[k].factor for k in shown], lengths, resultants)]
+    columns.append(fmt.shown_column(result.scene, "sag", sags, 4)[1])
     texts = iter(zip(*columns, [row[3] for row in rows], strict=True))
     headings = ["load factor", fmt.stacked(result.scene, "length", "in contact"), fmt.stacked(result.scene, "resultant"),
-                fmt.stacked(result.scene, "sag"), fmt.stacked(result.scene, "x", "zones of contact")]  # fmt: skip
+                clearance_heading(result.scene), fmt.stacked(result.scene, "x", "contact zones")]  # fmt: skip
     say.table(headings, [() if k in not_shown else next(texts) for k in range(len(steps))], left=(4,))
 
 
@@ -138,14 +147,14 @@ def _summary(say: Writer, result: "Result", step: "Step") -> None:
         longest = max(zones, key=lambda zone: _length(_ends(zone)))
         heaviest = max(zones, key=lambda zone: abs(zone.resultant))
         words.append(
-            f"{fmt.count(len(zones), 'zone')} of contact, together {_with_label(result, _together(zones))}: the longest "
+            f"{fmt.count(len(zones), 'contact zone')}, together {_with_label(result, _together(zones))}: the longest "
             f"{_place(longest)}, the largest resultant {_with_label(result, heaviest.resultant, 'force')} {_place(heaviest)}."
         )
     if spans:
         longest, deepest = max(spans, key=lambda span: _length(_ends(span))), max(spans, key=lambda span: span.sag)
         words.append(
             f"{fmt.count(len(spans), 'free span')}, together {_with_label(result, _together(spans))}: the longest "
-            f"{_place(longest)}, the largest sag {_with_label(result, deepest.sag)} {_place(deepest)}."
+            f"{_place(longest)}, the largest clearance {_clearance(result, deepest.sag)} {_place(deepest)}."
         )
     say.line(" ".join(words))
 
@@ -170,13 +179,48 @@ def _number(value: float) -> str:
     return fmt.number(value, 4)
 
 
+def free_span_headings(scene: "Scene") -> list[str]:
+    """Headings of a table of free spans: where, how long, how far above the ground.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    list of str
+    """
+    places = [fmt.stacked(scene, quantity, words) for quantity, words in (("x", "from"), ("x", "to"), ("length", "length"))]
+    return [*places, clearance_heading(scene)]
+
+
+def clearance_heading(scene: "Scene") -> str:
+    """Heading of the largest distance between beam and ground.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    str
+    """
+    return f"clearance\n{fmt.shown_unit(scene, 'sag')[0]}".rstrip()
+
+
+def _clearance(result: "Result", value: float) -> str:
+    return f"{fmt.shown(result.scene, 'sag', value)} {fmt.shown_unit(result.scene, 'sag')[0]}".rstrip()
+
+
 def _with_label(result: "Result", value: float, quantity: str = "length") -> str:
     return f"{_number(value)} {fmt.unit(result.scene, quantity)}".rstrip()
 
 
-def _some(values: Sequence[float | None]) -> list[str]:
+def _some(write: "Callable[[list[float]], list[str]]", values: Sequence[float | None]) -> list[str]:
     """Write a column in which some places stay empty."""
-    texts = iter(fmt.column(value for value in values if value is not None))
+    texts = iter(write([value for value in values if value is not None]))
     return ["" if value is None else next(texts) for value in values]
 
 
@@ -189,5 +233,8 @@ def _pair(value: Any) -> str:
     return _number(first) if first == last else f"{_number(first)} to {_number(last)}"
 
 
-def _gap(item: "Foundation") -> str:
-    return _pair(item.gap) if item.profile is None else "profile"
+def _gap(scene: "Scene", item: "Foundation") -> str:
+    if item.profile is not None:
+        return "profile"
+    factor, gap = fmt.shown_unit(scene, "gap")[1], item.gap
+    return _pair(factor * gap if isinstance(gap, int | float) else tuple(factor * value for value in gap))

@@ -1,4 +1,4 @@
-"""Extremes on the whole way of the load in the report: it may have been worse than at its end."""
+"""Extremes over the loading history in the report: it may have been worse than at its end."""
 
 from typing import TYPE_CHECKING
 
@@ -13,9 +13,9 @@ from ..results.envelopes.over_path import is_followed
 from .writer import Writer
 
 if TYPE_CHECKING:
+    from ..results.envelopes.envelope import Source
     from ..results.envelopes.over_path import PathEnvelope
     from ..results.result import Result
-    from ..results.views.extreme import Source
 
 MOST_ROWS = 20
 """Values at supports that are listed."""
@@ -23,14 +23,15 @@ MOST_MISSING = 5
 """States that could not be solved that are named."""
 PLACES = (("max", "largest"), ("min", "smallest"))
 OVER = {
-    "path": "Exact: of every load factor that was passed, on both sides of jumps.",
-    "states": "Values are curved between the events here: of the events and 23 states between each two.",
-    "steps": 'Of the load steps only; follow = "events" has those between as well.',
+    "path": "Every load factor on the way counts, on both sides of jumps.",
+    "states": "Values are curved between events here: 23 states between each two count.",
+    "steps": 'Only the load steps count; follow = "events" has what is between.',
 }
+TITLE = "Largest values over the loading history"
 
 
-def write_over_path(say: Writer, result: "Result") -> None:
-    """Print the largest and smallest values over the whole way of the load.
+def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
+    """Print the largest and smallest values over the loading history.
 
     Parameters
     ----------
@@ -38,42 +39,74 @@ def write_over_path(say: Writer, result: "Result") -> None:
         Where to write.
     result : Result
         What `gapbeam.solve` returned.
+    at : str
+        The end of the load in words, where its values stand above.
     """
     if not is_followed(result):
         return
     scene = result.scene
-    say.heading("Largest values over the whole way of the load")
     if not has_cheap_envelope(result):
+        say.heading(TITLE)
         say.line("Not looked for: the path has so many states that this takes long; --json has them, and "
                  "result.history_extremes in Python.")  # fmt: skip
         return
     found = result.path_envelope()
-    legs = len(scene.analysis.history) > 1
+    legs, beyond = len(scene.analysis.history) > 1, _beyond(found)
+    rows = _rows(result, found, legs)
+    last = None if result.combinations else found.sources[-1]
+    at_end = last is not None and all(one.source == last for row in found.extremes.values() for one in row.values())
+    only_at_end = bool(at and at_end)
+    if only_at_end and not beyond:
+        say.line()
+        say.line(f"Nothing is larger on the way there. {OVER[found.over]}", "dim")
+        return
+    say.heading(TITLE)
     headings = ["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result, legs)]
-    rows = []
-    for quantity, row in found.extremes.items():
-        for kind, words in PLACES:
-            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
-            value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
-            rows.append([name, words, value, x, *_where(one.source, legs)])
-    say.table(headings, rows, left=(0, 1))
-    beyond = _beyond(found)
+    if only_at_end:
+        say.line(f"Along the beam the values {at} are the largest.")
+    else:
+        say.table(headings, rows, left=(0, 1))
     if beyond:
-        names = fmt.numbered(scene.supports)
-        rows, before = [], None
-        for k, what, kind in beyond:
+        names, before = fmt.numbered(scene.supports), None
+        shown = _chosen(found, beyond)
+        rows = []
+        for k, what, kind in shown:
             one = found.supports[k][what][kind]
             name, before = "" if k == before else names[k], k
             rows.append([name, f"{dict(PLACES)[kind]} {what}", fmt.shown(scene, what, one.value), *_where(one.source, legs)])
-        say.line()
-        say.table(["support", "", "value", *_headings(result, legs)], rows, left=(0, 1), longest=MOST_ROWS)
-        say.line("All other supports have their largest and smallest values where the way begins or ends.", "dim")
+        if not only_at_end:
+            say.line()
+        say.table(["support", "", "value", *_headings(result, legs)], rows, left=(0, 1))
+        if len(shown) < len(beyond):
+            say.line(f"{len(beyond) - len(shown):,} more such values are left out here; --json has all.", "italic")
+        say.line("All other supports have theirs at the start or at the end.", "dim")
     say.line(OVER[found.over], "dim")
     if found.missing:
         factors = ", ".join(fmt.number(source.factor, 5) for source, _ in found.missing[:MOST_MISSING])
         more = f" and {len(found.missing) - MOST_MISSING} more" if len(found.missing) > MOST_MISSING else ""
         why = visible(found.missing[0][1])
         say.line(f"Not counted, since they could not be solved: load factor {factors}{more} ({why}).", "red")
+
+
+def _rows(result: "Result", found: "PathEnvelope", legs: bool) -> list[list[str]]:
+    """Rows of the values along the beam."""
+    scene, rows = result.scene, []
+    for quantity, row in fmt.reported(found.extremes).items():
+        values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
+        for (kind, words), value in zip(PLACES, values, strict=True):
+            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
+            where = [fmt.number(one.x, fmt.DIGITS), *_where(one.source, legs)]
+            rows.append([name, words, fmt.shown(scene, quantity, value), *where])
+    return rows
+
+
+def _chosen(found: "PathEnvelope", beyond: list[tuple[int, str, str]]) -> list[tuple[int, str, str]]:
+    """Choose values at supports: those of openings before all others, then the largest."""
+    def rank(one: tuple[int, str, str]) -> tuple[bool, float]:
+        k, what, kind = one
+        return what != "opening" or kind != "max", -abs(found.supports[k][what][kind].value)
+
+    return sorted(sorted(beyond, key=rank)[:MOST_ROWS], key=lambda one: one[0])
 
 
 def _beyond(found: "PathEnvelope") -> list[tuple[int, str, str]]:
@@ -97,4 +130,4 @@ def _headings(result: "Result", legs: bool) -> list[str]:
 def _where(source: "Source", legs: bool) -> list[str]:
     """Say where an extreme comes from."""
     names = [] if source.combination is None else [visible(source.combination)]
-    return [fmt.number(source.factor, 10), *[str(source.leg)] * legs, *names]
+    return [fmt.number(source.factor, fmt.DIGITS), *[str(source.leg)] * legs, *names]

@@ -6,14 +6,14 @@ from collections.abc import Iterable, Sequence
 from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
-from ..results.formatting import number, ranges, with_unit
-from ..scene.names import label
+from ..results.event_words import event_in_words, reaction_at, state_in_words
+from ..results.formatting import DIGITS, number, ranges
 
 if TYPE_CHECKING:
+    from ..results.envelopes.over_path import PathEnvelope
     from ..results.paths.ground_path import GroundEvent
     from ..results.paths.path import Event
-    from ..results.trains.traversals import TrainEvent
-    from ..scene.structs import Scene
+    from ..results.result import Result
 
 #: State -> character; the second where the terminal knows only ASCII
 SYMBOLS = {"closed": ("●", "#"), "open": ("○", "o"), "bilateral": ("▲", "^"), "touching": ("◐", "~")}
@@ -47,11 +47,11 @@ def legend(states: Sequence[str], plain: bool = False) -> str:
     Examples
     --------
     >>> legend(["closed", "open"], plain=True)
-    '# closed  o open'
+    '# in contact  o no contact'
     """
     seen = [state for state in SYMBOLS if state in states]
     seen += sorted(set(states) - set(SYMBOLS), key=lambda state: (len(state), state))
-    return "  ".join(f"{symbol(state, plain)} {state}" for state in seen)
+    return "  ".join(f"{symbol(state, plain)} {state_in_words(state)}" for state in seen)
 
 
 def merged(history: History) -> list[tuple[float, float, tuple[str, ...]]]:
@@ -109,16 +109,18 @@ def scheme_table(history: History, width: int, plain: bool = False) -> tuple[lis
 
 
 def event_table(
-    scene: Scene, events: Sequence[Event] | Sequence[GroundEvent]
+    result: Result, events: Sequence[Event] | Sequence[GroundEvent], envelope: PathEnvelope | None = None
 ) -> tuple[list[str], list[list[str]], tuple[int, ...]]:
     """Give headings and rows of the events, and the columns that are flush left.
 
     Parameters
     ----------
-    scene : Scene
-        With foundations every row says whether it is about one of them or a support.
+    result : Result
+        Of one load.
     events : sequence of Event or GroundEvent
         In the order of the load.
+    envelope : PathEnvelope, optional
+        Of the loading history; it knows the reactions at which supports yield or break.
 
     Returns
     -------
@@ -126,48 +128,12 @@ def event_table(
     rows : list of list of str
     left : tuple of int
     """
-    mixed = bool(scene.foundation)
-    rows = [
-        [number(event.factor, 10), changed_item(scene, event, mixed), number(event.x), words_of_event(event)] for event in events
-    ]
-    return ["load factor", "at" if mixed else "support", with_unit(scene, "x"), "event"], rows, (1, 3) if mixed else (3,)
-
-
-def changed_item(scene: Scene, event: Event | GroundEvent | TrainEvent, mixed: bool) -> str:
-    """Name the support or foundation that changes.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    event : Event, GroundEvent or TrainEvent
-        What happens.
-    mixed : bool
-        Whether to say that a support is one.
-
-    Returns
-    -------
-    str
-    """
-    if event.support is None:
-        return f"foundation {label(scene.foundation, event.foundation)}"
-    return f"{'support ' * mixed}{label(scene.supports, event.support)}"
-
-
-def words_of_event(event: Event | GroundEvent | TrainEvent) -> str:
-    """Say what happens, and to which branch of a law beyond the first.
-
-    Parameters
-    ----------
-    event : Event, GroundEvent or TrainEvent
-        What happens.
-
-    Returns
-    -------
-    str
-    """
-    branch = getattr(event, "branch", 1)
-    return event.event + (f" (branch {branch})" if branch > 1 else "")
+    rows = []
+    for event in events:
+        of_support = event.support is not None
+        reaction = reaction_at(result, envelope, event.support, event.factor, event.event) if of_support else None
+        rows.append([number(event.factor, DIGITS), event_in_words(result.scene, event, reaction)])
+    return ["load factor", "what happens"], rows, (1,)
 
 
 def _span(first: float, last: float) -> str:

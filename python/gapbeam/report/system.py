@@ -69,14 +69,14 @@ def _supports(scene: Scene) -> str:
     """Tell how many supports there are of which kind, in one line."""
     normal = [support for support in scene.supports if support.direction == "normal"]
     kinds = [
-        (sum(support.side == "both" for support in normal), "bilateral"),
+        (sum(support.side == "both" for support in normal), "two-way"),
         (sum(support.side == "below" for support in normal), "one-sided from below"),
         (sum(support.side == "above" for support in normal), "one-sided from above"),
         (len(scene.supports) - len(normal), "axial"),
         (sum(support.gap > 0 for support in normal), "with a gap"),
-        (sum(support.gap < 0 for support in normal), "with lack of fit"),
+        (sum(support.gap < 0 for support in normal), "set high (negative gap)"),
         (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),
-        (sum(support.law is not None for support in normal), "with a law"),
+        (sum(support.law is not None for support in normal), "with a curve"),
         (sum(support.settlement != 0 for support in normal), "settling"),
         (sum(support.rotation == "fixed" for support in normal), "clamped"),
     ]
@@ -88,13 +88,13 @@ def _foundations(scene: Scene) -> str:
     """Tell how many foundations there are of which kind, in one line."""
     foundations = scene.foundation
     kinds = [
-        (sum(item.side == "both" for item in foundations), "bilateral"),
+        (sum(item.side == "both" for item in foundations), "two-way"),
         (sum(item.side == "below" for item in foundations), "one-sided from below"),
         (sum(item.side == "above" for item in foundations), "one-sided from above"),
         (sum(np.max(item.gap) > 0.0 for item in foundations), "with a gap"),
-        (sum(np.min(item.gap) < 0.0 for item in foundations), "with lack of fit"),
+        (sum(np.min(item.gap) < 0.0 for item in foundations), "set high (negative gap)"),
         (sum(item.profile is not None for item in foundations), "with a profile"),
-        (sum(item.law is not None for item in foundations), "with a law"),
+        (sum(item.law is not None for item in foundations), "with a curve"),
     ]
     words = [f"{quantity:,} {kind}" for quantity, kind in kinds if quantity]
     return f"{len(foundations):,}: " + ", ".join(words) if words else "none"

@@ -5,33 +5,33 @@ rich is imported only when a report is printed.
 
 import io
 from collections import Counter
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import answer, headline
+from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
+from ..results.contact import short
+from ..results.envelopes.over_path import is_followed
+from ..results.equilibrium import balance_in_words
+from ..results.event_words import state_in_words
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
-from .combined import write_combined
+from .combined import bound_in_words, write_combined
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
 from .scheme import event_table, legend, merged, scheme_table, symbol
 from .system import write_system
 from .trains import write_trains
+from .writer import LONGEST, Writer, chosen
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ..results.result import Result
     from ..results.state.step import Step
-    from .writer import Writer
 
-MOST_EVENTS, MOST_LIMITS = 40, 5
-"""Events and limits of the load that the report lists."""
-LONGEST, ENDS = 40, 5
-"""Supports that are listed; those at either end that always are."""
-LIMITS = {"limit": "limit load", "bifurcation": "bifurcation", "mechanism": "limit load (mechanism)"}
+MOST_EVENTS = 40
+"""Events that the report lists."""
 
 
 def print_report(result: "Result", console: "Console | None" = None, verbose: bool = False) -> None:
@@ -48,25 +48,23 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
     """
     from rich.console import Console
 
-    from .writer import Writer
-
-    say = Writer(console or Console(highlight=False))
+    say, scene = Writer(console or Console(highlight=False)), result.scene
     _answer(say, result)
     if result.combinations:
-        write_combined(say, result)
+        write_combined(say, result, verbose)
         return
     write_trains(say, result)
     if not result.stands:
         _no_solution(say, result)
     if result.steps:
-        at = f"at load factor {fmt.number(result.steps[-1].factor)}"
+        at = "without trains" if scene.trains else f"at load factor {fmt.number(result.steps[-1].factor, fmt.DIGITS)}"
         if not result.stands:
-            at += ", the last step that stands"
+            at += ", the last state that stands"
         _supports(say, result, at)
         write_foundations(say, result, at)
         write_contact(say, result, at)
         _extremes(say, result, at)
-        write_over_path(say, result)
+        write_over_path(say, result, at)
         _history(say, result)
         _events(say, result)
         write_contact_history(say, result)
@@ -107,12 +105,6 @@ def report_text(result: "Result", width: int = 80, verbose: bool = False) -> str
 def _answer(say: "Writer", result: "Result") -> None:
     """The answer, before anything else."""
     say.line(headline(result), "bold")
-    for limit in result.limits[:MOST_LIMITS]:
-        causes = ", ".join(f"{fmt.support(result.scene, k)} {event}" for k, event in limit.causes)
-        words = f"{LIMITS[limit.kind]} at load factor {fmt.number(limit.factor, 10)}" + (f": {causes}" if causes else "")
-        say.line(f"{words[0].upper()}{words[1:]}.")
-    if len(result.limits) > MOST_LIMITS:
-        say.line(f"... and {fmt.count(len(result.limits) - MOST_LIMITS, 'more limit')}.")
     rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
     rough += [limit.factor for limit in result.limits if not limit.exact and limit.factor not in rough]
     if rough:
@@ -120,35 +112,32 @@ def _answer(say: "Writer", result: "Result") -> None:
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     for words in answer(result):
-        say.line(words)
+        say.line(words, "red" if words.startswith("Check:") else "")
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)), "red")
 
 
 def _solver(say: "Writer", result: "Result") -> None:
     """How it was solved, in one line."""
-    way = fmt.count(len(result.steps), "load step") if result.path is None else fmt.count(len(result.events), "event")
-    words = f"Solved in {way}, {fmt.count(result.solves, 'linear solve')}, {fmt.duration(result.seconds)}"
+    way = fmt.count(len(result.steps), "step") if result.path is None else fmt.count(len(result.events), "event")
     bound = result.steps[-1].certificate["error_bound"] if result.steps else None
-    if bound is not None:
-        words += f"; errors at the last step below {bound:.0e} of the largest values"
     say.line()
-    say.line(f"{words}. More of the solver: --verbose.", "dim")
+    say.line(f"{bound_in_words(bound)}{way}, {fmt.count(result.solves, 'solve')}, {fmt.duration(result.seconds)}. More: --verbose.",
+             "dim")  # fmt: skip
 
 
 def _no_solution(say: "Writer", result: "Result") -> None:
-    title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
-    say.heading(title if result.without_trains is None else "Without its trains the beam cannot stand")
-    say.line(fmt.sentence(result.without_trains or result.reason), "red" if result.without_trains is None else "")
     if result.without_trains is not None:
+        say.heading("Without its trains the beam is unstable")
+        say.line(fmt.sentence(result.without_trains))
         say.line("This state is not in the envelope, and changes nothing of it.")
     if result.limits and result.limits[-1].landing is not None:
         _landing(say, result, result.limits[-1].landing)
     if result.motion:
         scene = result.scene
         say.line()
-        say.line("The beam moves freely along this line (straight between the points, scale arbitrary):")
-        points = [fmt.column(values) for values in zip(*result.motion, strict=True)]
+        say.line("The mechanism (straight between the points, scale arbitrary):")
+        points = [fmt.column(values, fmt.DIGITS) for values in zip(*result.motion, strict=True)]
         say.table([fmt.with_unit(scene, "x"), "displacement, downward"], list(zip(*points, strict=True)))
 
 
@@ -156,7 +145,11 @@ def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
     """Where the beam would be next."""
     which = [k for k, support in enumerate(result.scene.supports) if support.law is not None]
     scene = result.scene
-    texts = [f"{fmt.support(scene, k)} {landing.state[k]}, deflection {fmt.number(landing.deflection[k])}" for k in which[:10]]
+    texts = [
+        f"{fmt.support(scene, k)} on {state_in_words(landing.state[k])}, deflection "
+        f"{short(scene, 'deflection', landing.deflection[k])}"
+        for k in which[:10]
+    ]
     more = f", and {len(which) - 10} more" if len(which) > 10 else ""
     say.line(f"The next stable state along the path at this load factor (dynamics may lead elsewhere): {'; '.join(texts)}{more}.")
 
@@ -183,8 +176,12 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     say.heading(f"Supports {at}")
     names = fmt.numbered(scene.supports)
     sides = ["axial" if support.direction == "axial" else support.side for support in scene.supports]
-    states = [f"{symbol(state, say.plain)} {state}" for state in step.state]
-    quantities = {"reaction": step.reaction, "couple": step.couple, "deflection": step.deflection}
+    states = [f"{symbol(state, say.plain)} {state_in_words(state)}" for state in step.state]
+    bounds = step.certificate
+    reaction, deflection = (
+        fmt.without_noise(getattr(step, name), bounds[f"error_bound_{name}"]) for name in ("reaction", "deflection")
+    )
+    quantities = {"reaction": reaction, "couple": step.couple, "deflection": deflection}
     if not any(step.couple):
         del quantities["couple"]
     if any(state != "bilateral" for state in step.state):
@@ -194,7 +191,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     for digits in (5, 4, 3):
         columns = [
             ("", names),
-            (fmt.stacked(scene, "x"), fmt.column(scene.positions(scene.supports))),
+            (fmt.stacked(scene, "x"), fmt.column(scene.positions(scene.supports), fmt.DIGITS)),
             ("side", sides),
             ("state", states),
             *(fmt.shown_column(scene, name, values, digits) for name, values in quantities.items()),
@@ -203,35 +200,18 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
             break  # numbers are shortened rather than broken
     left = (2, 3) if names == [str(k) for k in range(len(names))] else (0, 2, 3)
     rows = list(zip(*(texts for _, texts in columns), strict=True))
-    chosen = _chosen(step.state)
-    say.table([name for name, _ in columns], [rows[k] if k is not None else ["..."] * len(columns) for k in chosen], left=left)
-    if len(chosen) < len(rows):
-        kept = [k for k in chosen if k is not None]
-        lost = sum(step.state[k] == "open" for k in range(len(rows)) if k not in set(kept))
-        words = f"; {lost:,} of them have no contact" if lost else "; all of them are in contact"
+    which = chosen(len(rows), (k for k, state in enumerate(step.state) if state == "open"))
+    say.table([name for name, _ in columns], [rows[k] if k is not None else ["..."] * len(columns) for k in which], left=left)
+    if None in which:
+        kept = {k for k in which if k is not None}
+        lost = [k for k in range(len(rows)) if step.state[k] == "open" and k not in kept]
+        words = f"; no contact at {fmt.ranges(lost)}" if lost else "; all of them are in contact"
         say.line(f"{len(rows) - len(kept):,} supports are left out here{words}. All are in the output of --json.", "italic")
-    normal = [index for index, side in enumerate(sides) if side != "axial"]
-    total = sum(float(step.reaction[index]) for index in normal)
-    words = [f"Reactions (upward positive) add up to {fmt.number(total)} {fmt.unit(scene, 'force')}".rstrip()]
-    counts = Counter(step.state)
-    words.append(", ".join(f"{counts[state]:,} {state}" for state in sorted(counts)))
-    say.line("; ".join(words) + ".", "dim")
+    for line in balance_in_words(scene, step):
+        say.line(line, "dim")
+    counts = Counter(map(state_in_words, step.state))
+    say.line(f"Upward positive; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
     _restraints_of_open_supports(say, result)
-
-
-def _chosen(states: Sequence[str]) -> list[int | None]:
-    """Choose the supports that a table shows, None where some are left out: those without contact before all others."""
-    if len(states) <= LONGEST:
-        return list(range(len(states)))
-    ends = {*range(ENDS), *range(len(states) - ENDS, len(states))}
-    lifted = [k for k, state in enumerate(states) if state == "open" and k not in ends]
-    chosen = sorted(ends | set(lifted[: LONGEST - len(ends)]))
-    found: list[int | None] = []
-    for k in chosen:
-        if found and found[-1] is not None and k != found[-1] + 1:
-            found.append(None)
-        found.append(k)
-    return found
 
 
 def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
@@ -239,21 +219,23 @@ def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
     step, x = result.steps[-1], result.scene.positions(result.scene.supports)
     names = labels(result.scene.supports)
     held = [
-        f"{names[k]} (x = {fmt.number(x[k])}, couple {fmt.number(step.couple[k])} {fmt.unit(result.scene, 'moment')}".rstrip() + ")"
+        f"{names[k]} (x = {fmt.number(x[k], fmt.DIGITS)}, couple {short(result.scene, 'couple', step.couple[k])})"
         for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
         if state == "open" and support.rotation not in ("free", 0.0)
     ]
     if held:
         more = f" and {len(held) - 10} more" if len(held) > 10 else ""
-        say.line(f"Open, but still held in rotation, as by a guide: support {', '.join(held[:10])}{more}.")
+        say.line(f"No contact, but the rotation is still held: support {', '.join(held[:10])}{more}.")
 
 
 def _extremes(say: "Writer", result: "Result", at: str) -> None:
     scene = result.scene
     say.heading(f"Extremes {at}")
     rows = []
-    for quantity, extreme in result._pairs_of_extremes().items():
+    bounds = result.steps[-1].certificate
+    for quantity, extreme in fmt.reported(result._pairs_of_extremes()).items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
+        largest, smallest = fmt.without_noise([largest, smallest], bounds.get(f"error_bound_{quantity}"))
         texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]
         texts += [fmt.shown(scene, quantity, smallest), fmt.number(x_smallest, fmt.DIGITS)]
         rows.append([fmt.shown_heading(scene, quantity), *texts])
@@ -284,7 +266,7 @@ def _steps(say: "Writer", result: "Result") -> None:
         of_shown = " of these" if len(not_shown) else ""
         say.line(f"Together {solves}, {seconds}; largest residual{of_shown} {worst:.1e}.", "dim")
     if came_back:
-        say.line("The rule single came back to a contact state that it had seen; from there the rule block went on.")
+        say.line("The rule single returned to an earlier contact state; from there the rule block was used.")
     bounds = ((kind, steps[-1].certificate[f"error_bound_{kind}"]) for kind in BOUNDED)
     listed = ", ".join(f"{kind} {bound:.1e}" for kind, bound in bounds if bound is not None)
     if listed:
@@ -296,15 +278,13 @@ def _doubts(say: "Writer", result: "Result") -> None:
     step = result.steps[-1]
     if step.undecided:
         x = result.scene.positions(result.scene.supports)
-        words = {False: "Reaction or opening zero, so neither closed nor open", True: "Exactly at a breakpoint of its law"}
+        words = {False: "Reaction and opening are zero, so contact is undecided", True: "Exactly at a kink of its curve"}
         for with_law, what in words.items():
             which = [k for k in step.undecided if (result.scene.supports[k].law is not None) == with_law]
             names = ", ".join(f"{label(result.scene.supports, k)} (x = {x[k]:g})" for k in which[:10])
             more = f" and {len(which) - 10} more" if len(which) > 10 else ""
             if which:
                 say.line(f"{what}: support {names}{more}.")
-    if step.indifferent:
-        say.line("The beam can move freely without work of the loads: forces are unique, its position is not.")
 
 
 def _events(say: "Writer", result: "Result") -> None:
@@ -316,6 +296,7 @@ def _events(say: "Writer", result: "Result") -> None:
         say.line(f"The contact state is the same {reach}.")
         return
     shown = result.events[:MOST_EVENTS]
-    say.table(*event_table(result.scene, shown))
+    cheap = is_followed(result) and has_cheap_envelope(result)
+    say.table(*event_table(result, shown, known_envelope(result) if cheap and not result.scene.trains else None))
     if len(result.events) > len(shown):
         say.line(f"... and {len(result.events) - len(shown)} more; --json has all.", "dim")

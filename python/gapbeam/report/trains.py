@@ -2,12 +2,15 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
 from ..scene.trains import LEFT
-from .scheme import changed_item, words_of_event
-from .writer import Writer
+from .ground import free_span_headings
+from .writer import Writer, chosen
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -16,6 +19,8 @@ if TYPE_CHECKING:
 
 MOST_EVENTS = 24
 """Events that are listed; of more some in the middle are left out."""
+MOST_SUPPORTS = 24
+"""Supports that are listed; of more those without contact and both ends."""
 MOST_GAPS = 10
 """Stretches of positions without equilibrium that are listed."""
 PLACES = (("max", "largest"), ("min", "smallest"))
@@ -45,8 +50,8 @@ def _source(result: "Result", one: "TrainExtreme") -> list[str]:
     """Where an extreme comes from, cell by cell."""
     text = "no train"
     if one.train is not None:
-        text = f"{visible(one.train)} at {fmt.number(one.position)}" + (" (left)" if one.direction == LEFT else "")
-    text += f" +{len(one.ties)}" if one.ties else ""
+        text = f"{visible(one.train)} at {fmt.number(one.position, fmt.DIGITS)}" + (" going left" if one.direction == LEFT else "")
+    text += f" or {fmt.count(len(one.ties), 'other')}" if one.ties else ""
     return [visible(one.combination or ""), text] if result.combinations else [text]
 
 
@@ -57,17 +62,17 @@ def _headings(result: "Result") -> list[str]:
 def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     scene, rows = result.scene, []
     say.heading("What governs while trains pass, all other loads in full")
-    for quantity, row in envelope.extremes.items():
+    for quantity, row in fmt.reported(envelope.extremes).items():
         for kind, words in PLACES:
             one = row[kind]
             if one is not None:
                 name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
-                value, x = fmt.shown(scene, quantity, one.value), fmt.number(one.x, fmt.DIGITS)
-                rows.append([name, words, value, x, *_source(result, one)])
+                value, *_ = fmt.without_noise([one.value, *(other.value for other in row.values() if other is not None)])
+                texts = [fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS)]
+                rows.append([name, words, *texts, *_source(result, one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result)], rows, (0, 1, 4, 5))
-    say.line("Trains go to the right but for those marked; their positions are those of the first axle; + as many more with the "
-             "same value. Where a field jumps the larger side counts. Deflection downward, sagging moment, clockwise rotation: "
-             "positive.", "dim")  # fmt: skip
+    say.line("Positions are those of the first axle. Others: positions or trains with the same value. Where a field jumps the "
+             "larger side counts. Deflection downward, sagging moment, clockwise rotation: positive.", "dim")  # fmt: skip
 
 
 def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
@@ -75,17 +80,28 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     scene = result.scene
     if not scene.supports:
         return
-    rows = []
-    for name, row in zip(fmt.numbered(scene.supports), envelope.supports, strict=True):
+    rows, names = [], fmt.numbered(scene.supports)
+    lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
+    which = chosen(len(names), sorted(lifted, key=lambda k: -envelope.supports[k]["opening"]["max"].value), MOST_SUPPORTS)
+    for k in which:
+        if k is None:
+            rows.append(["..."] * (3 + len(_headings(result))))
+            continue
+        name, row = names[k], envelope.supports[k]
         for kind, words in PLACES:
             one = row["reaction"][kind]
             if one is not None:
-                rows.append([name if kind == "max" else "", words, fmt.number(one.value), *_source(result, one)])
+                rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
         opening = row["opening"]["max"]
         if opening is not None and opening.value > 0.0:
             rows.append(["", "opening", fmt.shown(scene, "opening", opening.value), *_source(result, opening)])
     say.heading("Supports while trains pass")
-    say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4))
+    say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4), len(rows))
+    if None in which:
+        lost = sorted(set(lifted) - set(which))
+        words = f"; no contact at {fmt.ranges(lost)}" if lost else "; all of them stay in contact"
+        count = len(names) - sum(k is not None for k in which)
+        say.line(f"{count:,} supports are left out here{words}. All are in the output of --json.", "italic")
     length, _ = fmt.shown_unit(scene, "opening")
     say.line("Reactions upward positive; openings" + (f" in {length}" if length else "") + " where there are any.", "dim")
 
@@ -100,42 +116,37 @@ def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope") -> No
         for kind, words in PLACES:
             one = row["resultant"][kind]
             if one is not None:
-                rows.append([name if kind == "max" else "", words, fmt.number(one.value), *_source(result, one)])
+                rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
         for kind, one in row["free_span"].items():
             if one is not None:
-                ends = one.span.from_, one.span.to, one.span.to - one.span.from_, one.span.sag
-                numbers = [fmt.number(value, 4) for value in ends]
+                ends = one.span.from_, one.span.to, one.span.to - one.span.from_
+                numbers = [*(fmt.number(value, 4) for value in ends), fmt.shown(scene, "sag", one.span.sag)]
                 spans.append([name if kind == "longest" else "", kind, *numbers, *_source(result, one)])
     say.heading("Foundations while trains pass")
     say.table(["", "", fmt.stacked(scene, "resultant"), *_headings(result)], rows, (0, 1, 3, 4))
-    say.line("Resultants upward positive." + ("" if spans else " The beam hangs free nowhere."), "dim")
+    say.line("Resultants upward positive." + ("" if spans else " There is no free span."), "dim")
     if spans:
         say.heading("Free spans while trains pass")
-        quantities = (("x", "from"), ("x", "to"), ("length", "length"), ("sag", "sag"))
-        headings = [fmt.stacked(scene, quantity, words) for quantity, words in quantities]
-        say.table(["", "", *headings, *_headings(result)], spans, (0, 1, 6, 7))
-        say.line("Sag: largest distance between beam and ground.", "dim")
+        say.table(["", "", *free_span_headings(scene), *_headings(result)], spans, (0, 1, 6, 7))
+        say.line("Clearance: largest distance between beam and ground.", "dim")
 
 
 def _events(say: Writer, result: "Result") -> None:
     """Changes of what holds the beam."""
     scene = result.scene
-    mixed, names = bool(scene.foundation), fmt.numbered(scene.supports)
     rows = [
         [*([visible(combination)] if combination is not None else []), visible(train.name), event.direction,
-         fmt.number(event.position, 9), changed_item(scene, event, mixed) if mixed else names[event.support],
-         fmt.number(event.x), words_of_event(event)]
+         fmt.number(event.position, fmt.DIGITS), event_in_words(scene, event)]
         for combination, train in passing_trains(result)
         for event in train.events
     ]  # fmt: skip
     if not rows:
         return
-    say.heading(f"{'Supports and zones of contact' if mixed else 'Supports'} that change on the way")
+    say.heading(f"What changes {'at supports and on the ground' if scene.foundation else 'at supports'} on the way")
     first = ["combination"] if result.combinations else []
     n = len(first)
-    places = [fmt.stacked(scene, "x", "position"), "at" if mixed else "support", fmt.stacked(scene, "x")]
-    headings = [*first, "train", "goes", *places, "event"]
-    say.table(headings, rows, (*range(n + 2), n + 3, n + 5), MOST_EVENTS)
+    headings = [*first, "train", "goes", fmt.stacked(scene, "x", "position"), "what happens"]
+    say.table(headings, rows, (*range(n + 2), n + 3), MOST_EVENTS)
 
 
 def _gaps(say: Writer, envelope: "TrainEnvelope") -> None:
@@ -146,6 +157,6 @@ def _gaps(say: Writer, envelope: "TrainEnvelope") -> None:
     for member, gap in envelope.unstable_positions[:MOST_GAPS]:
         where = f"{visible(member.combination)}, " if member.combination else ""
         reason = gap.reason if gap.status != "solved" else f"{gap.reason}, and they are in what follows"
-        say.line(f"{where}{visible(member.train)}, {gap.from_:.6g} to {gap.to:.6g}: {reason}.", "red")
+        say.line(f"{where}{visible(member.train)}, {gap.from_:.5g} to {gap.to:.5g}: {reason}.", "red")
     if len(envelope.unstable_positions) > MOST_GAPS:
         say.line(f"... and {len(envelope.unstable_positions) - MOST_GAPS} more; --json has all.", "dim")

@@ -1,6 +1,6 @@
 """The few shapes a report is made of: a line, a heading, a table, a list of names and values."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from rich import box
 from rich.cells import cell_len
@@ -12,6 +12,8 @@ from rich.text import Text
 LONGEST = 40
 #: Between two columns of a table
 GAP = 2
+#: Supports at either end that a cut table shows always
+ENDS = 5
 
 
 class Writer:
@@ -106,3 +108,25 @@ def cut(rows: Sequence, longest: int = LONGEST) -> tuple[list, int]:
         return list(rows), 0
     half = longest // 2
     return [*rows[:half], *rows[-half:]], len(rows) - 2 * half
+
+
+def chosen(count: int, important: Iterable[int], longest: int = LONGEST) -> list[int | None]:
+    """Choose the rows of a long table: both ends, and the important ones before all others; None where some are left out.
+
+    Examples
+    --------
+    >>> chosen(100, [40, 41], longest=12)
+    [0, 1, 2, 3, 4, None, 40, 41, None, 95, 96, 97, 98, 99]
+    >>> chosen(3, [])
+    [0, 1, 2]
+    """
+    if count <= longest:
+        return list(range(count))
+    ends = {*range(ENDS), *range(count - ENDS, count)}
+    room = max(longest - len(ends), 2)
+    found: list[int | None] = []
+    for k in sorted(ends | set([k for k in important if k not in ends][:room])):
+        if found and k != found[-1] + 1:
+            found.append(None)
+        found.append(k)
+    return found

@@ -4,15 +4,18 @@ import math
 import statistics
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
+from typing import Any
 
 from ..base.characters import visible
-from ..engine.quantities import QUANTITIES
+from ..engine.quantities import QUANTITIES, REPORTED
 from ..scene.names import label as name_or_number
 from ..scene.names import labels
 from ..scene.structs import Scene
 
 DIGITS = 5
 """Of a number in a report."""
+NOISE = 1e-12
+"""Values below this share of the largest one are written as zero."""
 
 
 def support(scene: Scene, k: int) -> str:
@@ -108,6 +111,30 @@ def column(values: Iterable[float], digits: int = 6) -> list[str]:
     return [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
 
 
+def without_noise(values: Iterable[float], bound: float | None = None) -> list[float]:
+    """Write zero for what is nothing but rounding beside the largest value.
+
+    Parameters
+    ----------
+    values : iterable of float
+        Of one kind.
+    bound : float, optional
+        Error bound as a share of the largest value.
+
+    Returns
+    -------
+    list of float
+
+    Examples
+    --------
+    >>> without_noise([2.9e-11, -312676.0]), without_noise([1.0, 0.2], 0.5)
+    ([0.0, -312676.0], [1.0, 0.0])
+    """
+    values = [float(value) for value in values]
+    least = max(NOISE, bound or 0.0) * max((abs(value) for value in values if math.isfinite(value)), default=0.0)
+    return [0.0 if abs(value) <= least else value for value in values]
+
+
 def _exponent(value: float) -> int:
     return math.floor(math.log10(value))
 
@@ -199,14 +226,31 @@ def title(scene: Scene, without: str = "Beam without a title") -> str:
 UNITS = {one.name: one.unit for one in QUANTITIES} | {
     **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length"), "{length}"),
     **dict.fromkeys(("reaction", "force", "resultant"), "{force}"),
-    "curvature": "1/{length}", "couple": "{force} {length}", "EI": "{force} {length}^2",
+    "couple": "{force} {length}", "EI": "{force} {length}^2",
     "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
 """Of quantities along the beam, at supports and in scenes."""
+AREAS = {("N", "m"): "Pa", ("kN", "m"): "kPa", ("MN", "m"): "MPa", ("N", "mm"): "MPa", ("kN", "mm"): "GPa"}
+"""Names of a force over an area."""
 HUGE = 1e300
 """Beyond it a value may leave the range of doubles in a smaller unit."""
 SMALL = ("deflection", "opening", "sag", "gap", "set")
 """Displacements, which are small beside lengths."""
+
+
+def reported(extremes: dict[str, Any]) -> dict[str, Any]:
+    """Take what the report tells of extremes along the beam.
+
+    Parameters
+    ----------
+    extremes : dict
+        By name of the quantity.
+
+    Returns
+    -------
+    dict
+    """
+    return {name: row for name, row in extremes.items() if name in REPORTED}
 
 
 def unit(scene: Scene, quantity: str) -> str:
@@ -232,6 +276,8 @@ def unit(scene: Scene, quantity: str) -> str:
     ('kN m', 'kN/m', 'rad', 'kN m^2')
     """
     force, length = visible(scene.units.force), visible(scene.units.length)
+    if quantity == "stress" and (force, length) in AREAS:
+        return AREAS[force, length]
     pattern = UNITS[quantity]
     if ("{force}" in pattern and not force) or ("{length}" in pattern and not length):
         return ""

@@ -9,6 +9,7 @@ from typing import Any
 from ..base.hints import Named
 from ..engine.beam import Beam
 from ..scene.structs import Scene
+from .answer import known_envelope
 from .data import result_data
 from .envelopes.envelope import Envelope
 from .envelopes.full_load import envelope_of_one
@@ -185,12 +186,14 @@ class Result(Verbs):
     @property
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact, each where its opening is largest on the way, in a combination, under a train."""
-        return lifted_supports(self, self.envelope()) if self.has_envelope else []
+        envelope = known_envelope(self)
+        return lifted_supports(self, envelope) if envelope is not None else []
 
     @property
     def utilisations(self) -> dict[str, Utilisation]:
         """How far the limits of the scene are used, by quantity; empty where there are none, or where nothing stands."""
-        return find_utilisations(self, self.envelope()) if self.scene.limits is not None and self.has_envelope else {}
+        envelope = known_envelope(self) if self.scene.limits is not None else None
+        return find_utilisations(self, envelope) if envelope is not None else {}
 
     def hints(self) -> list[Hint]:
         """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at both ends.

@@ -48,8 +48,8 @@ class _Limited(_GroundLaw):
     stiffness : float, (float, float) or list of (float, float)
         Stiffness at first (force/length^2); or (at from, at to), or points (x, value), linear in between.
     limit : float, (float, float) or list of (float, float)
-        The force per length up to which it is elastic, or to which it tends; or (at from, at to), or points (x, value), linear
-        in between.
+        Line reaction (force/length) up to which it is elastic, or to which it tends; or (at from, at to), or points (x, value),
+        linear in between.
     """
 
     stiffness: Along
@@ -128,9 +128,9 @@ class PowerGround(_GroundLaw, tag="power"):
     d0 : float
         Displacement (length) at which the force is limit.
     limit : float, (float, float) or list of (float, float)
-        The force per length there; or (at from, at to), or points (x, value), linear in between.
+        Line reaction (force/length) at d0; or (at from, at to), or points (x, value), linear in between.
     n : float
-        Exponent.
+        Exponent (no unit): 1, 2 or 3.
     """
 
     code = 5
@@ -163,9 +163,10 @@ class LawAt(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
     Parameters
     ----------
     x : float
-        The place, from the left end of the beam.
+        Position (length, from the left end of the beam).
     points : list of (float, float)
-        Displacement past the gap and force per length, from (0, 0) on, which is left out; as many at every place.
+        Displacement past the gap and force per length (length, force/length), from (0, 0) on, which is left out; as many at
+        every position.
     """
 
     x: float

@@ -35,7 +35,7 @@ class _Elastic(_Law):
     stiffness : float
         Stiffness (force/length) up to the limit; inf = rigid.
     limit : float
-        The force up to which it is elastic.
+        Force (force) up to which it is elastic.
     """
 
     stiffness: Positive
@@ -169,7 +169,7 @@ class _Levelling(_Curve):
     stiffness : float
         Stiffness at first (force/length).
     limit : float
-        The force that it tends to.
+        Force (force) that it tends to.
     """
 
     stiffness: Positive
@@ -210,9 +210,9 @@ class PowerLaw(_Curve, tag="power"):
     d0 : float
         Displacement (length) at which the force is limit.
     limit : float
-        The force there.
+        Force (force) at d0.
     n : float
-        Exponent, above 0.
+        Exponent (no unit).
     """
 
     d0: Positive

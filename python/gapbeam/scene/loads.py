@@ -40,7 +40,7 @@ class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
     Parameters
     ----------
     F : float
-        Force, positive downward.
+        Force (force), positive downward.
     """
 
     F: float
@@ -64,7 +64,7 @@ class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):
     Parameters
     ----------
     F : float
-        Horizontal force, positive to the right.
+        Horizontal force (force), positive to the right.
     """
 
     F: float
@@ -76,7 +76,7 @@ class UniformLoad(_StretchLoad, kw_only=True, gc=False, tag="uniform"):
     Parameters
     ----------
     q : float
-        Force per length, positive downward.
+        Load (force/length), positive downward.
     """
 
     q: float
@@ -88,7 +88,7 @@ class LinearLoad(_StretchLoad, kw_only=True, gc=False, tag="linear"):
     Parameters
     ----------
     q : (float, float)
-        Force per length at the left and at the right end of the stretch, positive downward.
+        Load (force/length) at the left and at the right end, positive downward.
     """
 
     q: tuple[float, float]

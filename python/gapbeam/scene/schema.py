@@ -27,7 +27,7 @@ def scene_schema() -> dict[str, Any]:
     Examples
     --------
     >>> scene_schema()["$defs"]["Support"]["properties"]["gap"]["description"]
-    'Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.'
+    'Distance to be closed before it acts (length); negative = set too high; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
     tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
@@ -38,6 +38,8 @@ def scene_schema() -> dict[str, Any]:
         for base in reversed(struct.__mro__[:-3]):
             texts |= _parameters(base.__doc__ or "")
         for key, entry in table["properties"].items():
+            if key == "type":
+                entry["description"] = "Says which table this is."
             if key in texts:
                 entry["description"] = texts[key]
             if isinstance(entry.get("default"), float) and math.isinf(entry["default"]):

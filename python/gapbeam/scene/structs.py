@@ -65,7 +65,7 @@ class Beam(Table, forbid_unknown_fields=True):
     Parameters
     ----------
     spans : list of float
-        Lengths of the spans from left to right; their ends are nodes 0, 1, 2, ...
+        Lengths of the spans (length) from left to right; their ends are nodes 0, 1, 2, ...
     EI : float or list of float
         Bending stiffness (force*length^2), one number or one per span; inf = rigid.
     GA : float or list of float
@@ -113,26 +113,26 @@ class Support(Point, kw_only=True, gc=False):
     Parameters
     ----------
     side : {"both", "below", "above"}
-        both (default) holds the beam, below pushes it up only, above pushes it down only.
+        Both (default) holds the beam, below pushes it up only (bearing), above pushes it down only (hold-down).
     stiffness : float
         Stiffness (force/length), default inf (rigid). A one-sided support with 0 never carries: it is open, and its
         opening negative where the beam has gone past it.
     gap : float
-        Distance to be closed before it acts (length); negative = lack of fit; one-sided supports only.
+        Distance to be closed before it acts (length); negative = set too high; one-sided supports only.
     settlement : float
         Movement of the support itself (length), positive downward; for an axial support to the right.
     rotation : {"free", "fixed"} or float
-        free (default), fixed, or a rotational stiffness (force*length/rad). It holds the beam at this place whether the
-        support is closed or open, as a guide does.
+        Whether the beam can rotate: free (default), fixed, or a rotational stiffness (force*length/rad). It stays active
+        when the support has lifted off, as in a guide.
     direction : {"normal", "axial"}
-        normal (default) is across the beam; axial holds it horizontally, only with axial loads.
+        Normal (default) is across the beam; axial holds it horizontally, only with axial loads.
     law : list of (float, float) or table, optional
-        Instead of stiffness: points (displacement past the gap, force) from (0, 0) on, which is left out. Equal
-        displacements are a vertical piece: rigid up to a force, or brittle; the last slope goes on; with side both the law
-        is mirrored, and may have a gap. Or a table with a type: plastic, brittle, hardening, cubic, hyperbolic, tanh, power.
+        Instead of stiffness: points of a curve, displacement past the gap and force (length, force), from (0, 0) on, which is
+        left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope goes on. With side
+        both the curve is mirrored, and may have a gap. Or a table with a type, the name of a curve.
     unloading : {"elastic", "plastic", "broken"}
-        Of a support with a law: elastic (default) goes back along it; plastic goes back parallel to its first piece, and
-        leaves a set; broken never carries again once its force has fallen.
+        Of a support with a curve: elastic (default) goes back along it. Plastic goes back parallel to its first segment and
+        leaves a displacement. Broken never carries again once its force has fallen.
     """
 
     side: Side = "both"
@@ -154,20 +154,20 @@ class Foundation(Stretch, kw_only=True, gc=False):
         Modulus: force per length of beam and deflection (force/length^2); or (at from, at to), linear in between; or points
         (x, k) as of profile, where two at a place are a step. Give either k or law.
     side : {"both", "below", "above"}
-        both (default) holds the beam, below pushes it up only, above pushes it down only.
+        Both (default) holds the beam, below pushes it up only, above pushes it down only.
     gap : float or (float, float)
-        Distance to be closed before it acts (length); or (at from, at to), linear in between; negative = lack of fit.
+        Distance to be closed before it acts (length); or (at from, at to), linear in between; negative = set too high.
         With side both it is there on both sides.
     profile : list of (float, float), optional
-        Instead of gap: points (x, gap), x measured as everywhere from the left end of the beam, in ascending order; straight
-        in between, beyond its ends the last value. Points beside the foundation only shape it. In Python also an array with
-        two columns.
+        Instead of gap: points (length, length), x from the left end of the beam in ascending order, and gap; straight in
+        between, beyond its ends the last value. Points beside the foundation only shape it. In Python also an array with two
+        columns.
     law : list of (float, float) or table, optional
-        Instead of k: points (displacement past the gap, force per length) from (0, 0) on, which is left out. The force never
-        falls, and no displacement stands there twice; the last slope goes on; with side both the law is mirrored. Or tables
-        with x and points, as many at every place, straight point by point between the places. Or a table
-        with a type, plastic, hardening, hyperbolic, tanh or cubic, whose parameters are numbers per length, (at from, at to), or
-        points (x, value), linear in between: curves are solved to all digits.
+        Instead of k: points of a curve, displacement past the gap and force per length (length, force/length), from (0, 0) on,
+        which is left out. The force never falls, and no displacement stands there twice. The last slope goes on. With side both
+        the curve is mirrored. Or tables with x and points, as many at every position, linear in between. Or a table with a type,
+        the name of a curve, whose parameters are numbers per length, (at from, at to), or points (x, value), linear in
+        between: curves are solved to all digits.
     name : str, optional
         Its name, unique among foundations; shown instead of its number.
     """
@@ -188,19 +188,19 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
     name : str
         By which results have it; default train 1, train 2, ...
     axles : list of (float, float)
-        Distance behind the first axle (length), and force, positive downward. The train goes to the right.
+        Distance behind the first axle, and force, positive downward (length, force). The train goes to the right.
     together : list of (str, float)
-        Instead of axles: trains that go together with this one's position, each by its name with the distance of its first axle
-        behind that position (length). They bring their axles, factor and q, and alone they act as well.
+        Instead of axles: trains that go together with this one's position, each by its name with the distance (length) of its
+        first axle behind that position. They bring their axles, factor and q, and alone they act as well.
     from_ : float, optional
         First position (length, from the left end of the beam); default: where the first axle enters the beam.
         In Python the name is ``from_``.
     to : float, optional
-        Last position; default: where the last axle leaves the beam.
+        Last position (length); default: where the last axle leaves the beam.
     case : str
         Name of the case that it belongs to; default live.
     factor : float
-        Factor of its axles and of q, before solving (impact, lane); default 1.
+        Factor (no unit) of its axles and of q, before solving: impact, lane; default 1.
     both_directions : bool
         Also the mirrored train, which goes to the left; default false.
     inside : bool
@@ -230,9 +230,9 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     name : str
         Its name, unique among combinations.
     factors : dict of float
-        Factor of every case that acts; a case that is not listed does not act.
+        Factor (no unit) of every case that acts; a case that is not listed does not act.
     settlements : dict of float
-        Further movement of supports (length, positive downward; of an axial one to the right), by name or number. Like
+        Further movement of supports (length) by name or number, positive downward, of an axial one to the right. Like
         settlement it is there in full from the start.
     scheme_of : str, optional
         Name of another combination: this one is solved with the supports that act there. Those that are open there stay open,
@@ -266,7 +266,7 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
         Where the load cannot grow any more, since supports soften or yield: stop (default); jump to the next stable state
         at the same load factor; or follow the path on, with falling load (only with follow = "events").
     history : list of float
-        Load factors gone through in turn, from event to event; default [1.0].
+        Load factors (no unit) gone through in turn, from event to event; default [1.0].
     first_order : bool
         True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
         false: such a scene is refused, since that effect is left out.

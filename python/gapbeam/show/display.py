@@ -1,4 +1,4 @@
-"""The verbs of results that draw and write; matplotlib, rich and xlsxwriter are loaded when first called."""
+"""The verbs of results that draw and write; matplotlib, rich, jinja2 and xlsxwriter are loaded when first called."""
 
 from __future__ import annotations
 
@@ -208,7 +208,29 @@ def to_excel(result: Any, path: str | os.PathLike) -> None:
     write_excel(_whole(result), answer(result), path)
 
 
-def to_html(result: Any) -> str:
+def to_html(result: Result, path: str | os.PathLike | None = None) -> str:
+    """Write a result as a page of HTML.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    path : str or os.PathLike, optional
+        File to write as well.
+
+    Returns
+    -------
+    str
+    """
+    from ..html.page import html_page
+
+    text = html_page(result)
+    if path is not None:
+        write_files({path: [text]})
+    return text
+
+
+def notebook(result: Any) -> str:
     """Write what a notebook shows of a result.
 
     Parameters

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ..results import formatting as fmt
-from ..results.answer import contact_in_words, values_in_words
+from ..results.answer import values_in_words
+from ..results.contact import contact_in_words
 from ..results.envelopes.verbs import PartVerbs
 from ..results.trains.trains import TrainResult
 

@@ -10,6 +10,7 @@ program test_beam
     use gapbeam_band, only: hinge
     use gapbeam_range, only: is_lost, first_lost_link
     use gapbeam_recover, only: recover_beam
+    use gapbeam_quantities, only: bending, bending_count, of_moment, of_curvature
     use gapbeam_fields, only: values_at, find_extremes
     implicit none
     integer :: status
@@ -71,8 +72,9 @@ contains
         type(piece_load_type) :: dead(2), live(2)
         type(link_type) :: links(1)
         type(field_type) :: starts(2), fields(3)
-        real(wp) :: work(2), values(2, 4), distance(2, 4)
-        integer :: piece(2, 4)
+        real(wp) :: work(2), values(2, bending_count), distance(2, bending_count)
+        integer :: piece(2, bending_count)
+        integer, parameter :: at_curvature = findloc(bending, of_curvature, 1)
         real(wp), parameter :: l = 4.0_wp, f = 0.125_wp, q = 3.0_wp
 
         pieces = [piece_type(1.0_wp, f, 0.0_wp), piece_type(3.0_wp, f, 0.0_wp)]
@@ -89,10 +91,18 @@ contains
         call check_close(fields%moment, q*[0.0_wp, l**2/8, 0.0_wp], "moments", absolute=1e-14_wp)
         call values_at(pieces, dead, live, 2.0_wp, starts, [integer ::], [real(wp) ::], fields(:0))
         call find_extremes(pieces, dead, live, 2.0_wp, starts, values, piece, distance)
-        call check_close(values(1, :), q*[f*5*l**4/384, f*l**3/24, l**2/8, l/2], "maxima")
-        call check_close(values(2, 2:4), q*[-f*l**3/24, 0.0_wp, -l/2], "minima", absolute=1e-14_wp)
-        call check(all(piece(1, :) == [2, 1, 2, 1]), "pieces of the maxima")
-        call check_close(distance(1, :), [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], "and where in them", absolute=1e-7_wp)
+        call check_close(values(1, :), q*[f*5*l**4/384, f*l**3/24, l**2/8, l/2, f*l**2/8], "maxima")
+        call check_close(values(2, 2:5), q*[-f*l**3/24, 0.0_wp, -l/2, 0.0_wp], "minima", absolute=1e-14_wp)
+        call check(all(piece(1, :) == [2, 1, 2, 1, 2]), "pieces of the maxima")
+        call check_close(distance(1, :), [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 1.0_wp], "and where in them", absolute=1e-7_wp)
+        ! Softer on the left, and bent by more than the load bends it on the right: curvature jumps, the moment does not
+        pieces(1)%flexibility = 4*f
+        dead(2)%kappa = 10.0_wp
+        call find_extremes(pieces, dead, live, 2.0_wp, starts, values, piece, distance)
+        call check_close(values(:, of_moment), q*[l**2/8, 0.0_wp], "the moment stays", absolute=1e-14_wp)
+        call check_close(values(:, at_curvature), [q*4*f*1.5_wp, -10.0_wp], "curvature of both pieces")
+        call check(all(piece(:, at_curvature) == [1, 2]), "its pieces")
+        call check_close(distance(:, at_curvature), [1.0_wp, 3.0_wp], "and where in them")
     end subroutine simple_beam
 
     !> A link so short that its chord is rounding has the rotation of its neighbour, unless a hinge is between

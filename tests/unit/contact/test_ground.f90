@@ -2,6 +2,7 @@
 program test_ground
     use testing, only: check, finish
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: bending_count
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_element, only: field_type
     use gapbeam_scene, only: span_type, foundation_type, ground_point_type, load_type, uniform_load, &
@@ -319,9 +320,9 @@ contains
         type(state_type) :: state
         type(error_type), allocatable :: error
         type(field_type) :: fields(3)
-        real(wp) :: pressure(3), values(2, 4), distance(2, 4), pressures(2), at(2)
+        real(wp) :: pressure(3), values(2, bending_count), distance(2, bending_count), pressures(2), at(2)
         real(wp), allocatable :: way(:, :), touch(:, :, :)
-        integer :: piece(2, 4), place(2)
+        integer :: piece(2, bending_count), place(2)
 
         call lower(lifting(), lowered, profile=[ground_point_type(1, 0.0_wp, 0.1_wp), ground_point_type(1, 30.0_wp, 0.1_wp)])
         call new_state(lowered, state, error)
@@ -331,7 +332,7 @@ contains
             call ground_pressure(lowered, ground, [1, 1, 2], [0.0_wp, 7.5_wp, 10.0_wp], pressure)
             call check(all(abs(pressure(:2) - 4*(fields(:2)%deflection - 0.1_wp)) < 1e-14_wp), "pressure is what is pressed in")
             call check(pressure(3) <= 0.0_wp, "no pressure where it has lifted")
-            call ground_extremes(lowered, ground, values, piece, distance)
+            call ground_extremes(lowered, ground, 1.0_wp, values, piece, distance)
             call check(values(1, 1) >= state%deflection(1) .and. values(1, 1) < state%deflection(1) + 1e-4_wp, &
                        "the largest deflection is near the force")
             call pressure_extremes(lowered, ground, pressures, place, at)

@@ -4,6 +4,7 @@ program test_lanes
     use testing, only: check, finish
     use lane_beams, only: make_beam, draw_cases, random, bits
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: bending_count
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type, piece_length
@@ -123,13 +124,13 @@ contains
         if (any(found%closed(m + 1, :) /= 1) .or. any(abs(found%reaction(m + 1, :)) > 0.0_wp)) then
             call check(.false., "what is beyond the supports stays as it was")
         end if
-        allocate (found%extremes(2, 4, c), found%places(2, 4, c), found%fields(4, 2, c))
+        allocate (found%extremes(2, bending_count, c), found%places(2, bending_count, c), found%fields(bending_count, 2, c))
         found%fields(:, :, :) = 0.0_wp
         found%extremes(:, :, :) = 0.0_wp
         found%places(:, :, :) = 0.0_wp
         status = merge(gapbeam_solved, gapbeam_not_finite, found%done)
         call extremes_of_cases(lowered, loads, factors, values, spans, rule_block, found%closed, found%w, found%ml, found%mr, &
-                               [.true., .true., .true., .true.], found%extremes, found%places, [1, size(lowered%pieces)], &
+                               spread(.true., 1, bending_count), found%extremes, found%places, [1, size(lowered%pieces)], &
                                [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
         allocate (found%certificate(certificate_numbers, c), known(c))
         found%certificate(:, :) = 0.0_wp

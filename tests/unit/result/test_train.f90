@@ -3,6 +3,7 @@ program test_train
     use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, ieee_all
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
+    use gapbeam_quantities, only: bending_count
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, copy_model
@@ -68,7 +69,7 @@ contains
         type(envelope_type) :: envelope
         type(train_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
-        real(wp) :: value(2, 4, 1), position(2, 4, 1), line(5, 2)
+        real(wp) :: value(2, bending_count, 1), position(2, bending_count, 1), line(bending_count + 1, 2)
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
         train = axles([0.0_wp], [8.0_wp])
@@ -91,7 +92,7 @@ contains
         call find_influence(lowered, track, [.true., .true., .true.], [.false., .true., .false.], 1, 0.5_wp, &
                             [0.25_wp, 1.5_wp], line, error)
         call check_close(line(3, :), [0.125_wp - 0.25_wp*0.9375_wp/8, -0.375_wp/8], "influence on a moment")
-        call check_close(line(5, :), [0.25_wp*(3 - 0.0625_wp)/2, 0.5_wp*(3 - 0.25_wp)/2], "influence on a reaction")
+        call check_close(line(bending_count + 1, :), [0.25_wp*(3 - 0.0625_wp)/2, 0.5_wp*(3 - 0.25_wp)/2], "influence on a reaction")
     end subroutine an_end_lifts
 
     !> A train without uniform loads

@@ -22,6 +22,7 @@ program test_scene
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_support_values, only: support_values
+    use gapbeam_quantities, only: quantity_count
     use gapbeam_query, only: fields_at_places, node_places
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, take_case
     use gapbeam_combinations, only: combination_type, combine, solve_combination, values_of_combination
@@ -283,7 +284,7 @@ contains
         call new_state(lowered, state, error)
         call solve(lowered, state, error)
         call check(.not. allocated(error) .and. state%status == 0, "it is solved")
-        call fields_at_places(lowered, state, [6.0_wp, 12.0_wp], .true., fields, error)
+        call fields_at_places(lowered, state, [1, 2, 3, 4, 5, 6], [6.0_wp, 12.0_wp], .true., fields, error)
         call check_close(fields(:, 1), [5*12.0_wp**4/(384*12.0_wp), 0.0_wp, 18.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], "in the middle", &
                          absolute=1e-13_wp)
         call check_close(fields(4, 2), -6.0_wp, "at the right end")
@@ -291,7 +292,7 @@ contains
         call check_close(reaction, [6.0_wp, 6.0_wp], "reactions")
         call node_places(lowered, x)
         call check_close(x, [0.0_wp, 12.0_wp], "two nodes")
-        call fields_at_places(lowered, state, [13.0_wp, 0.0_wp], .true., fields, error)
+        call fields_at_places(lowered, state, [1, 2, 3, 4, 5, 6], [13.0_wp, 0.0_wp], .true., fields, error)
         call check(error%code == gapbeam_bad_input .and. error%entry == 1, "off the beam")
         model%loads(1)%value = 1.7e308_wp
         model%loads(1)%value_to = 1.7e308_wp
@@ -359,7 +360,8 @@ contains
         character(len=*), intent(in) :: what
         type(error_type), allocatable :: error
         type(state_type) :: state
-        real(wp) :: at_supports(3, 4), extremes(2, 7), places(2, 7), fields(7, 1)
+        real(wp) :: at_supports(3, 4), extremes(2, quantity_count), places(2, quantity_count), &
+            fields(quantity_count, 1)
 
         call combine(lowered, factors, settlements, combined, error)
         if (.not. allocated(error)) call solve_combination(combined%assembled, rule_block, [.true., .true., .true.], state, error)

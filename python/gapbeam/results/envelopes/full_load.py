@@ -74,7 +74,7 @@ def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray, state: Step
     numpy.ndarray
         Places by fields.
     """
-    values = np.full((len(x), 7), np.nan)
+    values = np.full((len(x), len(FIELDS)), np.nan)
     for side, which in (("left", left), ("right", ~left)):
         found = result.at_state(result.steps[-1] if state is None else state, x[which], side).columns()
         for name, column in result._beam.fields.items():

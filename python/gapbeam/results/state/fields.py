@@ -26,6 +26,8 @@ class Fields(Record):
         Only with axial loads.
     pressure : numpy.ndarray or None
         Of all foundations on the beam, force per length, positive upward; only with foundations.
+    curvature : numpy.ndarray
+        1/length, with the sign of the moment: M/EI less the imposed curvature; it jumps where one of both does.
     """
 
     x: np.ndarray
@@ -36,6 +38,7 @@ class Fields(Record):
     axial_force: np.ndarray | None = None
     axial_displacement: np.ndarray | None = None
     pressure: np.ndarray | None = None
+    curvature: np.ndarray | None = None
 
     def __iter__(self) -> Iterator[tuple]:
         """Go through the places: named tuples of x and what is there, of which pandas makes a table."""

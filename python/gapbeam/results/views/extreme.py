@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from ..state.step import Step
 
 SYMBOLS = {"m": "moment", "v": "shear", "q": "shear", "w": "deflection", "n": "axial_force", "displacement": "deflection",
-           "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure"}  # fmt: skip
+           "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure",
+           "kappa": "curvature"}  # fmt: skip
 """Fields by the symbols of others."""
 
 

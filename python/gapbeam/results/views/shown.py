@@ -51,7 +51,10 @@ class Display(Protocol):
     def answer(self, result: Any) -> list[str]:
         """Say the answer."""
 
-    def to_html(self, result: Any) -> str:
+    def to_html(self, result: Any, path: str | os.PathLike | None) -> str:
+        """Write a page of HTML."""
+
+    def notebook(self, result: Any) -> str:
         """Write what a notebook shows."""
 
 
@@ -167,6 +170,31 @@ the loads push it that way and no support resists
         """
         return self._by.to_json(self, path, points)
 
+    def to_html(self, path: str | os.PathLike | None = None) -> str:
+        """Write a page of HTML that one moves, prints and signs.
+
+        It is one file that needs nothing else: a slider over the load, the trains or the combinations, tables, and for print the
+        input, signs, checks by hand and error bounds.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            File to write as well.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import gapbeam
+        >>> scene = gapbeam.Scene(beam=gapbeam.Beam([4.0], EI=1e4), supports=[gapbeam.Support(node=0), gapbeam.Support(node=1)])
+        >>> scene.loads = [gapbeam.UniformLoad(q=6.0)]
+        >>> gapbeam.solve(scene).to_html()[:15]
+        '<!DOCTYPE html>'
+        """
+        return self._by.to_html(self, path)
+
     def to_excel(self, path: str | os.PathLike) -> None:
         """Write the answer and all tables as sheets of an Excel file; xlsxwriter has to be installed.
 
@@ -183,7 +211,7 @@ the loads push it that way and no support resists
 
     def _repr_html_(self) -> str:
         """Show the answer, a table and a picture in a notebook."""
-        return self._by.to_html(self)
+        return self._by.notebook(self)
 
     @property
     def _by(self) -> Display:

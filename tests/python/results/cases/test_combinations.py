@@ -70,7 +70,7 @@ def assert_same(result, made, seed):
         assert found.status == direct.status, (seed, one)
         assert found.reason == direct.reason
         if direct.status == "solved":
-            assert found.extremes() == direct.extremes(), (seed, one)
+            assert found._pairs_of_extremes() == direct._pairs_of_extremes(), (seed, one)
             assert found.steps[-1].reaction.tolist() == direct.steps[-1].reaction.tolist(), (seed, one)
 
 
@@ -99,7 +99,7 @@ def assert_exact_envelope(result):
     solved = [one for one in result.combinations.values() if one.status == "solved"]
     curves = envelope.fields
     for name, row in envelope.extremes.items():
-        each = [one.extremes()[name] for one in solved]
+        each = [one._pairs_of_extremes()[name] for one in solved]
         largest, smallest = row["max"], row["min"]
         assert largest.value == max(one["max"][0] for one in each)
         assert smallest.value == min(one["min"][0] for one in each)

@@ -168,7 +168,7 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
         x = np.linspace(0.0, sum(made["beam"]["spans"]), 9)
         for settlements in (None, moved):
             cases = beam.solve(factors, settlements=settlements)
-            fields, extremes = cases.at(x, side="left"), cases.extremes()
+            fields, extremes = cases.at(x, side="left"), cases._pairs_of_extremes()
             for k, row in enumerate(factors):
                 if cases.status[k]:
                     assert np.isnan(fields.moment[k]).all()
@@ -183,7 +183,7 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                     assert getattr(fields, name)[k] == pytest.approx(getattr(there, name), rel=1e-9, abs=1e-12), name
                 largest = one.extremes["shear"]["max"].value
                 assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
-                for name, field in one.extremes().items():
+                for name, field in one._pairs_of_extremes().items():
                     if name in ("deflection", "rotation") and one.steps[-1].indifferent:
                         continue
                     size = 1e-11 * max(abs(extreme) for extreme, _ in field.values())
@@ -207,7 +207,7 @@ def test_extremes_where_digits_or_range_are_short(short, factor):
     """Then the whole case is solved once more."""
     made = scene([5.0, short, 5.0], [at(0), at(1, side="below"), at(2, side="below"), at(3)], [uniform(1.0), force(2.0, 7.0)])
     cases = gapbeam.prepare(made).solve([[factor, 0.5 * factor], [1.0, 1.0]])
-    extremes, states = cases.extremes(), cases._combined()
+    extremes, states = cases._pairs_of_extremes(), cases._combined()
     for column, (name, field) in enumerate(extremes.items()):
         for row, kind in enumerate(("max", "min")):
             values = states.extremes[:, column]

@@ -140,7 +140,7 @@ def test_only_what_is_wanted_is_made(kind):
     assert np.array_equal(beam.solve(rows, want="reaction").at(1.0).moment, full.at(1.0).moment, equal_nan=True)
     start = np.zeros(len(beam.supports), dtype=bool)
     for some, all_ in ((beam.solve(rows, one, want="reaction"), beam.solve(rows, one)) for one in (None, start)):
-        assert np.array_equal(some.extremes()["moment"]["max"], all_.extremes()["moment"]["max"], equal_nan=True)
+        assert np.array_equal(some._pairs_of_extremes()["moment"]["max"], all_._pairs_of_extremes()["moment"]["max"], equal_nan=True)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -205,10 +205,10 @@ def test_extremes_do_not_depend_on_what_was_wanted(kind):
     beam = gapbeam.prepare(scene(SPANS, KINDS[kind], LOADS))
     rows = np.random.default_rng(5).uniform(-2.0, 5.0, (20, 3))
     for given in ({}, {"settlement": {0: 0.01}}, {"EI": {1: np.linspace(0.5, 2.0, 20)}}):
-        expected = beam.solve(rows, **given).extremes()
+        expected = beam.solve(rows, **given)._pairs_of_extremes()
         some = [beam.solve(rows, want=want, **given) for want in ("reaction", "moment", ())]
         again = beam.solve(rows, out=beam.solve(rows[::-1], **given), **given)
         for cases in (*some, again, pickle.loads(pickle.dumps(some[0]))):
-            for name, found in cases.extremes().items():
+            for name, found in cases._pairs_of_extremes().items():
                 for sense in found:
                     assert np.array_equal(found[sense], expected[name][sense], equal_nan=True), (name, sense)

@@ -37,14 +37,14 @@ def test_stiffnesses_of_spans_by_case():
         if seed % 2:
             given["GA"] = draw.choice((1e3, 1e5, np.inf), (4, spans))
         cases = beam.solve(rows, **given)
-        full, moments, extremes = beam.result, cases.at([0.3]).moment, cases.extremes()
+        full, moments, extremes = beam.result, cases.at([0.3]).moment, cases._pairs_of_extremes()
         for k, row in enumerate(rows):
             changes = {key: values[k] for key, values in given.items()}
             one = direct(made, row, changes)
             agrees(cases, k, one, np.abs(row).max(initial=1e-9), 1e-9)
             if one.status == 0:
                 solved += 1
-                for name, values in one.extremes().items():
+                for name, values in one._pairs_of_extremes().items():
                     size = max(abs(value) for value, _ in values.values())
                     for kind, (value, _) in values.items():
                         assert extremes[name][kind][0][k] == pytest.approx(value, rel=1e-9, abs=1e-9 * size), name

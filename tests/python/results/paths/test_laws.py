@@ -369,9 +369,9 @@ def test_prepared_cases():
 
 def test_the_report_says_the_limit_first():
     lines = gapbeam.report.text.report_text(gapbeam.solve({**snap(), "title": "Snap"})).splitlines()
-    assert lines[:2] == ["Snap", "Limit load at load factor 0.5: support 1 softens."]
+    assert lines[:2] == ["Snap", "Limit load at 50 % of the load: support 1 (x = 0.5) softens (4)."]
     text = " ".join(" ".join(lines).split())
-    assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 branch 3" in text
+    assert "The next stable state along the path at this load factor (dynamics may lead elsewhere): support 1 on segment 3" in text
 
 
 @pytest.mark.parametrize("points", [[[3.0, 6.0]], [[3.0, 6.0], [4.0, 16.0]], [[0.0, 1.0], [2.0, 5.0]]])

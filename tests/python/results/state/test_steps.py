@@ -90,7 +90,7 @@ def test_steps_up_to_the_one_that_falls():
 def test_the_last_step_is_not_solved_again(monkeypatch):
     result = gapbeam.solve(lifted(3, 8))
     monkeypatch.setattr(gapbeam.engine.beam.Beam, "solve", None)
-    result.extremes()
+    result._pairs_of_extremes()
     assert result.steps[-1].reaction.shape == (4,)
     assert len(result.history()) == 8
     assert [step.solves for step in result.steps]

@@ -55,7 +55,7 @@ def test_a_state_without_train_that_falls(tmp_path, capsys):
     assert data["without_trains"] == result.without_trains
     assert "reason" not in data
     text = report_text(result)
-    assert "Without its trains the beam cannot stand" in text
+    assert "Without its trains the beam is unstable" in text
     assert "This state is not in the envelope" in text
     (tmp_path / "plank.json").write_text(json.dumps(made))
     assert main(["run", str(tmp_path / "plank.json"), "--quiet"]) == 0

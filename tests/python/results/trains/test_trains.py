@@ -178,7 +178,7 @@ def test_nothing_is_beyond_the_envelope(seed):
             if len(which) == 1:
                 decided = state.solution.undecided == 0
                 assert (passage.closed[which[0]] == state.solution.closed)[decided].all()
-            fields, extremes = state.fields(curves.x), state.extremes()
+            fields, extremes = state.fields(curves.x), state.result._pairs_of_extremes()
             for name, row in envelope.extremes.items():
                 slack = 1e-11 * max(abs(row["max"].value), abs(row["min"].value))
                 assert row["min"].value - slack <= extremes[name]["min"][0]
@@ -353,7 +353,7 @@ def test_together(seed):
                 continue
             there = together.state(position, course.direction).reaction
             assert there == pytest.approx(state.steps[-1].reaction, rel=1e-9, abs=1e-9)
-            for name, row in state.extremes().items():
+            for name, row in state._pairs_of_extremes().items():
                 found = envelope.extremes[name]
                 slack = 1e-10 * max(abs(found["max"].value), abs(found["min"].value))
                 assert found["min"].value - slack <= row["min"][0] <= row["max"][0] <= found["max"].value + slack
@@ -544,7 +544,7 @@ def test_light_trains_beside_great_loads():
     moment = envelope.extremes["moment"]
     assert 0.0 < moment["max"].value - 9 / 128 * 6e11 * 6.0**2 < (60.0 + 80.0) * 6.0 / 4
     for position in (-1.0, 0.0, 1.3, 2.7, 6.0, 8.9, 12.0):
-        assert max(train.state(position).extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)
+        assert max(train.state(position).result._pairs_of_extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)
 
 
 def test_the_end_of_the_beam_as_the_sum_of_its_spans() -> None:

@@ -1,0 +1,137 @@
+!> Quantities along the beam by their numbers in the C interface: marshalling only. include/gapbeam.h says what every function does.
+module gapbeam_capi_quantities
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
+    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves
+    use gapbeam_handles, only: beam_handle, state_handle, passing_handle
+    use gapbeam_capi_objects, only: get_both, check_points, report
+    use gapbeam_capi_trains, only: get_train, as_numbers
+    implicit none
+    private
+
+contains
+
+    !> See the header
+    function c_get_quantities(beam, state, quantities, quantity, count, x, from_left, values, message, message_size) &
+        result(status) bind(c, name="gapbeam_get_quantities")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: quantities, count, from_left
+        integer(c_int), intent(in), optional :: quantity(*)
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: values(quantities, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) call check_points(count, present(x) .and. present(values), "x or values", error)
+        if (.not. allocated(error) .and. count > 0) then
+            call get_quantities(prepared%beam, solved%result, quantity(1:quantities) + 1, x(1:count), values(:, 1:count), error, &
+                                from_left /= 0)
+        end if
+        call report(error, status, message, message_size)
+    end function c_get_quantities
+
+    !> See the header
+    function c_get_quantity_extremes(beam, state, quantities, quantity, value, x, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_quantity_extremes")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: quantities
+        integer(c_int), intent(in), optional :: quantity(*)
+        real(c_double), intent(inout), optional :: value(2, *), x(2, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(state_handle), pointer :: solved
+        type(error_type), allocatable :: error
+        real(c_double) :: values(2, max(quantities, 0)), places(2, max(quantities, 0))
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) then
+            call get_quantity_extremes(prepared%beam, solved%result, quantity(1:quantities) + 1, values, places, error)
+        end if
+        call report(error, status, message, message_size)
+        if (allocated(error)) return
+        if (present(value)) value(:, 1:quantities) = values
+        if (present(x)) x(:, 1:quantities) = places
+    end function c_get_quantity_extremes
+
+    !> See the header
+    function c_get_train_quantity_extremes(beam, passing, quantities, quantity, values, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_train_quantity_extremes")
+        type(c_ptr), intent(in), value :: beam, passing
+        integer(c_int), intent(in), value :: quantities
+        integer(c_int), intent(in), optional :: quantity(*)
+        real(c_double), intent(inout), optional :: values(4, 2, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(passing_handle), pointer :: handle
+        type(train_extreme_type) :: found(2, max(quantities, 0))
+        type(error_type), allocatable :: error
+        integer :: i, k
+
+        call get_train(beam, passing, prepared, handle, error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity) .and. present(values), error)
+        if (.not. allocated(error)) then
+            call get_train_quantity_extremes(prepared%beam, handle%passing, quantity(1:quantities) + 1, found, error)
+        end if
+        call report(error, status, message, message_size)
+        if (allocated(error)) return
+        do k = 1, quantities
+            do i = 1, 2
+                values(:, i, k) = as_numbers(found(i, k))
+            end do
+        end do
+    end function c_get_train_quantity_extremes
+
+    !> See the header
+    function c_get_train_quantity_curves(beam, passing, quantities, quantity, count, x, value, position, message, message_size) &
+        result(status) bind(c, name="gapbeam_get_train_quantity_curves")
+        type(c_ptr), intent(in), value :: beam, passing
+        integer(c_int), intent(in), value :: quantities, count
+        integer(c_int), intent(in), optional :: quantity(*)
+        real(c_double), intent(in), optional :: x(*)
+        real(c_double), intent(inout), optional :: value(2, quantities, *), position(2, quantities, *)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(beam_handle), pointer :: prepared
+        type(passing_handle), pointer :: handle
+        type(error_type), allocatable :: error
+
+        call get_train(beam, passing, prepared, handle, error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) then
+            call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
+        end if
+        if (.not. allocated(error) .and. count > 0) then
+            call get_train_quantity_curves(prepared%beam, handle%passing, quantity(1:quantities) + 1, x(1:count), &
+                                           value(:, :, 1:count), position(:, :, 1:count), error)
+        end if
+        call report(error, status, message, message_size)
+    end function c_get_train_quantity_curves
+
+    !> Refuse a number of quantities that makes no sense
+    subroutine check_quantities(quantities, given, error)
+        integer(c_int), intent(in) :: quantities
+        !> Are they given
+        logical, intent(in) :: given
+        type(error_type), allocatable, intent(out) :: error
+
+        if (quantities < 1) then
+            call fatal_error(error, gapbeam_bad_input, "quantities: expected 1 or more")
+        else if (.not. given) then
+            call fatal_error(error, gapbeam_bad_input, "quantity or values is NULL")
+        end if
+    end subroutine check_quantities
+
+end module gapbeam_capi_quantities

@@ -1,0 +1,169 @@
+"""What all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engine.quantities import QUANTITIES
+from ..results import formatting as fmt
+from ..scene.names import DEAD, label, labels
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..scene.structs import Scene
+
+MOST_PLACES = 240
+"""Places along a beam on the ground at which its states are given."""
+SIDES = {"below": 1, "both": 0, "above": -1}
+
+
+def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
+    """Choose the places at which states on the ground are given: there they are no polynomials.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+
+    Returns
+    -------
+    piece : numpy.ndarray of int
+        Piece of every place, from 0.
+    distance : numpy.ndarray
+        Distance from its left end.
+    """
+    return result._places_along(max(1, MOST_PLACES // len(result.scene.beam.spans)))
+
+
+def beam_data(result: Result) -> dict[str, Any]:
+    """Give joints, pieces and loads between the joints.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+
+    Returns
+    -------
+    dict
+        ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
+        and imposed curvature; on the ground ``grid``, the number of the piece and the place of every row of a state.
+    """
+    places = result._beam.places
+    with np.errstate(divide="ignore"):
+        flexibility = 1.0 / places.pieces[:, 1:]
+    found: dict[str, Any] = {
+        "x": places.point_x.tolist(),
+        "pieces": np.column_stack((places.pieces[:, 0], flexibility)).tolist(),
+        "dead": places.dead[:, :3].tolist(),
+        "live": places.live[:, :3].tolist(),
+        "hinges": [float(x) for x in result.scene.beam.hinges],
+    }
+    if result._beam.ground_layers:
+        piece, distance = places_on_ground(result)
+        found["grid"] = {"piece": piece.tolist(), "x": (places.point_x[piece] + distance).tolist()}
+    return found
+
+
+def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
+    """Give the supports as they are drawn.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    levels : numpy.ndarray
+        Deflection at which each begins to act.
+
+    Returns
+    -------
+    list of dict
+    """
+    rows = zip(scene.supports, labels(scene.supports), scene.positions(scene.supports).tolist(), levels.tolist(), strict=True)
+    return [
+        {
+            "name": name, "x": x, "side": SIDES.get(one.side, 0), "level": level, "gap": one.gap or 0.0,
+            "axial": one.direction == "axial", "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
+            "turning": 0 if one.rotation == "free" else 2 if one.rotation == "fixed" else 1,
+        }
+        for one, name, x, level in rows
+    ]  # fmt: skip
+
+
+def loads_data(scene: Scene) -> list[dict[str, Any]]:
+    """Give the loads as they are drawn.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene; of a combination with its factors.
+
+    Returns
+    -------
+    list of dict
+    """
+    nodes, found = scene.span_ends(), []
+    for load in scene.loads:
+        kind = load.__struct_config__.tag
+        one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
+        if kind in ("force", "moment", "axial"):
+            one |= {"x": float(nodes[load.node]) if load.node is not None else load.x, "value": load.M if kind == "moment" else load.F}
+        else:
+            from_, to = fmt.stretch(scene, load)
+            ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
+            one |= {"from": from_, "to": to, "ends": ends}
+        found.append(one)
+    return found
+
+
+def foundations_data(scene: Scene) -> list[dict[str, Any]]:
+    """Give the foundations as they are drawn.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    list of dict
+    """
+    found = []
+    for k, one in enumerate(scene.foundation):
+        from_, to = fmt.stretch(scene, one)
+        found.append({"name": label(scene.foundation, k), "from": from_, "to": to, "side": SIDES[one.side]})
+    return found
+
+
+def units_data(scene: Scene) -> dict[str, list[Any]]:
+    """Give the unit that is shown of every quantity, and how many of it are one of the scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its labels.
+
+    Returns
+    -------
+    dict
+    """
+    names = [one.name for one in QUANTITIES] + ["x", "opening", "reaction", "couple", "set", "uniform", "sag", "resultant"]
+    return {name: list(fmt.shown_unit(scene, name)) for name in names}
+
+
+def panels_data(fields: dict[str, int]) -> list[dict[str, Any]]:
+    """Give the fields that are drawn, each in a panel of its own.
+
+    Parameters
+    ----------
+    fields : dict
+        Of `Beam.fields`.
+
+    Returns
+    -------
+    list of dict
+        Name, words, and whether positive values go down.
+    """
+    return [{"name": one.name, "words": one.panel, "down": one.downward} for one in QUANTITIES if one.name in fields and one.panel]

@@ -1,0 +1,189 @@
+"""One state of a beam as numbers from which a page draws it again: exact values at the joints, on the ground at many places."""
+
+from __future__ import annotations
+
+import base64
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engine.beam import SOLVED
+from ..engine.quantities import FIELDS
+from .geometry import places_on_ground
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..results.state.step import Step
+
+ROW = {name: k for k, name in enumerate(FIELDS)}
+OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
+ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
+"""What is given of a state at many places."""
+FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force"}
+"""Fields by the short names of the columns of a state."""
+
+
+def packed(values: np.ndarray) -> str:
+    """Write numbers as single precision in base 64: seven digits, which is more than a picture shows.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        The numbers.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> packed(np.array([1.0, -2.5]))
+    'AACAPwAAIMA='
+    """
+    return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode()
+
+
+class Recorder:
+    """Makes the records of the states of one beam.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    words : list of str
+        Words for the states of supports; new ones are added.
+    """
+
+    def __init__(self, result: Result, words: list[str]) -> None:
+        self._beam, self._words = result._beam, words
+        self.x = result._beam.places.point_x
+        self.grid = places_on_ground(result) if result._beam.ground_layers else None
+
+    def codes(self, states: tuple[str, ...]) -> list[int]:
+        """Number the states of the supports.
+
+        Parameters
+        ----------
+        states : tuple of str
+            Of `Step.state`.
+
+        Returns
+        -------
+        list of int
+        """
+        for state in states:
+            if state not in self._words:
+                self._words.append(state)
+        return list(map(self._words.index, states))
+
+    def columns(self, step: Step) -> dict[str, np.ndarray]:
+        """Give the numbers of a state between which states are drawn.
+
+        Parameters
+        ----------
+        step : Step
+            A state of the beam.
+
+        Returns
+        -------
+        dict
+            On the ground its fields at many places; else deflections of the joints, moments left and right of the pieces.
+        """
+        if self.grid is not None:
+            values = step.values(self.grid[0] + np.int32(1), self.grid[1])
+            return {name: values[ROW[field]] for name, field in ON_GROUND.items()}
+        beam = step._beam
+        right, left = (step.values(*beam.find(x, side)) for x, side in ((self.x[:-1], False), (self.x[1:], True)))
+        w, m = ROW["deflection"], ROW["moment"]
+        found = {"w": np.append(right[w], left[w, -1]), "m": right[m], "m_left": left[m]}
+        if self._beam.bars >= 0:
+            found["n"] = right[ROW["axial_force"]]
+        return found
+
+    def record(self, step: Step) -> dict[str, Any]:
+        """Give a state with the same doubles as in the JSON output.
+
+        Parameters
+        ----------
+        step : Step
+            A state of the beam.
+
+        Returns
+        -------
+        dict
+            Of supports ``reaction``, ``opening``, ``deflection``, and ``couple``, ``set`` where there is any; on the ground the
+            zones of contact and free spans.
+        """
+        found: dict[str, Any] = {"factor": step.factor}
+        for name in OF_SUPPORTS:
+            values = getattr(step, name)
+            if name not in ("couple", "set") or values.any():
+                found[name] = values.tolist()
+        columns = self.columns(step)
+        if self.grid is not None:
+            found |= {"zones": zones_of(step), "free": free_spans_of(step)}
+            return found | {f"{name}_packed": packed(values) for name, values in columns.items()}
+        return found | {name: values.tolist() for name, values in joined_moments(columns).items()}
+
+
+def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Give one moment for both sides of the joints, where no couple makes it jump.
+
+    Parameters
+    ----------
+    columns : dict
+        By `Recorder.columns`.
+
+    Returns
+    -------
+    dict
+    """
+    m, left = columns["m"], columns["m_left"]
+    if not np.array_equal(m[1:], left[:-1]):
+        return columns
+    return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
+
+
+def zones_of(step: Step) -> list[list[Any]]:
+    """Give the zones of contact: foundation, ends, state, resultant.
+
+    Parameters
+    ----------
+    step : Step
+        A state on the ground.
+
+    Returns
+    -------
+    list of list
+    """
+    return [[one.foundation, one.from_, one.to, one.state, one.resultant] for one in step.contact]
+
+
+def free_spans_of(step: Step) -> list[list[Any]]:
+    """Give the free spans: foundation, ends, sag.
+
+    Parameters
+    ----------
+    step : Step
+        A state on the ground.
+
+    Returns
+    -------
+    list of list
+    """
+    return [[one.foundation, one.from_, one.to, one.sag] for one in step.free_spans]
+
+
+def stands(step: Step) -> bool:
+    """Whether a state is one of equilibrium.
+
+    Parameters
+    ----------
+    step : Step
+        The state.
+
+    Returns
+    -------
+    bool
+    """
+    return step.solution.status == SOLVED

@@ -1,0 +1,182 @@
+"""Tables of a page: texts as a person reads them, each with the number by which it is sorted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..base.characters import visible
+from ..results import formatting as fmt
+from ..results.contact import source_in_words
+from ..results.state.ground import joined
+from ..scene.names import label, labels
+
+if TYPE_CHECKING:
+    from ..results.envelopes.envelope import Envelope
+    from ..results.result import Result
+    from ..results.trains.envelope import TrainEnvelope
+
+WORDS = {"max": "largest", "min": "smallest"}
+MOST_ROWS = 400
+"""Rows of a table; all are in the JSON output."""
+
+
+class Cell(NamedTuple):
+    """What stands in a cell, and the number by which it is sorted, if it is one."""
+
+    text: str
+    value: float | None = None
+
+
+class TableData(NamedTuple):
+    """A table of the page."""
+
+    name: str
+    title: str
+    head: list[str]
+    rows: list[list[Cell]]
+    note: str = ""
+    jumps: list[tuple[int, int]] | None = None
+
+
+def tables_of(result: Result, envelope: Envelope | TrainEnvelope | None, ways: list[dict[str, Any]]) -> list[TableData]:
+    """Make the tables.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    envelope : Envelope or TrainEnvelope or None
+        Its `Result.envelope`, if there is one.
+    ways : list of dict
+        What the page moves; rows of events lead there.
+
+    Returns
+    -------
+    list of TableData
+        Those that have rows.
+    """
+    found = [_supports(result)]
+    if envelope is not None and envelope.extremes:
+        found.append(_extremes(result, envelope))
+        if result.combinations or result.scene.trains or hasattr(envelope, "over"):
+            found.append(_support_extremes(result, envelope))
+    if result.combinations:
+        found.append(_combinations(result))
+    found += [_events(result, ways), _zones(result)]
+    return [one._replace(rows=one.rows[:MOST_ROWS], note=_cut(one)) for one in found if one.rows]
+
+
+def _cut(table: TableData) -> str:
+    more = len(table.rows) - MOST_ROWS
+    return f"{table.note} {more:,} more rows are in the output of --json.".strip() if more > 0 else table.note
+
+
+def _number(value: float, text: str | None = None) -> Cell:
+    return Cell((fmt.number(value, fmt.DIGITS) if text is None else text).replace("-", "\N{MINUS SIGN}"), float(value))
+
+
+def _shown(result: Result, quantity: str, value: float) -> Cell:
+    return _number(value, fmt.shown(result.scene, quantity, value)) if np.isfinite(value) else Cell("")
+
+
+def _heading(result: Result, quantity: str, words: str) -> str:
+    unit = fmt.shown_unit(result.scene, quantity)[0]
+    return f"{words} [{unit}]" if unit else words
+
+
+def _supports(result: Result) -> TableData:
+    """The supports in the state that is drawn: the page fills in its numbers."""
+    scene = result.scene
+    rows = zip(labels(scene.supports), scene.positions(scene.supports).tolist(), scene.supports, strict=True)
+    quantities = ["reaction", "deflection", "opening"]
+    step = result.steps[-1] if len(result.steps) else None
+    if step is not None and step.couple.any():
+        quantities.append("couple")
+    head = ["support", _heading(result, "x", "x"), "side", "state", *(_heading(result, name, name) for name in quantities)]
+    table = []
+    for k, (name, x, support) in enumerate(rows):
+        side = "axial" if support.direction == "axial" else support.side
+        values = [Cell("") if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
+        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else step.state[k]), *values])
+    return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
+
+
+def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
+    rows = []
+    for name, row in envelope.extremes.items():
+        for kind, one in row.items():
+            if one is not None:
+                words = f"{WORDS[kind]} {_heading(result, name, name.replace('_', ' '))}"
+                rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), Cell(source_in_words(one, result.scene))])
+    head = ["", "value", _heading(result, "x", "at x"), "from"]
+    if not any(row[3].text for row in rows):
+        head, rows = head[:3], [row[:3] for row in rows]
+    return TableData("extremes", "Largest and smallest values along the beam", head, rows,
+                     "Positive: deflection downward, sagging moment, clockwise rotation.")  # fmt: skip
+
+
+def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
+    names, rows = labels(result.scene.supports), []
+    one_sided = any(support.side != "both" for support in result.scene.supports)
+    chosen = [("reaction", "max"), ("reaction", "min"), *([("opening", "max")] if one_sided else [])]
+    for name, support in zip(names, envelope.supports, strict=True):
+        row = [Cell(name)]
+        for quantity, kind in chosen:
+            one = support[quantity][kind]
+            row.append(Cell("") if one is None else _shown(result, quantity, one.value))
+            row.append(Cell("" if one is None or one.value == 0.0 else source_in_words(one, result.scene)))
+        rows.append(row)
+    head = ["support"]
+    for quantity, kind in chosen:
+        head += [_heading(result, quantity, f"{WORDS[kind]} {quantity}"), "from"]
+    return TableData("support-extremes", "Largest and smallest values at the supports", head, rows)
+
+
+def _combinations(result: Result) -> TableData:
+    columns = result.combinations.columns()
+    fields = [name for name in ("moment", "shear", "deflection") if f"{name}_max" in columns]
+    head = ["combination", "status"]
+    for name in fields:
+        head += [_heading(result, name, f"{WORDS[kind]} {name}") for kind in WORDS]
+    rows = []
+    for k, (name, status) in enumerate(zip(columns["combination"], columns["status"], strict=True)):
+        values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in WORDS]
+        rows.append([Cell(visible(name)), Cell(status), *values])
+    return TableData("combinations", "Combinations", head, rows)
+
+
+def _events(result: Result, ways: list[dict[str, Any]]) -> TableData:
+    several = sum(bool(way.get("events")) for way in ways) > 1
+    rows, jumps = [], []
+    for k, way in enumerate(ways):
+        for i, one in enumerate(way.get("events", ())):
+            at = one.get("factor", one["at"])
+            place = [_number(one["x"]) if "x" in one else Cell("")]
+            rows.append([*([Cell(way["title"])] if several else []), _number(at, fmt.number(at, 10)), Cell(one["words"]), *place])
+            jumps.append((k, i))
+    axis = "position of the train" if result.scene.trains else "load factor"
+    head = [*(["way"] if several else []), axis, "event", _heading(result, "x", "x")]
+    return TableData("events", "Events", head, rows, "Click the number to see the state.", jumps)
+
+
+def _zones(result: Result) -> TableData:
+    """Contact with the ground at the end of the load."""
+    step = result.steps[-1] if len(result.steps) else None
+    scene, rows = result.scene, []
+
+    def add(what: str, foundation: int, of: Iterable[Cell]) -> None:
+        rows.append([Cell(what), Cell(label(scene.foundation, foundation)), *of])
+
+    if step is not None and scene.foundation:
+        for zone in joined(step.contact):
+            ends = [_number(value) for value in (zone.from_, zone.to, zone.to - zone.from_)]
+            add(zone.state, zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
+        for span in step.free_spans:
+            ends = [_number(value) for value in (span.from_, span.to, span.to - span.from_)]
+            add("free span", span.foundation, [*ends, Cell(""), _shown(result, "sag", span.sag)])
+    head = ["", "foundation", *(_heading(result, "x", words) for words in ("from", "to", "length")),
+            _heading(result, "resultant", "resultant"), _heading(result, "sag", "sag")]  # fmt: skip
+    return TableData("zones", "Contact with the ground at the end of the load", head, rows)

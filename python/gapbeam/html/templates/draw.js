@@ -1,0 +1,232 @@
+/* The picture of a state: the model with loads, supports and reactions, and a panel for every field. */
+
+const WIDTH = 1000, LEFT = 64, RIGHT = 28, PANEL = 132, PAD = 20;
+const MODEL = { loads: 84, lift: 34, labels: 78 };
+const MOST_NAMED = 60; // supports whose numbers are written
+
+function number(value, digits = 5) {
+  if (value === null || !Number.isFinite(value)) return "";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 10 ** digits && size < 1e7) return value.toFixed(0).replace("-", "\u2212");
+  const rounded = Number(value.toPrecision(digits)), power = Math.floor(Math.log10(Math.abs(rounded)));
+  let text = String(rounded);
+  if (power < -4 || power >= digits) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    const signed = Number(exponent);
+    text = `${String(Number(mantissa))}e${signed < 0 ? "-" : "+"}${String(Math.abs(signed)).padStart(2, "0")}`;
+  }
+  return text.replace(/^-/, "\u2212");
+}
+
+/* A value in the unit that is shown, without or with it. */
+function shown(name, value) { return number(value * DATA.units[name][1]); }
+function withUnit(name, value) { return `${shown(name, value)} ${DATA.units[name][0]}`.trim(); }
+function escaped(text) { return String(text).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c])); }
+
+/* What has the same scale in all states: the size of fields, reactions, openings, loads. */
+class Scale {
+  constructor() {
+    const beam = DATA.beams[0];
+    this.end = beam.x[beam.x.length - 1];
+    this.step = this.end / 320;
+    this.ranges = {};
+    this.reaction = 0;
+    for (const { name } of DATA.panels) this.ranges[name] = [0, 0];
+    const stretch = (name, value) => {
+      const range = this.ranges[name];
+      if (range && Number.isFinite(value)) [range[0], range[1]] = [Math.min(range[0], value), Math.max(range[1], value)];
+    };
+    this.curves = DATA.envelope && { x: unpack(DATA.envelope.x), fields: {} };
+    for (const [name, pair] of Object.entries(DATA.envelope ? DATA.envelope.fields : {})) {
+      this.curves.fields[name] = pair.map(unpack);
+      for (const curve of this.curves.fields[name]) curve.forEach((value) => stretch(name, value));
+    }
+    for (const way of DATA.ways) {
+      for (const interval of way.intervals || []) {
+        for (const at of interval.from < interval.to ? [interval.from, interval.to] : [interval.from]) {
+          const state = new State(way, interval, at);
+          const places = state.places(this.end / 60);
+          for (const { name } of DATA.panels) places.forEach(([x, left]) => stretch(name, state.value(name, x, left)));
+          state.reaction.forEach((value, k) => { if (!state.supports[k].axial) this.reaction = Math.max(this.reaction, Math.abs(value)); });
+        }
+      }
+    }
+    const seats = DATA.supports.flat().map((one) => Math.abs(one.level));
+    const range = this.ranges.deflection, deepest = Math.max(-range[0], range[1]);
+    this.lift = MODEL.lift / (Math.max(deepest, ...seats.filter((one) => one <= 4 * deepest)) || 1);
+    const loads = DATA.loads.flat();
+    const largest = (values) => Math.max(0, ...values.map(Math.abs)) || 1;
+    this.force = largest([...loads.filter((one) => one.type === "force").map((one) => one.value),
+      ...DATA.ways.flatMap((way) => way.axles || []).map(([, force]) => force)]);
+    this.uniform = largest([...loads.filter((one) => one.ends && one.type !== "curvature").flatMap((one) => one.ends),
+      ...DATA.ways.flatMap((way) => way.uniform || []).map(([q]) => q)]);
+  }
+
+  x(place) { return LEFT + (place / (this.end || 1)) * (WIDTH - LEFT - RIGHT); }
+}
+
+function line(x1, y1, x2, y2, name) { return `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" class="${name}"/>`; }
+function words(x, y, text, name = "", more = "") { return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" class="${name}" ${more}>${escaped(text)}</text>`; }
+function path(points, name, closed = false) {
+  return `<path class="${name}" d="M${points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join("L")}${closed ? "Z" : ""}"/>`;
+}
+
+/* An arrow with its tip at (x, tip), coming from above where length is positive. */
+function arrow(x, tip, length, name) {
+  const sign = Math.sign(length) || 1;
+  return line(x, tip - length, x, tip - sign * 3, name) + path([[x - 3.5, tip - sign * 8], [x + 3.5, tip - sign * 8], [x, tip]], `${name} head`, true);
+}
+
+/* The model: beam, loads, supports, reactions. */
+function drawModel(state, scale, axis, changed) {
+  const y = (x, left) => axis + scale.lift * state.value("deflection", x, left);
+  const parts = [line(scale.x(0), axis, scale.x(scale.end), axis, "rest")];
+  for (const [, from, to, name] of state.zones) parts.push(path(along(state, scale, from, to, 7), name === "touching" ? "ground touching" : "ground"));
+  for (const [, from, to] of state.free) parts.push(path(along(state, scale, from, to, 7), "ground free"));
+  parts.push(path(along(state, scale, 0, scale.end, 0), "girder"));
+  for (const x of state.beam.hinges) parts.push(`<circle cx="${scale.x(x).toFixed(1)}" cy="${y(x, false).toFixed(1)}" r="4" class="hinge"/>`);
+  parts.push(drawLoads(state, scale, y, axis));
+  parts.push(drawSupports(state, scale, y, axis, changed));
+  return parts.join("");
+}
+
+function along(state, scale, from, to, below) {
+  const count = Math.max(2, Math.ceil(((to - from) / (scale.end || 1)) * 240));
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const x = from + ((to - from) * i) / count;
+    return [scale.x(x), below + MODEL.loads + MODEL.lift + scale.lift * state.value("deflection", x, i === count)];
+  });
+}
+
+function drawLoads(state, scale, y, axis) {
+  const parts = [], loads = DATA.loads[state.way.loads], top = axis - MODEL.lift - 14;
+  const factorOf = (one) => (one.dead ? 1 : state.factor), label = loads.length <= 14;
+  for (const one of loads) {
+    const factor = factorOf(one);
+    if (factor === 0) continue;
+    if (one.ends) {
+      const [a, b] = one.ends.map((q) => (one.type === "curvature" ? 5 : (Math.abs(factor * q) / scale.uniform) * 14));
+      const left = scale.x(one.from), right = scale.x(one.to);
+      parts.push(path([[left, top], [left, top - a], [right, top - b], [right, top]], one.type === "curvature" ? "band bent" : "band", true));
+      const [from, to] = one.ends.map((q) => number(factor * q, 4));
+      const unit = one.type === "curvature" ? "" : ` ${DATA.units.uniform[0]}`;
+      const text = `${one.type === "curvature" ? "\u03ba " : ""}${from === to ? from : `${from} to ${to}`}${unit}`;
+      if (label) parts.push(words((left + right) / 2, top - Math.max(a, b) - 3, text, "load"));
+    } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label));
+    else {
+      const x = scale.x(one.x), at = y(one.x, false), turn = Math.sign(factor * one.value);
+      if (one.type === "moment") {
+        parts.push(`<path class="couple" d="M${x - 11 * turn},${at} A11,11 0 0 ${turn > 0 ? 1 : 0} ${x + 11 * turn},${at}"/>`,
+          path([[x + 11 * turn - 4, at - 3], [x + 11 * turn + 4, at - 3], [x + 11 * turn, at + 4]], "force head", true));
+      } else parts.push(line(x - 26 * turn, at - 12, x, at - 12, "force"), path([[x - 7 * turn, at - 16], [x - 7 * turn, at - 8], [x, at - 12]], "force head", true));
+      if (label) parts.push(words(x, at - 17, withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value), "load"));
+    }
+  }
+  for (const [x, force] of state.axles) if (x >= 0 && x <= scale.end) parts.push(drawForce(scale, x, force, y(x, false), state.axles.length <= 6, "axle"));
+  for (const [from, to, q] of state.bands) {
+    const [left, right] = [from, to].map((x) => scale.x(Math.min(Math.max(x, 0), scale.end)));
+    if (right > left) parts.push(path([[left, top], [left, top - (14 * q) / scale.uniform], [right, top - (14 * q) / scale.uniform], [right, top]], "band axle", true));
+  }
+  return parts.join("");
+}
+
+function drawForce(scale, x, force, at, label, name = "force") {
+  const length = 14 + 26 * (Math.abs(force) / scale.force), sign = Math.sign(force) || 1;
+  const text = label ? words(scale.x(x), at - 8 - length, withUnit("reaction", force), "load") : "";
+  return arrow(scale.x(x), sign > 0 ? at - 4 : at - 4 - length, sign * length, name) + text;
+}
+
+/* Supports: filled where they act, hollow where they are open, with what they carry or how far they are open. */
+function drawSupports(state, scale, y, axis, changed) {
+  const parts = [], supports = state.supports, across = supports.filter((one) => !one.axial).length;
+  const spacing = (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size);
+  const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24, high = axis - MODEL.lift - 34;
+  supports.forEach((one, k) => {
+    const x = scale.x(one.x), at = y(one.x, false), open = state.words[k] === "open", above = one.side < 0;
+    if (one.axial) {
+      parts.push(`<rect x="${(x - 13).toFixed(1)}" y="${(at - 5).toFixed(1)}" width="7" height="10" class="support bilateral"/>`);
+      return;
+    }
+    const way = above ? -1 : 1;
+    let tip = at + way * 3;
+    if (open) tip = way * Math.max(way * (axis + scale.lift * one.level) + 3, way * at + 7);
+    const kind = open ? "open" : one.side === 0 ? "bilateral" : "closed", branch = /^branch (\d+)/.exec(state.words[k]);
+    parts.push(`<g class="support ${kind}${changed.has(k) ? " changed" : ""}" data-support="${k}" data-state="${state.words[k]}">`);
+    if (one.turning === 2) parts.push(line(x, at - 12, x, at + 12, "wall"));
+    parts.push(path([[x, tip], [x - size, tip + way * size * 1.6], [x + size, tip + way * size * 1.6]], "symbol", true));
+    if (one.turning === 1) parts.push(`<circle cx="${x.toFixed(1)}" cy="${at.toFixed(1)}" r="5" class="turning"/>`);
+    if (one.side === 0) parts.push(line(x - size, at - 4, x + size, at - 4, "symbol"));
+    parts.push(line(x - size - 2, tip + way * (size * 1.6 + 2.5), x + size + 2, tip + way * (size * 1.6 + 2.5), one.elastic ? "base elastic" : "base"));
+    if (branch && Number(branch[1]) > 1) parts.push(words(x, tip + way * size * 1.2 + 3, branch[1], "branch"));
+    parts.push("</g>");
+    if (across > MOST_NAMED) return;
+    const value = state.reaction[k], text = open ? `\u2191${shown("opening", state.opening[k])}`.replace("\u2191", above ? "\u2193" : "\u2191") : shown("reaction", value);
+    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0;
+    const turned = spacing < 46;
+    if (above) {
+      if (!open) parts.push(words(x, high - 8, text, "value", turned ? turnedAt(x, high - 8) : ""));
+      return;
+    }
+    if (!open && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
+    const name = `${one.name}`, foot = low + 34;
+    if (turned) parts.push(words(x, foot, `${name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x, foot)));
+    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(x, foot + 13, name.length > 9 ? `${name.slice(0, 8)}\u2026` : name, "name"));
+  });
+  return parts.join("");
+}
+
+function turnedAt(x, y) { return `transform="rotate(-60 ${x.toFixed(1)} ${y.toFixed(1)})" text-anchor="end"`; }
+
+/* One field along the beam. */
+function drawPanel(state, scale, panel, top) {
+  const { name, words: title, down } = panel, [low, high] = scale.ranges[name], size = high - low || 1, height = PANEL - 2 * PAD;
+  const y = (value) => top + PAD + ((down ? value - low : high - value) / size) * height;
+  const parts = [`<g class="panel" data-panel="${name}">`];
+  const unit = DATA.units[name][0];
+  parts.push(words(LEFT - 54, top + 12, unit ? `${title} [${unit}]` : title, "title"));
+  const curve = scale.curves && scale.curves.fields[name];
+  if (curve) {
+    const x = Array.from(scale.curves.x), row = (values) => x.map((one, i) => [scale.x(one), y(values[i])]).filter(([, at]) => Number.isFinite(at));
+    parts.push(path([...row(Array.from(curve[0])), ...row(Array.from(curve[1])).reverse()], "envelope", true));
+  }
+  const points = state.places(scale.step).map(([x, left]) => [scale.x(x), y(state.value(name, x, left))]);
+  parts.push(path([[scale.x(0), y(0)], ...points, [scale.x(scale.end), y(0)]], "area", true), line(scale.x(0), y(0), scale.x(scale.end), y(0), "axis"));
+  parts.push(path(points, "curve"));
+  const taken = [];
+  for (const { value, x } of state.extremes(name, scale.step)) {
+    if (Math.abs(value) <= 1e-9 * size || taken.includes(value)) continue;
+    taken.push(value);
+    const at = y(value), under = (value > 0) === down, text = `${shown(name, value)} at ${number(x)}`;
+    const wide = 3.3 * text.length, place = Math.min(Math.max(scale.x(x), LEFT - 8 + wide), WIDTH - wide - 4);
+    parts.push(`<circle cx="${scale.x(x).toFixed(1)}" cy="${at.toFixed(1)}" r="2.6" class="dot"/>`);
+    parts.push(words(place, under ? at + 13 : at - 5, text, "peak", `data-value="${value}" data-x="${x}"`));
+  }
+  parts.push("</g>");
+  return parts.join("");
+}
+
+/* How a beam moves that cannot stand, for a share of that motion. */
+function drawMotion(way, share, axis) {
+  const last = way.motion[way.motion.length - 1], end = last ? last[0] : 1, x = (place) => LEFT + (place / end) * (WIDTH - LEFT - RIGHT);
+  const points = way.motion.map(([place, moved]) => [x(place), axis + 60 * share * moved]);
+  const parts = [line(LEFT, axis, WIDTH - RIGHT, axis, "rest")];
+  if (points.length) parts.push(path(points, "girder moving"));
+  const ends = DATA.loads[way.loads].filter((one) => one.type === "force");
+  for (const one of ends) parts.push(arrow(x(one.x), axis - 6, 30 * Math.sign(one.value), "force"));
+  for (const one of DATA.supports[way.supports]) {
+    const way_ = one.side < 0 ? -1 : 1, at = x(one.x);
+    parts.push(`<g class="support ${one.side ? "open" : "bilateral"}">${path([[at, axis + way_ * 4], [at - 9, axis + way_ * 18], [at + 9, axis + way_ * 18]], "symbol", true)}</g>`,
+      words(at, axis + way_ * 18 + (way_ > 0 ? 16 : -8), one.name, "name"));
+  }
+  return parts.join("");
+}
+
+/* The whole picture of a state. */
+function picture(state, scale, changed) {
+  const axis = MODEL.loads + MODEL.lift, bottom = axis + MODEL.lift + MODEL.labels;
+  const parts = [drawModel(state, scale, axis, changed)];
+  const panels = DATA.panels.filter(({ name }) => name !== "axial_force" || state.n);
+  panels.forEach((panel, i) => parts.push(drawPanel(state, scale, panel, bottom + i * PANEL)));
+  return { svg: parts.join(""), height: bottom + panels.length * PANEL + 6 };
+}

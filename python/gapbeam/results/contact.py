@@ -1,0 +1,178 @@
+"""Contact in words: which supports have no contact and by how much, how much of the ground carries."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..base.characters import visible
+from ..scene.names import label
+from ..scene.structs import Scene
+from ..scene.trains import LEFT
+from . import formatting as fmt
+from .envelopes.lifted import Lifted
+from .envelopes.over_path import is_followed
+from .event_words import share_in_words
+from .state.ground import TOUCHING, joined
+
+if TYPE_CHECKING:
+    from .result import Result
+    from .views.extreme import Extreme
+
+MOST_NAMED = 8
+"""Supports without contact that are told one by one."""
+SAME = 1.0 + 1e-9
+"""Share of a gap up to which an opening is that gap."""
+
+
+def short(scene: Scene, quantity: str, value: float) -> str:
+    """Write a value with its unit, displacements in mm where lengths are in m.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    quantity : str
+        As for `formatting.unit`.
+    value : float
+        In the unit of the scene.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene, Units
+    >>> scene = Scene(beam=Beam([4.0], EI=1.0), units=Units("kN", "m"))
+    >>> short(scene, "opening", 0.0263), short(scene, "moment", 205.5)
+    ('26.3 mm', '205.5 kN m')
+    """
+    return f"{fmt.shown(scene, quantity, value)} {fmt.shown_unit(scene, quantity)[0]}".rstrip()
+
+
+def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) -> str:
+    """Say where a value comes from: combination, train and its position, load factor.
+
+    Parameters
+    ----------
+    one : Lifted or Extreme
+        Has some of ``combination``, ``train``, ``position``, ``factor``, ``leg``.
+    scene : Scene
+        Knows the history of its load.
+    factor : bool
+        Whether the load factor is said, where there is one.
+
+    Returns
+    -------
+    str
+        Empty where there is nothing to say.
+    """
+    words = [] if one.combination is None else [visible(one.combination)]
+    train = one.train
+    if train is not None:
+        direction = " going left" if getattr(one, "direction", None) == LEFT else ""
+        at = "" if one.position is None else f" at {fmt.number(one.position, fmt.DIGITS)}"
+        words.append(f"{visible(train)}{at}{direction}")
+    at = one.factor
+    if factor and at is not None:
+        leg = getattr(one, "leg", None)
+        on_leg = f" of leg {leg}" if leg and len(scene.analysis.history) > 1 else ""
+        words.append(f"load factor {fmt.number(at, fmt.DIGITS)}{on_leg}")
+    return ", ".join(words)
+
+
+def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
+    """Say which supports have no contact and by how much.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    lifted : list of Lifted
+        By `lifted_supports`.
+
+    Returns
+    -------
+    list of str
+        Sentences; none where no support is one-sided.
+    """
+    supports = result.scene.supports
+    one_sided = {k for k, support in enumerate(supports) if support.side != "both"}
+    if not one_sided:
+        return []
+    broken = {event.support for event in result.events if event.event == "breaks"} if not result.combinations else set()
+    lost = len((broken & one_sided) - {one.support for one in lifted})
+    if not lifted and not lost:
+        return ["No support lifts off." if len(one_sided) > 1 else "The support that can lift off does not."]
+    x, lines = result.scene.positions(supports), []
+    largest = sorted(lifted, key=lambda one: -one.opening)
+    for one in sorted(largest[:MOST_NAMED]):
+        name = fmt.support(result.scene, one.support)
+        place = f"{name[0].upper()}{name[1:]} (x = {fmt.number(x[one.support], fmt.DIGITS)})"
+        lines.append(f"{place} {_how_far(result, one)}.")
+    if more := sorted(one.support for one in largest[MOST_NAMED:]):
+        named = ", ".join(label(supports, k) for k in more) if len(more) <= MOST_NAMED else fmt.ranges(more)
+        lines.append(f"{len(more):,} more have no contact, all with smaller openings: {named}.")
+    left = len(one_sided) - len(lifted) - lost
+    if left:
+        lines.append(f"The other {left:,} one-sided supports stay in contact." if left > 1
+                     else "The other one-sided support stays in contact.")  # fmt: skip
+    return lines
+
+
+def _how_far(result: Result, one: Lifted) -> str:
+    """Say how far a support is from the beam, and what becomes of that."""
+    scene = result.scene
+    gap, followed = max(scene.supports[one.support].gap or 0.0, 0.0), is_followed(result)
+    source = source_in_words(one, scene) if result.combinations or scene.trains or followed else ""
+    ends_closed = followed and not result.combinations and not scene.trains and result.steps[-1].state[one.support] != "open"
+    opening = short(scene, "opening", one.opening)
+    if ends_closed and gap and one.opening <= SAME * gap:
+        closing = (event for event in result.events if event.support == one.support and event.event == "closes")
+        first = next(closing, None)
+        when = f" {share_in_words(scene, first.factor)}" if first is not None and len(scene.analysis.history) == 1 else ""
+        return f"closes its gap of {short(scene, 'gap', gap)}{when}"
+    about = ", ".join([*([f"gap {short(scene, 'gap', gap)}"] if gap else []), *([source] if source else [])])
+    words = f"{'has no contact: opening' if gap else 'lifts off by'} {opening}{f' ({about})' if about else ''}"
+    return f"{words}, and is in contact at the end" if ends_closed else words
+
+
+def ground_in_words(result: Result) -> list[str]:
+    """Say how much of one-sided ground carries at the last step.
+
+    Parameters
+    ----------
+    result : Result
+        A solved one.
+
+    Returns
+    -------
+    list of str
+        Sentences; none where nothing can lift off.
+    """
+    step, scene = result.steps[-1], result.scene
+    zones, spans = joined(step.contact), step.free_spans
+    if not spans and all(item.side == "both" for item in scene.foundation):
+        return []
+
+    def words(value: float, quantity: str = "length") -> str:
+        return short(scene, quantity, float(fmt.number(value, 4)))
+
+    lines = []
+    if zones:
+        of = words(sum(to - from_ for from_, to in (fmt.stretch(scene, item) for item in scene.foundation)))
+        together = fmt.number(sum(zone.to - zone.from_ for zone in zones), 4)
+        lines.append(f"Contact with the ground over {together} of {of}{f', in {len(zones):,} zones' if len(zones) > 1 else ''}.")
+    touching = [zone.from_ for zone in step.contact if zone.state == TOUCHING]
+    if touching:
+        where = f"at x = {fmt.number(touching[0], 4)}" if len(touching) == 1 else f"at {len(touching)} places"
+        lines.append(f"{'It touches' if zones else 'It only touches'} the ground {where}.")
+    if not lines:
+        lines.append("No contact with the ground.")
+    if spans:
+        longest, highest = max(spans, key=lambda span: span.to - span.from_), words(max(span.sag for span in spans), "sag")
+        ends = f"from x = {fmt.number(longest.from_, 4)} to {fmt.number(longest.to, 4)}"
+        length = words(longest.to - longest.from_)
+        lines.append(f"1 free span, {ends}: {length} long, up to {highest} above the ground." if len(spans) == 1 else
+                     f"{len(spans):,} free spans, the longest {ends}: {length}; up to {highest} above the ground.")  # fmt: skip
+    return lines

@@ -1,0 +1,145 @@
+"""Sums of loads beside sums of reactions: what every calculation sheet is checked by first."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..scene.loads import AxialLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.names import DEAD
+from . import formatting as fmt
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..scene.structs import Scene
+    from .state.step import Step
+
+NONE = 1e-12
+"""Sums below this share of what is added up are said to be zero."""
+
+
+class Sums(NamedTuple):
+    """Resultants of loads, or of reactions.
+
+    Attributes
+    ----------
+    force : float
+        Across the beam; of loads downward, of reactions upward.
+    moment : float
+        About x = 0; of loads clockwise, of reactions counter-clockwise.
+    axial : float
+        Along the beam; of loads to the right, of reactions to the left.
+    """
+
+    force: float
+    moment: float
+    axial: float
+
+
+def sum_of_loads(scene: Scene, factor: float) -> Sums:
+    """Add up the loads of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    factor : float
+        Load factor of all loads but the dead ones.
+
+    Returns
+    -------
+    Sums
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, ForceLoad, LinearLoad, Scene
+    >>> scene = Scene(beam=Beam([6.0], EI=1.0), loads=[LinearLoad(q=(0.0, 4.0), case="dead"), ForceLoad(x=2.0, F=5.0)])
+    >>> sum_of_loads(scene, 2.0)
+    Sums(force=22.0, moment=68.0, axial=0.0)
+    """
+    forces, moments, axial = [], [], []
+    end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if not hasattr(one, "from_")])
+    places = iter(np.asarray(x, dtype=float).tolist())
+    for load in scene.loads:
+        share = 1.0 if load.case == DEAD else factor
+        at = 0.0 if hasattr(load, "from_") else next(places)
+        if isinstance(load, ForceLoad):
+            forces.append(share * load.F)
+            moments.append(share * load.F * at)
+        elif isinstance(load, MomentLoad):
+            moments.append(share * load.M)
+        elif isinstance(load, AxialLoad):
+            axial.append(share * load.F)
+        elif isinstance(load, UniformLoad | LinearLoad):
+            first, last = (load.q, load.q) if isinstance(load, UniformLoad) else load.q
+            length = (end if load.to is None else load.to) - load.from_
+            forces.append(share * 0.5 * (first + last) * length)
+            moments.append(share * length * (0.5 * (first + last) * load.from_ + length * (first + 2.0 * last) / 6.0))
+    return Sums(_sum(forces), _sum(moments), _sum(axial))
+
+
+def sum_of_reactions(scene: Scene, step: Step) -> Sums:
+    """Add up the reactions of supports and ground.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    step : Step
+        A state of it.
+
+    Returns
+    -------
+    Sums
+        Its moment is that of the supports alone.
+    """
+    normal = np.array([support.direction != "axial" for support in scene.supports], dtype=bool)
+    x, reaction = np.asarray(scene.positions(scene.supports), dtype=float), step.reaction
+    across = np.where(normal, reaction, 0.0)
+    ground = [zone.resultant for zone in step.contact]
+    return Sums(
+        _sum([*across.tolist(), *ground]), _sum([*(across * x).tolist(), *(-step.couple).tolist()]),
+        -_sum(reaction[~normal].tolist()),
+    )  # fmt: skip
+
+
+def _sum(values: Iterable[float]) -> float:
+    """Add up; what is left of nothing but rounding is zero."""
+    values = list(values)
+    if not all(map(math.isfinite, values)):
+        return float(np.sum(values))
+    total = math.fsum(values)
+    return 0.0 if abs(total) <= NONE * max(map(abs, values), default=0.0) else total
+
+
+def balance_in_words(scene: Scene, step: Step) -> list[str]:
+    """Set the sums of reactions above those of loads.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    step : Step
+        A state of it.
+
+    Returns
+    -------
+    list of str
+        Two lines: forces; moments where only supports carry; forces along the beam where supports hold it.
+    """
+    sums = sum_of_reactions(scene, step), sum_of_loads(scene, step.factor)
+    parts = [("", "force", [one.force for one in sums])]
+    if not len(scene.foundation):
+        parts.append(("moment about x = 0", "moment", [one.moment for one in sums]))
+    if any(support.direction == "axial" for support in scene.supports):
+        parts.append(("along the beam", "force", [one.axial for one in sums]))
+    lines = ["Sum of reactions  ", "Sum of loads      "]
+    for name, quantity, values in parts:
+        texts = [f"{fmt.shown(scene, quantity, value)} {fmt.unit(scene, quantity)}".rstrip() for value in values]
+        width = max(map(len, texts))
+        lead = f"   {name}  " if name else ""
+        lines = [f"{line}{lead if k == 0 else ' ' * len(lead)}{texts[k]:<{width}}" for k, line in enumerate(lines)]
+    return [line.rstrip() for line in lines]

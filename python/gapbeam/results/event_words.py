@@ -1,0 +1,181 @@
+"""States and events in words: what happens to a support or to the ground, at which load, with which reaction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..scene.names import DEAD, cases_of, label
+from . import formatting as fmt
+from .envelopes.envelope import AT_SUPPORTS
+from .paths.path import Event
+
+if TYPE_CHECKING:
+    from ..scene.structs import Scene
+    from .envelopes.over_path import PathEnvelope
+    from .paths.ground_path import GroundEvent
+    from .result import Result
+    from .trains.traversals import TrainEvent
+
+STATES = {"closed": "in contact", "open": "no contact", "bilateral": "two-way"}
+"""States of supports and zones in reports; the names in results and files stay."""
+OF_SUPPORTS = {
+    "opens": "lifts off", "closes": "comes into contact", "turns": "stops the beam, which has turned freely",
+    "yields": "yields", "hardens": "hardens", "softens": "softens", "breaks": "breaks", "unloads": "unloads",
+}  # fmt: skip
+OF_ZONES = {
+    "zone appears": "a contact zone appears", "zone vanishes": "a contact zone vanishes", "zones merge": "two contact zones merge",
+    "zone splits": "a contact zone splits", "end reaches": "contact reaches the end", "end leaves": "contact leaves the end",
+}  # fmt: skip
+LIMITS = {"limit": "Limit load", "bifurcation": "Bifurcation", "mechanism": "Limit load (mechanism)"}
+"""Kinds of limits of the load."""
+LOST = ("yields", "softens", "breaks")
+"""Events after which a support carries no more than before."""
+
+
+def state_in_words(state: str) -> str:
+    """Word the state of a support or of a zone.
+
+    Parameters
+    ----------
+    state : str
+        As in results.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> state_in_words("closed"), state_in_words("branch 2"), state_in_words("touching")
+    ('in contact', 'segment 2', 'touching')
+    """
+    return STATES.get(state, state.replace("branch", "segment"))
+
+
+def share_in_words(scene: Scene, factor: float) -> str:
+    """Word a load factor in a sentence: a share of the load where it scales all of it.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    factor : float
+        The load factor.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, ForceLoad, Scene
+    >>> scene = Scene(beam=Beam([6.0], EI=1.0), loads=[ForceLoad(x=2.0, F=5.0)])
+    >>> share_in_words(scene, 0.7015), share_in_words(scene, -0.5)
+    ('at 70.15 % of the load', 'at load factor -0.5')
+    """
+    if factor > 0.0 and DEAD not in cases_of(scene.loads):
+        return f"at {fmt.number(100.0 * factor, fmt.DIGITS)} % of the load"
+    return f"at load factor {fmt.number(factor, fmt.DIGITS)}"
+
+
+def reaction_at(result: Result, envelope: PathEnvelope | None, support: int, factor: float, event: str) -> float | None:
+    """Find the reaction at which a support yields, softens or breaks.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    envelope : PathEnvelope or None
+        Over its loading history.
+    support : int
+        Its number.
+    factor : float
+        The load factor.
+    event : str
+        What happens.
+
+    Returns
+    -------
+    float or None
+        None where it is not known: for other events, and for what happens during a jump.
+    """
+    jumps = [limit for limit in result.limits if limit.factor == factor]
+    if envelope is None or event not in LOST or (jumps and all((support, event) not in limit.causes for limit in jumps)):
+        return None
+    there = [k for k, source in enumerate(envelope.sources) if source.factor == factor]
+    values = envelope.at_supports[there, AT_SUPPORTS.index("reaction"), support]
+    return float(values[np.abs(values).argmax()]) if len(values) else None
+
+
+def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reaction: float | None = None) -> str:
+    """Say what happens, to what and where.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    event : Event, GroundEvent or TrainEvent
+        What happens.
+    reaction : float, optional
+        Of the support, where it is at a reaction that it happens.
+
+    Returns
+    -------
+    str
+        ``support pin (x = 3) breaks (90 kN)``.
+    """
+    x = fmt.number(event.x, fmt.DIGITS)
+    if event.support is None:
+        branch = getattr(event, "branch", 1)
+        of = f" of segment {branch}" if branch > 1 else ""
+        known = len(scene.foundation) > 1 or scene.foundation[0].name is not None
+        name = f"ground {label(scene.foundation, event.foundation)}: " if known else "ground: "
+        return f"{name}{OF_ZONES.get(event.event, event.event)}{of} at x = {x}"
+    force = f" ({fmt.shown(scene, 'reaction', abs(reaction))} {fmt.unit(scene, 'force')}".rstrip() + ")" if reaction else ""
+    return f"{fmt.support(scene, event.support)} (x = {x}) {OF_SUPPORTS.get(event.event, event.event)}{force}"
+
+
+def limits_of_load_in_words(result: Result, envelope: PathEnvelope | None, most: int) -> list[str]:
+    """Say which limits the load has, and which supports yield or break apart from these.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    envelope : PathEnvelope or None
+        Over its loading history.
+    most : int
+        Limits, and supports, that are named.
+
+    Returns
+    -------
+    list of str
+        Sentences.
+    """
+    scene, x = result.scene, result.scene.positions(result.scene.supports)
+
+    def happening(k: int, factor: float, event: str) -> str:
+        return event_in_words(scene, Event(factor, k, float(x[k]), event), reaction_at(result, envelope, k, factor, event))
+
+    lines, told = [], set()
+    for limit in result.limits:
+        told |= {(k, event) for k, event in limit.causes}
+    for limit in result.limits[:most]:
+        causes = ", ".join(happening(k, limit.factor, event) for k, event in limit.causes)
+        words = f"{LIMITS[limit.kind]} {share_in_words(scene, limit.factor)}{f': {causes}' if causes else ''}"
+        lines.append(f"{words}.")
+    if len(result.limits) > most:
+        lines.append(f"... and {fmt.count(len(result.limits) - most, 'more limit')}.")
+    lost: dict[tuple[int, str], Event] = {}
+    for event in result.events:
+        if event.event in LOST and event.support is not None and (event.support, event.event) not in told:
+            lost.setdefault((event.support, event.event), event)
+    for (k, what), event in list(lost.items())[:most]:
+        words = f"{share_in_words(scene, event.factor)} {happening(k, event.factor, what)}"
+        lines.append(f"{words[0].upper()}{words[1:]}.")
+    if len(lost) > most:
+        more = sorted({k for k, _ in list(lost)[most:]})
+        lines.append(f"... and {fmt.count(len(more), 'more support')} that yield, soften or break: {fmt.ranges(more)}.")
+    return lines
