@@ -68,7 +68,8 @@ contains
         type(piece_load_type), intent(in) :: dead(:), live(:)
         real(wp), intent(in) :: factor
         type(field_type), intent(in) :: starts(:)
-        !> Maximum (1) and minimum (2) of the quantities of bending (gapbeam_quantities), shape (2, bending_count), and where they are
+        !> Maximum (1) and minimum (2) of the quantities of bending (gapbeam_quantities), and where they are, shape
+        !> (2, bending_count)
         real(wp), intent(out) :: values(:, :)
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)

@@ -246,8 +246,8 @@ contains
 
     contains
 
-        !> Bounds of the derived quantities in a cell: no farther from the chord of their ends than length**2/8 times the largest second
-        !> derivative
+        !> Bounds of the derived quantities in a cell: no farther from the chord of their ends than length**2/8 times the largest
+        !> second derivative
         subroutine bound_derived(softness, kappa, left, right, steep)
             !> 1/EI and 1/GA; imposed curvature; deflection, rotation, moment, shear at the ends of the cell; slope of the load
             real(wp), intent(in) :: softness(2), kappa, left(state_count), right(state_count), steep

@@ -11,8 +11,8 @@ from scenes import random_scene
 from .family import Family, Verdict
 
 PROMISE = (
-    "Of many cases of a beam, with factors of loads and gaps by case, each has the status, contact state and reactions of a scene "
-    "of its own, the reactions are exact, and no case depends on the others"
+    "Every case has the status, contact state and reactions of a scene of its own, also with factors of loads and gaps by "
+    "case. The reactions are exact. No case depends on the others"
 )
 NEAR = 1e-10
 ROWS = (1, 3, 9, 17, 33)

@@ -13,8 +13,8 @@ from scenes import random_scene
 from .family import Family, Verdict
 
 PROMISE = (
-    "Every combination, patterns of signs and schemes taken from others among them, has the exact status, reactions and fields of "
-    "the scene with its loads multiplied and its supports moved, and the envelope has the extremes of all of them"
+    "Every combination has the exact status, reactions and fields of the scene with its loads multiplied and its supports "
+    "moved. Load patterns and contact states of other combinations are included. The envelope has the extremes of all"
 )
 NEAR = 1e-9
 

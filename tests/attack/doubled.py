@@ -13,8 +13,9 @@ from . import draw, signs
 from .family import Family, Verdict
 
 PROMISE = (
-    "Of two or three supports at a place each has the force that its own stiffness, gap or law gives it; supports with laws "
-    "together carry what one with the sum of their laws carries, in its exact state; where shares are free the scene is refused"
+    "Each of two or three supports at one point has the force that its own stiffness, gap or curve gives. Supports with "
+    "curves carry together what one with the sum of their curves carries, in its exact state. Where shares are not unique "
+    "the scene is refused"
 )
 NEAR = 1e-10
 

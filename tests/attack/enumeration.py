@@ -15,9 +15,9 @@ from scenes.degenerate import draw
 from .family import Family, Verdict
 
 PROMISE = (
-    "On small scenes with exact ties, loads that cancel, rigid stretches and cycles of schemes, status, states and reactions "
-    "are those of an enumeration of all contact states in rational numbers; where forces are not unique, the scene is refused, "
-    "where places are not, it may be"
+    "Status, states and reactions are those of an enumeration of all contact states in rational numbers. The scenes are "
+    "small, with exact ties, loads that cancel, rigid stretches and cycling contact states. Where forces are not unique, "
+    "the scene is refused. Where positions are not, it may be"
 )
 SHARP = 1e-11
 RULES = ("block", "single")

@@ -13,8 +13,8 @@ from .family import Family, Verdict
 from .signs import redundant
 
 PROMISE = (
-    "Following the events ends for every scene, every event is at its exact load factor, and between them states, values and "
-    "status are those of steps and of cold solves just left and right of every event; `result.at` agrees with the status"
+    "Following the events ends for every scene. Every event is at its exact load factor. Between events states, values and "
+    "status are those of steps, and of cold solves just left and right of every event. `result.at` agrees with the status"
 )
 NEAR = 1e-7  # how far left and right of an event, relative to its factor
 SAME, NONE = Fraction(1, 10**10), Fraction(1, 10**14)  # factors that differ relatively or absolutely by less are the same

@@ -17,9 +17,10 @@ from .family import Family, Verdict
 from .proofs import proof_faults
 
 PROMISE = (
-    "On one-sided ground with gaps, profiles, tables and laws of all kinds the fields satisfy the differential equations with the "
-    "pressure that the law gives for the deflection, jump by what acts at a place, and every support carries what its law says, "
-    "also where they touch it to a few roundings; refused are beams whose loads all stand over a spring at an end of the ground"
+    "The fields satisfy the differential equations with the line reaction that the curve gives for the deflection, and jump "
+    "by what acts at a point. The ground is one-sided, with gaps, profiles, tables and curves of all kinds. Every support "
+    "is on its curve, also where the beam touches it to a few roundings. Refused are beams whose loads all stand over a "
+    "spring at an end of the ground"
 )
 NEAR = 1e-8  # of the largest of a kind
 PANELS = (10, 100, 400)  # the more where the fewer find fault: where a modulus begins at 0 pressures are steep

@@ -13,8 +13,8 @@ from .exact import falls_surely, stands
 from .family import Family, Verdict
 
 PROMISE = (
-    "Of beams with many hinges it is said right whether they can stand; where not, the loads do work along the motion given, "
-    "and no support is in its way; where they can, the reactions have the right signs and balance the loads on every body"
+    "Beams with many hinges are correctly reported as stable or not. If not, the loads do work along the motion given, and "
+    "no support blocks it. If stable, the reactions have the right signs and balance the loads on every body"
 )
 
 BALANCE = Fraction(1, 10**10)  # of the forces at a hinge

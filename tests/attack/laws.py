@@ -13,8 +13,9 @@ from scenes.law import law_scene, symmetric_scene
 from .family import Family, Verdict
 
 PROMISE = (
-    "Along paths on laws that fall every segment has its leg, load factors, direction and index, and as many ways on as there are; "
-    "on laws that do not fall the end is the exact state; after histories of plastic and brittle supports so are states and sets"
+    "On paths with falling curves every segment has its leg, load factors, direction and index, and all branches are found. "
+    "On non-decreasing curves the end is the exact state. After histories of plastic and brittle supports so are states and "
+    "sets"
 )
 FACTORS = 1e-12
 STATES = 1e-11

@@ -27,8 +27,9 @@ from studies.schemes import lifted_end, sprung_base
 from .family import Family, Verdict, write_scene
 
 PROMISE = (
-    "Under any limit of the address space a call gives the right result or ends in a MemoryError, a load case of many in a status, "
-    "the command in one line; the process goes on, nothing is printed, and the next call has its memory again"
+    "Under any limit of the address space a call gives the right result or ends in a MemoryError. A load case of many ends "
+    "in a status, the command in one line. The process continues, nothing is printed, and the next call has its memory "
+    "again"
 )
 RIGHT, REFUSED, WRONG = 40, 41, 42  # exit statuses that nothing else gives
 SECONDS = 20

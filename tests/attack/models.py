@@ -10,9 +10,9 @@ from .family import Family, Verdict
 from .workers import judge_all
 
 PROMISE = (
-    "Whatever stands in the arrays of a model: no access outside them, no undefined operation, no leak, no end of the process; "
-    "statuses are those documented, an error writes nothing, what is solved is finite, and the floating-point environment is "
-    "the caller's again"
+    "Whatever the arrays of a model hold: no access outside them, no undefined operation, no leak, no end of the process. "
+    "Statuses are those documented, and an error writes nothing. What is solved is finite, and the floating-point "
+    "environment is the caller's again"
 )
 TOP = Path(__file__).parents[2]
 BUILD = TOP / ".venv" / "build" / "sanitized"

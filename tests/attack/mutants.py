@@ -21,8 +21,8 @@ from . import draw
 from .family import Family, Verdict
 
 PROMISE = (
-    "Whatever stands in a scene file: nothing but a result, a SceneError or an EngineError comes of it, from the command line "
-    "exit status 0, 1 or 2 with one line on standard error where it is 2, and what is solved holds finite numbers only"
+    "Whatever a scene file holds: the outcome is a result, a SceneError or an EngineError. The command ends with status 0, "
+    "1 or 2, and with 2 writes one line on standard error. What is solved holds finite numbers only"
 )
 MEMORY = 4 << 30  # bytes of addresses that a case may have beside those in use
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))

@@ -16,9 +16,10 @@ from .family import Family, Verdict
 from .proofs import proof_faults
 
 PROMISE = (
-    "Every state satisfies the contact conditions in rational numbers over nine decades to either side of ordinary magnitudes, "
-    "or names the supports that do not as undecided; no bound is below the true error; status and state depend neither on the "
-    "start nor on the rule; refused are scenes in which loads are lost in a rounding of quadruple precision"
+    "Every state satisfies the contact conditions in rational numbers, over nine decades to either side of ordinary "
+    "magnitudes. Otherwise it names the supports that do not as undecided. No bound is below the true error. Status and "
+    "state depend neither on the start nor on the rule. Refused are scenes in which loads are lost in a rounding of "
+    "quadruple precision"
 )
 SIZES = {"ordinary": draw.ORDINARY, "round": draw.ROUND, "spread": draw.SPREAD, "wide": draw.WIDE, "outlier": draw.ORDINARY}
 QUADRUPLE, LEFT_OUT = Fraction(1, 2**113), Fraction(1, 2**27)  # a rounding; the share of loads that may be left out as one

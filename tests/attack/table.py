@@ -60,14 +60,19 @@ def share(values, part):
 
 
 WORDS = """\
-Cases are drawn at random by seed, in families, and the answers are judged by other means than those of the program: rational
-arithmetic, free motions passed from hinge to hinge, the standard library's own reading of a file, sanitizers, limits set by the
-system. A case counts as wrong if any part of the promise is broken for it; a hang gives no answer in time, an abort ends the
-process, and both count as wrong. What is wrong is written as a scene that reproduces it.
+Random scenes, drawn by seed in families, are solved, and the answers are judged by other means than those of the program:
+
+* rational arithmetic;
+* free motions passed from hinge to hinge;
+* the standard library's own reading of a file;
+* sanitizers, and limits set by the system.
+
+A case counts as wrong if any part of the promise is broken for it. A hang gives no answer in time, an abort ends the process, and
+both count as wrong. A scene that reproduces it is written to a file.
 """
 BOUNDS = """\
-Error bounds divided by the true errors of the same state, an error counting as half a unit in the last place of the largest value
-at least:
+Error bounds are divided by the true errors of the same state. An error counts as at least half a unit in the last place of the
+largest value:
 """
 
 

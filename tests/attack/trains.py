@@ -10,8 +10,8 @@ from scenes.train import frozen, random_scene
 from .family import Family, Verdict
 
 PROMISE = (
-    "At positions all along a train's way status, reactions and fields are exact, none is beyond the envelope, and the extremes "
-    "reported are reached where they are said to be"
+    "At positions all along a vehicle's way status, reactions and fields are exact. None is beyond the envelope, and the "
+    "extremes reported are reached where they are said to be"
 )
 NEAR = 1e-9
 BESIDE = 1e-7

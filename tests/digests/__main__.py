@@ -3,9 +3,9 @@
     python tests/digests                        # this tree beside the commit before
     python tests/digests --beside v0.4.0 --count 20000
 
-Both are built on this machine, and solve the same scenes through Python, C and Fortran 77; sha256 of what comes out is compared, one
-for every kind of number. Builds stay in `.venv/digests`, a commit's digests too: they depend on processor, compiler and mathematical
-library, so none is in the repository. The exit status is 1 if a number has changed, or a kind of number is gone.
+Both are built on this machine, and solve the same scenes through Python, C and Fortran 77; sha256 of what comes out is
+compared, one for every kind of number. Builds stay in `.venv/digests`, a commit's digests too: they depend on processor, compiler
+and mathematical library, so none is in the repository. The exit status is 1 if a number has changed, or a kind of number is gone.
 """
 
 import os

@@ -2,9 +2,9 @@
 
     python tests/digests/collect.py SCENES FIRST LAST [LIBRARY [TESTS]]
 
-Each line of SCENES is a name and a scene; those from FIRST to before LAST are solved. Each line printed is a name, the way that it went,
-and a digest for every kind of number: `steps.supports.reaction` is one. LIBRARY is called by the `clibrary.py` of the folder TESTS:
-that of its own commit, for structures grow.
+Each line of SCENES is a name and a scene; those from FIRST to before LAST are solved. Each line printed is a name, the way that it
+went, and a digest for every kind of number: `steps.supports.reaction` is one. LIBRARY is called by the `clibrary.py` of the folder
+TESTS: that of its own commit, for structures grow.
 """
 
 import contextlib

@@ -88,7 +88,7 @@ class Side(Workshop):
         if process.returncode:
             raise RuntimeError(f"ninja: {''.join(last)[-1500:]}")
 
-    def collect(self, scenes, number, progress):
+    def collect(self, scenes, number):
         """Digests of all scenes, several processes at a time; of a commit those that were found before are kept."""
         made = hashlib.sha256(scenes.read_bytes() + COLLECTOR.read_bytes()).hexdigest()[:16]
         kept = self.folder / f"digests-{made}"
@@ -96,6 +96,7 @@ class Side(Workshop):
             return read_digests(kept)
         library = next((self.programs / "fortran").glob("libgapbeam.so"))
         keys = {"PYTHONPATH": str(self.site), "PYTHONDONTWRITEBYTECODE": "1"}
+        progress = Progress(f"solving with {self.commit[:12] or 'this tree'}", "scenes")
         lines = collect(scenes, number, progress, library, self.top / "tests", **keys)
         kept.write_bytes(b"".join(lines))
         return read_digests(kept)
@@ -197,9 +198,7 @@ def main(arguments=None):
     number = write_scenes(chosen.count, scenes)
     beside = full_name(chosen.beside)
     theirs, ours = Side(chosen.folder / beside[:12], beside), Side(chosen.folder / "here", "")
-    there, here = (
-        side.collect(scenes, number, Progress(f"solving with {side.commit[:12] or 'this tree'}", "scenes")) for side in (theirs, ours)
-    )
+    there, here = theirs.collect(scenes, number), ours.collect(scenes, number)
     return said(here, there, number, beside[:12])
 
 

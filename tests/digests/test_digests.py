@@ -37,7 +37,8 @@ def test_two_processes_give_the_same_digests(tmp_path, installed):
     assert {name.split()[0] for name in names} >= set(FAMILIES)
     both = []
     for which in ("here", "there"):
-        (tmp_path / which).write_bytes(b"".join(command.collect(scenes, number, command.Progress(which, "scenes"), installed.library)))
+        lines = command.collect(scenes, number, command.Progress(which, "scenes"), installed.library)
+        (tmp_path / which).write_bytes(b"".join(lines))
         both.append(command.read_digests(tmp_path / which))
     assert command.changed(*both) == ([], [])
     assert {name for name, *_ in both[0]} == set(names)

@@ -39,12 +39,18 @@ def test_links_and_pictures(name):
 def test_scene_and_report_of_the_worked_example(capsys):
     scene = TOP / "examples" / "snap_through.toml"
     blocks = re.findall(r"```toml\n(.*?)```", page("laws"), re.DOTALL)
-    assert tomllib.loads(blocks[-1]) == tomllib.loads(scene.read_text(encoding="utf-8"))
+    assert tomllib.loads(blocks[0]) == tomllib.loads(scene.read_text(encoding="utf-8"))
     assert main(["run", str(scene)]) == 0
     printed = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
     shown = re.findall(r"```text\n(.*?)```", page("laws"), re.DOTALL)
     assert len(shown) == 2
     assert all(block.strip() in printed for block in shown)
+
+
+def test_the_scene_on_ground_is_solved():
+    scene = re.search(r"```toml\n(.*?)```", page("foundation"), re.DOTALL)[1]
+    contact = gapbeam.solve(tomllib.loads(scene)).steps[-1].contact
+    assert f"(0, 0.0, {contact[0].to:.3f}, {contact[0].resultant:.2f})" in page("foundation")
 
 
 @pytest.mark.parametrize(("name", "draw"), [*((name, plot_path) for name in PATHS), *((name, plot) for name in BEAMS)])

@@ -52,22 +52,5 @@ def test_links(name):
     assert (TOP / name).exists()
 
 
-def sentences(text):
-    """Sentences of a page: without code, tables, headings and addresses."""
-    text = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
-    lines = [line for line in text.splitlines() if not line.startswith(("|", "#", "!["))]
-    text = re.sub(r"`[^`]*`", "code", re.sub(r"\]\([^)]*\)", "]", "\n".join(lines)))
-    parts = re.split(r"(?<=[.:?!])\s+|\n\s*\n|\n(?=\* )", text)
-    return [words for part in parts if len(words := re.findall(r"[\w'-]+", part)) > 2]
-
-
 def test_a_screen_or_two():
     assert len(README.splitlines()) <= 120
-
-
-@pytest.mark.parametrize("page", ["README.md", "docs/modelling.md", "docs/command.md"])
-def test_sentences_are_short(page):
-    found = sentences((TOP / page).read_text(encoding="utf-8"))
-    assert len(found) >= 5
-    assert max(map(len, found)) <= 35, max(found, key=len)
-    assert sum(map(len, found)) / len(found) <= 17

@@ -352,6 +352,27 @@ class CBeam:
         assert self.c.gapbeam_get_extremes(self.handle, self.state, pointer(value), pointer(x)) == expect
         return value, x
 
+    def quantities(self, which, x, left=False, expect=0):
+        """Quantities by their numbers, from 0, at places; the status must be as expected."""
+        which, x = np.array(which, np.int32), np.array(x, dtype=float)
+        found = np.full((len(x), len(which)), np.nan)
+        status = self.c.gapbeam_get_quantities(
+            self.handle, self.state, len(which), pointer(which), len(x), pointer(x), int(left), pointer(found), None,
+            c.c_size_t(0),
+        )  # fmt: skip
+        assert status == expect
+        return found.T
+
+    def quantity_extremes(self, which, expect=0):
+        """Their values and places, by 2 each."""
+        which = np.array(which, np.int32)
+        value, x = np.empty((2, len(which), 2))
+        status = self.c.gapbeam_get_quantity_extremes(
+            self.handle, self.state, len(which), pointer(which), pointer(value), pointer(x), None, c.c_size_t(0)
+        )
+        assert status == expect
+        return value, x
+
     def motion(self):
         """Places of the nodes and their displacements."""
         n = self.c.gapbeam_count_nodes(self.handle)
@@ -550,6 +571,20 @@ class F77Beam:
         """As CBeam.extremes."""
         value, x = np.empty((6, 2)), np.empty((6, 2))
         assert self.call("ghxtrm", *self.both, value, x) == expect
+        return value, x
+
+    def quantities(self, which, x, left=False, expect=0):
+        """As CBeam.quantities."""
+        found = np.full((len(x), len(which)), np.nan)
+        numbers = np.array(which, np.int32) + np.int32(1)
+        status = self.call("ghquan", *self.both, len(which), numbers, len(x), np.array(x, dtype=float), int(left), found)
+        assert status == expect
+        return found.T
+
+    def quantity_extremes(self, which, expect=0):
+        """As CBeam.quantity_extremes."""
+        value, x = np.empty((2, len(which), 2))
+        assert self.call("ghqxtr", *self.both, len(which), np.array(which, np.int32) + np.int32(1), value, x) == expect
         return value, x
 
     def motion(self):

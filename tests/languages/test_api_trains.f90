@@ -4,7 +4,8 @@ program test_api_trains
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, foundation_type, uniform_load, prepared_type, options_type, &
         result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
-        get_train_curves, prepare_model, replace_loads, solve_beam, get_supports, point_force, gapbeam_below, gapbeam_dead, &
+        get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, gapbeam_of_curvature, gapbeam_of_shear, &
+        gapbeam_of_pressure, prepare_model, replace_loads, solve_beam, get_supports, point_force, gapbeam_below, gapbeam_dead, &
         gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_no_equilibrium
     implicit none
     integer :: status
@@ -53,6 +54,14 @@ contains
         call get_train_curves(beam, passing, [8/17.0_wp, 1.0_wp], value, position, error)
         call check_close([value(1, 3, 1), value(2, 3, 2)], [32/17.0_wp, -0.5_wp], "curves")
         call check_close(position(1, 3, 1), 8/17.0_wp, "their positions", relative=1e-7_wp)
+        ! EI is 1: curvature is the moment
+        call get_train_quantity_extremes(beam, passing, [gapbeam_of_curvature, gapbeam_of_shear], fields(:, :2), error)
+        call check_close([fields(1, 1)%value, fields(1, 1)%x, fields(1, 1)%position], [32, 8, 8]/17.0_wp, "largest curvature")
+        call get_train_quantity_curves(beam, passing, [gapbeam_of_curvature], [8/17.0_wp, 1.0_wp], value(:, :1, :), &
+                                       position(:, :1, :), error)
+        call check_close([value(1, 1, 1), value(2, 1, 2)], [32/17.0_wp, -0.5_wp], "its curves")
+        call get_train_quantity_extremes(beam, passing, [gapbeam_of_shear, gapbeam_of_pressure], fields(:, :2), error)
+        call check(error%code == gapbeam_bad_input .and. error%entry == 2 .and. index(error%message, "pressure") > 0, "no ground")
         model%loads = [model%loads, point_force(8.0_wp, x=supports(1, 2, 3)%position)]
         call replace_loads(beam, model%loads, error)
         call solve_beam(beam, 1.0_wp, options_type(), result, error)

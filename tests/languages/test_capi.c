@@ -541,6 +541,8 @@ static void foundations(void)
     gapbeam_state *state;
     const double places[] = {0.0, 3.0, 9.0}, off[] = {13.0}, one[] = {1.0}, sixty[] = {60.0};
     double from[2], to[2], force[2] = {7.0, 7.0}, sag[1], pressure[3] = {7.0, 7.0, 7.0}, value[2], x[2], fields[6], most[6][2], at[6][2];
+    static const int two[] = {GAPBEAM_OF_PRESSURE, GAPBEAM_OF_CURVATURE}, none[] = {-1};
+    double both[3][2];
     int foundation[2] = {7, 7}, condition[2], number = -1;
     char message[200];
 
@@ -575,6 +577,16 @@ static void foundations(void)
     check(gapbeam_get_pressure_extremes(beam, state, NULL, NULL) == GAPBEAM_SOLVED, "for nobody");
     check(gapbeam_get_extremes(beam, state, most, at) == GAPBEAM_SOLVED, "extremes of the fields");
     check_close(most[GAPBEAM_DEFLECTION][0], 2.0, "of the deflection");
+    check(gapbeam_get_quantities(beam, state, 2, two, 3, places, 0, both[0], NULL, 0) == GAPBEAM_SOLVED, "quantities");
+    check(both[0][0] == pressure[0] && both[2][0] == pressure[2], "pressure is one of them");
+    check(gapbeam_get_quantity_extremes(beam, state, 2, two, both, at, NULL, 0) == GAPBEAM_SOLVED, "extremes of quantities");
+    check(both[0][0] == value[0] && both[0][1] == value[1] && at[0][1] == x[1], "of the pressure");
+    check(gapbeam_get_quantity_extremes(beam, state, 2, two, NULL, NULL, NULL, 0) == GAPBEAM_SOLVED, "for nobody");
+    check(gapbeam_get_quantities(beam, state, 1, none, 1, places, 0, both[0], message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "from 1 to 8, got 0"), "no such quantity");
+    check(gapbeam_get_quantities(beam, state, 1, NULL, 1, places, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "which");
+    check(gapbeam_get_quantities(beam, state, 0, two, 1, places, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "none");
+    check(gapbeam_get_quantities(beam, state, 2, two, 1, NULL, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "no places");
     check(gapbeam_get_certificate(beam, state, &certificate, NULL) == 0 && certificate.known && certificate.field_bound[0] < 1e-12,
           "certificate");
     check(gapbeam_get_info(state, &info) == GAPBEAM_SOLVED && info.solves > 1, "rounds");
@@ -688,6 +700,28 @@ static void foundations(void)
     free(old);
 }
 
+/* EI is 1, so that curvature is the moment */
+static void quantities_of_train(gapbeam_beam *beam, gapbeam_passing *passing, double place)
+{
+    static const int two[] = {GAPBEAM_OF_CURVATURE, GAPBEAM_SHEAR}, wrong[] = {GAPBEAM_OF_PRESSURE}, none[] = {GAPBEAM_QUANTITIES};
+    double extremes[2][2][4], value[1][2][2], at[1][2][2];
+    char message[200];
+
+    check(gapbeam_get_train_quantity_extremes(beam, passing, 2, two, extremes, NULL, 0) == GAPBEAM_SOLVED, "quantities of a train");
+    check_close(extremes[0][0][0], 32/17.0, "largest curvature");
+    check_close(extremes[0][0][2], place, "its position");
+    check(gapbeam_get_train_quantity_curves(beam, passing, 2, two, 1, &place, value[0], at[0], NULL, 0) == GAPBEAM_SOLVED, "curves");
+    check_close(value[0][0][0], 32/17.0, "the same there");
+    check(gapbeam_get_train_quantity_extremes(beam, passing, 1, wrong, extremes, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "a train has no pressure of the ground"), "no ground under a train");
+    check(gapbeam_get_train_quantity_extremes(beam, passing, 1, none, extremes, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && strstr(message, "from 1 to 8, got 9"), "no such quantity");
+    check(gapbeam_get_train_quantity_extremes(beam, passing, 0, two, extremes, NULL, 0) == GAPBEAM_BAD_INPUT, "none asked for");
+    check(gapbeam_get_train_quantity_extremes(beam, NULL, 1, two, extremes, NULL, 0) == GAPBEAM_NOT_PREPARED, "no train");
+    check(gapbeam_get_train_quantity_curves(beam, passing, 1, two, 1, NULL, value[0], at[0], NULL, 0) == GAPBEAM_BAD_INPUT,
+          "no places");
+}
+
 /* Two spans of 1 with a weight of 1 on supports from below: a force of 8 at s lifts the far end by P s (1 - s^2)/6 - 1/4 */
 static void trains(void)
 {
@@ -730,6 +764,7 @@ static void trains(void)
     check(gapbeam_get_train_curves(beam, passing, 1, &place, value, at, NULL, 0) == GAPBEAM_SOLVED, "curves");
     check_close(value[0][GAPBEAM_MOMENT][0], 32/17.0, "the same there");
     check(gapbeam_get_train_curves(beam, passing, 1, NULL, value, at, NULL, 0) == GAPBEAM_BAD_INPUT, "no places");
+    quantities_of_train(beam, passing, place);
     gapbeam_free_passing(passing);
     gapbeam_free_passing(NULL);
     check(gapbeam_follow_train(beam, 0, zero, eight, 0.0, 0, NULL, NULL, &passing, NULL, 0) == GAPBEAM_BAD_INPUT && !passing, "no axle");

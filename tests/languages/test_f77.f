@@ -648,13 +648,14 @@ C     P s (1 - s**2) > 3/2, by P s (1 - s**2)/6 - 1/4
       DOUBLE PRECISION SPAN(4,2), SUP(5,3), ALOAD(4,2), HINGE(1)
       DOUBLE PRECISION AXLE(2,2), EV(4), G(2,2)
       DOUBLE PRECISION F(4,2,4), S(4,2,4,3), X(2), C(2,4,2), P(2,4,2)
+      DOUBLE PRECISION Q(4,2,2), CQ(2,2,1), PQ(2,2,1)
       DOUBLE PRECISION FACT(2), SETT(3), V(4,3)
       INTEGER*8 BEAM, COMB, STATE, PASS
       DOUBLE PRECISION ZERO, R, GBINF
       INTEGER ISUP(3,3), ILOAD(3,2), IE(3,4), IG(2), N(3), K, INFO, IENT
-      INTEGER KIND(3)
+      INTEGER KIND(3), IQ(2)
       EXTERNAL GBINF, GHCMBN, GHFREE, GHPREP, GHSOLV, GHSTAT, GHSUPP,
-     +         GHTCRV
+     +         GHTCRV, GHTQCR, GHTQXT
       EXTERNAL GHTGET, GHTRAN, GHTXTR
       PARAMETER (ZERO = 0.0D0)
       CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
@@ -752,6 +753,27 @@ C     The load is 3, the weight a third of it; a second one does nothing
       CALL CLOSE(C(1,3,1), 1.875D0, 'moment under the wheel')
       CALL CLOSE(P(1,3,1), 0.5D0, 'there')
       CALL CLOSE(C(2,3,2), -0.5D0, 'above the support')
+C     EI is 1: the curvature is the moment
+      IQ(1) = 8
+      IQ(2) = 4
+      CALL GHTQXT(COMB, PASS, 2, IQ, Q, INFO)
+      CALL EXPECT(INFO, 0, 'extremes of quantities')
+      CALL CLOSE(Q(1,1,1), 32.0D0/17.0D0, 'largest curvature')
+      CALL CLOSE(Q(3,1,1), 8.0D0/17.0D0, 'its position')
+      CALL GHTQCR(COMB, PASS, 2, IQ, 1, X, CQ, PQ, INFO)
+      CALL EXPECT(INFO, 0, 'curves of quantities')
+      CALL CLOSE(CQ(1,1,1), 1.875D0, 'curvature under the wheel')
+      CALL CLOSE(PQ(1,1,1), 0.5D0, 'it stands there')
+      CALL GHTQXT(COMB, PASS, 0, IQ, Q, INFO)
+      CALL EXPECT(INFO, -3, 'NQUAN = 0')
+      IQ(2) = 9
+      CALL GHTQXT(COMB, PASS, 2, IQ, Q, INFO)
+      CALL EXPECT(INFO, -4, 'no such quantity')
+      IQ(2) = 7
+      CALL GHTQCR(COMB, PASS, 2, IQ, 1, X, CQ, PQ, INFO)
+      CALL EXPECT(INFO, -4, 'no ground under a train')
+      CALL GHTQCR(COMB, PASS, 1, IQ, -1, X, CQ, PQ, INFO)
+      CALL EXPECT(INFO, -5, 'less than no place')
       X(2) = 3.0D0
       CALL GHTCRV(COMB, PASS, 2, X, C, P, INFO)
       CALL EXPECT(INFO, -4, 'off the beam')

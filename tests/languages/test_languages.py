@@ -22,6 +22,7 @@ from scenes.tabled import random_tabled_scene
 from .clibrary import F77Beam
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
+QUANTITIES = (*FIELDS, "pressure", "curvature")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
 
 
@@ -77,12 +78,18 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
             for row, name in zip(one.fields(x, left), FIELDS, strict=True):
                 values = getattr(fields, name)
                 np.testing.assert_array_equal(row, np.zeros(len(x)) if values is None else values)
+            for row, k in zip(one.quantities((7, 2, 6), x, left), (7, 2, 6), strict=True):
+                values = getattr(fields, QUANTITIES[k])
+                np.testing.assert_array_equal(row, np.zeros(len(x)) if values is None else values)
     extremes = result._pairs_of_extremes()
     for one in (beam, f77):
         value, place = one.extremes()
         for k, name in enumerate(FIELDS):
             pairs = extremes.get(name, {"max": (0.0, 0.0), "min": (0.0, 0.0)})
             np.testing.assert_array_equal(np.transpose([value[k], place[k]]), np.array([pairs["max"], pairs["min"]]))
+        value, place = one.quantity_extremes((7, 3))
+        for k, name in enumerate(("curvature", "shear")):
+            np.testing.assert_array_equal(np.transpose([value[k], place[k]]), [extremes[name]["max"], extremes[name]["min"]])
     along = [step.error_bounds[name] for name in ("deflection", "rotation", "moment", "shear")]
     bounds = [bound or 0.0 for bound in (*step.bounds, *along)]
     size = 3 + (len(bounds) if bounds_too else 0)

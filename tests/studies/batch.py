@@ -25,21 +25,35 @@ COLUMNS = (
 )  # fmt: skip
 """Headings of the table."""
 WORDS = (
-    "A beam of equal spans, held both ways at its ends and between them on elastic supports that only push, with gaps. 3 to",
-    "1,000 spans: every case has another random load on every span (work A of reference problem P6). Random gaps: 12 supports, a",
-    "gap and a settlement of each in every case. All programs go from Python's arrays to arrays of deflection, moment, reaction",
-    "and state of every support, on one core. gapbeam is `gapbeam.prepare(scene).solve`, refined as always; the others refine",
-    "nothing, and switch all wrong supports of a case until it is settled. numpy, all cases: elimination node by node, for",
-    "2,000 cases at once; matrices: cases sorted by contact state, with a matrix for each scheme from loads and levels to all",
-    "results, where there are few enough schemes (products may take further cores); scipy, loop: banded Cholesky, case by case;",
-    "numba, loop, where it is installed: the same elimination in scalars, compiled; jax, all cases: the same, compiled and",
-    "mapped over the cases (jit, vmap), in which settled cases wait for the others. limit, memory: the arrays of a case, read and",
-    "written once, at the bandwidth of a triad; limit, arithmetic: the operations of one contact state, unrefined (most cases",
-    "need several), as fast as a core multiplies and adds. first call: in a process of its own once numpy is imported, with",
-    "import, preparation, compilation and all cases, the least of three processes. time a case: the least of several rounds in",
-    "which all take their turn, over the cases. gapbeam is faster: how many times, without the first call. Errors are the worst of",
-    "20 cases against decimals of 80 digits, relative to the largest value of the case; states",
-    "counts cases, of all, in which a support is in another state than gapbeam finds.",
+    "Beams of equal spans, held both ways at their ends. Between them are elastic compression-only supports with gaps.",
+    "",
+    "* 3 to 1,000 spans: every case has another random load on every span (work A of reference problem P6).",
+    "* Random gaps: 12 supports, with another gap and settlement of each in every case.",
+    "",
+    "All programs go from Python's arrays to arrays of deflection, moment, reaction and state of every support, on one",
+    "core.",
+    "",
+    "* gapbeam: `gapbeam.prepare(scene).solve`, refined as always. The others refine nothing, and switch all wrong",
+    "  supports of a case until it is settled.",
+    "* numpy, all cases: elimination node by node, for 2,000 cases at once.",
+    "* numpy, matrices: cases sorted by contact state, where there are few enough. Each contact state has a matrix from",
+    "  loads and levels to all results. Products may use further cores.",
+    "* scipy, loop: banded Cholesky, case by case.",
+    "* numba, loop, if installed: the same elimination in scalars, compiled.",
+    "* jax, all cases: the same, compiled and mapped over the cases (jit, vmap). Settled cases wait for the others.",
+    "* limit, memory: the arrays of a case, read and written once, at the bandwidth of a triad.",
+    "* limit, arithmetic: the operations of one contact state, unrefined, as fast as a core multiplies and adds. Most",
+    "  cases need several contact states.",
+    "",
+    "Columns:",
+    "",
+    "* first call: in a process of its own once numpy is imported, the least of three. It includes import, preparation,",
+    "  compilation and all cases.",
+    "* time a case: the least of several rounds in which all take their turn, over the cases.",
+    "* gapbeam is faster: how many times, without the first call.",
+    "* deflection, moment, reaction: the worst error of 20 cases against decimals of 80 digits, relative to the largest",
+    "  value of the case.",
+    "* states: cases, of all, in which a support is in another state than gapbeam finds.",
 )
 """What the table shows."""
 EXACT = 20
@@ -194,17 +208,16 @@ def findings(rows: Sequence[Row]) -> str:
         own, *others = [row for row in rows if row.problem == problem and row.cases and row.program not in (MEMORY, ARITHMETIC)]
         share = {row.program: row.ratio for row in rows if row.problem == problem}
         said.append(
-            f"{problem[:1].upper()}{problem[1:]}: gapbeam solves {_rounded(own.rate)} cases a second, {own.cases:,} in "
-            f"{fmt.duration(own.cases * own.seconds)}, right to {_worst(own):.0e}; beside it "
-            + ", ".join(
-                f"{row.program} takes {_rounded(row.ratio)} times as long, right to {_worst(row):.0e}"
-                for row in others
-            )
-            + f". Its arrays alone would take {_share(share[MEMORY])} of gapbeam's time, the operations of one scheme "
+            f"* {problem[:1].upper()}{problem[1:]}: gapbeam solves {_rounded(own.rate)} cases a second ({own.cases:,} in "
+            f"{fmt.duration(own.cases * own.seconds)}), right to {_worst(own):.0e}."
+        )
+        said += [f"  * {row.program}: {_rounded(row.ratio)} times as long, right to {_worst(row):.0e}." for row in others]
+        said.append(
+            f"  * Its arrays alone would take {_share(share[MEMORY])} of gapbeam's time, the operations of one contact state "
             f"{_share(share[ARITHMETIC])}."
         )
-    said.append(f"This machine's triad moves {bandwidth() / 1e9:.1f} GB/s, and a core does {peak() / 1e9:.1f} Gflop/s.")
-    return " ".join(said)
+    said.append(f"* This machine's triad moves {bandwidth() / 1e9:.1f} GB/s, and a core does {peak() / 1e9:.1f} Gflop/s.")
+    return "\n".join(said)
 
 
 def _share(ratio: float) -> str:
@@ -252,5 +265,5 @@ def _rounded(number: float) -> str:
     return f"{float(f'{number:.3g}'):,.{0 if number >= 99.5 else 1 if number >= 9.95 else 2}f}"
 
 
-PAGE = Page("batch", "Many cases", WORDS, COLUMNS, 2, "batch-study")
+PAGE = Page("batch", "Run time of many load cases", WORDS, COLUMNS, 2, "batch-study")
 """How the table is written and printed."""

@@ -24,16 +24,27 @@ from .schemes import sprung_base
 COLUMNS = ("problem", "program", "cold", "faster cold", "hot", "faster hot", "solves", "deflection", "reaction", "states")
 """Headings of the table."""
 WORDS = (
-    "Reference problem P6: work A, many spans on elastic one-sided supports with gaps; work B, a free beam on a one-sided",
-    "foundation of springs. The active set is what a user would write with numpy and scipy: cubic Hermite elements (4 a span in",
-    "work A), all wrong supports switched at once, banded Cholesky; plain, or incremental with residuals formed element by",
-    "element. All start with the same dict, or columns, and end with deflection, reaction and state of every support, inside",
-    "Python; the engine alone goes from plain arrays to the same answers, compiled; prepared scene is what a further load case",
-    "takes once gapbeam.prepare has read the dict, alone, or for each of many cases in one call. cold: the first call in a process",
-    "of its own, once all is imported and a small problem has been solved, the fastest of three processes; hot: again and again in",
-    "turn in one process, the fastest of several counts. faster: how many times faster than the incremental active set, which has",
-    "all digits as gapbeam has. Errors are relative to the largest value at a support, against decimals of 80 digits; states",
-    "counts supports whose state is wrong.",
+    "Reference problem P6. Work A: many spans on elastic one-sided supports with gaps. Work B: a free beam on a row of",
+    "one-sided springs.",
+    "",
+    "* active set: what a user would write with numpy and scipy. It has cubic Hermite elements (4 a span in work A) and",
+    "  banded Cholesky, and switches all wrong supports at once.",
+    "* incremental: the same, with residuals formed element by element.",
+    "* engine alone: the compiled engine, from plain arrays to the same answers.",
+    "* prepared scene: a further load case, once gapbeam.prepare has read the dict. It is solved alone, or as one of many",
+    "  cases in one call.",
+    "",
+    "All start with the same dict, or columns. They end with deflection, reaction and state of every support, inside",
+    "Python.",
+    "",
+    "Columns:",
+    "",
+    "* cold: the first call in a process of its own, the fastest of three processes. Everything is imported, and a small",
+    "  problem has been solved.",
+    "* hot: again and again in turn in one process, the fastest of several counts.",
+    "* faster: how many times faster than the incremental active set, which has all digits as gapbeam has.",
+    "* deflection, reaction: errors relative to the largest value at a support, against decimals of 80 digits.",
+    "* states: supports whose state is wrong.",
 )
 """What the table shows."""
 ROUNDS = 100
@@ -266,5 +277,5 @@ def _timed(seconds: float, faster: float) -> tuple[str, str]:
     return ("-", "-") if np.isnan(seconds) else (fmt.duration(seconds), f"{faster:.2g}")
 
 
-PAGE = Page("contact", "Contact at scale", WORDS, COLUMNS, texts=2)
+PAGE = Page("contact", "Contact with many supports", WORDS, COLUMNS, texts=2)
 """How the table is written and printed."""

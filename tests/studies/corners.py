@@ -25,16 +25,26 @@ if TYPE_CHECKING:
 COLUMNS = ("corner", "value", "scenes", "true error", "error bound", "time", "solves")
 """Headings of the table."""
 WORDS = (
-    "Every row holds the worst of its scenes. The true error is that against a solution in rational numbers (long beams: in",
-    "decimals of 200 digits, or in closed form), relative to the largest value of its kind: reactions, deflections, moments,",
-    "shears, at all supports, loads and section changes and in the middle of every span. The error bound is the largest one of",
-    'the certificates; "fails" means that it is less than the true error of a reaction or of the deflection at a support.',
-    "inf: not solved, or numbers that are not finite. Loads that cancel are ill conditioned: their answers move about as much as",
-    "the true error when the loads change in their last digits. So do laws that fall nearly as steeply as the beam is stiff.",
-    "Beams on the ground (k, beta L and the rest) are set beside transfer matrices in decimals of 140 digits and more, which prove",
-    "that contact is where the result says; there the ends of contact (relative to the length of the beam), rotations and the",
-    "resultants of zones count too, at loads, supports, ends of contact and half-way between them. Where a beam nearly only shears",
-    "(EI to GA), its rotations are a small difference of two slopes, and ill conditioned.",
+    "Every row holds the worst of its scenes.",
+    "",
+    "* true error: against a solution in rational numbers, relative to the largest value of its kind. Long beams use",
+    "  decimals of 200 digits, or a closed form.",
+    "* It covers reactions, deflections, moments and shears at all supports, loads and section changes, and in the middle",
+    "  of every span.",
+    '* error bound: the largest one of the certificates. "fails" means that it is less than the true error of a reaction',
+    "  or of the deflection at a support.",
+    "* inf: not solved, or numbers that are not finite.",
+    "",
+    "Some rows are ill conditioned:",
+    "",
+    "* Loads that cancel: their answers move about as much as the true error when the loads change in their last digits.",
+    "* Curves of supports that fall nearly as steeply as the beam is stiff.",
+    "* Beams that nearly only shear (EI to GA): their rotations are a small difference of two slopes.",
+    "",
+    "Beams on the ground (k, beta L and the rest) are compared with transfer matrices in decimals of 140 digits and more.",
+    "These prove that contact is where the result says. The ends of contact (relative to the length of the beam),",
+    "rotations and total soil reactions of zones count too. They are compared at loads, supports, ends of contact and",
+    "half-way between them.",
 )
 """What the table shows."""
 
@@ -234,5 +244,5 @@ def worst(rows: list[Row]) -> str:
     return f"Worst of all: {_small(found.error)} ({found.corner}, {found.value}: {found.kind})."
 
 
-PAGE = Page("extremes", "Extremes", WORDS, COLUMNS, texts=2)
+PAGE = Page("extremes", "Accuracy in extreme cases", WORDS, COLUMNS, texts=2)
 """How the table is written and printed."""

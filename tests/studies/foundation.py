@@ -26,18 +26,31 @@ from .springs import Found, by_gapbeam, by_opensees, by_scipy, places
 COLUMNS = ("problem", "program", "nodes", "cold", "faster cold", "hot", "faster hot", "ends", "deflection", "moment")
 """Headings of the table."""
 WORDS = (
-    "Beams on a foundation that cannot pull. Work B: 100 m, EI = 1e5, k = 1e4, own weight 1, 500 down in the middle, 60 up at 30",
-    "m; free beam: EI = 1, k = 4, own weight 1, 4 long, 20 down in the middle, so that both ends lift; lifted end: EI = 1, k = 4,",
-    "own weight 1, 20 long, one end lifted by 1.5. foundation is gapbeam's, without a mesh; prepared is what a further load case",
-    "takes once gapbeam.prepare has read the scene. All others have springs at nodes: springs are solved by gapbeam itself",
-    "(supports as columns); scipy is the active set of the study contact, plain or incremental; OpenSees, where it is",
-    "installed, has springs without tension and Newton's method (up to 1,001 nodes: what it takes to make its model grows with",
-    "their square). Contact ends of springs are the zeros of the straight lines between the deflections of the nodes. All start",
-    "from Python's numbers and end with contact ends, and deflection and moment at eleven places, which are nodes of every mesh.",
-    "Errors are relative to the largest true value, those of the ends to the length of the beam, against transfer matrices in",
-    "decimals of 140 digits. cold: the first call in a process of its own, once all is imported and a small problem has been",
-    "solved; hot: again and again in turn in one process; both medians of several. faster: how many times faster than scipy,",
-    "incremental, with 1,001 nodes beside it.",
+    "Beams on ground that cannot pull:",
+    "",
+    "* work B: 100 m, EI = 1e5, k = 1e4, own weight 1, 500 down in the middle, 60 up at 30 m;",
+    "* free beam: EI = 1, k = 4, own weight 1, 4 long, 20 down in the middle, so that both ends lift;",
+    "* lifted end: EI = 1, k = 4, own weight 1, 20 long, one end lifted by 1.5.",
+    "",
+    "Programs:",
+    "",
+    "* foundation: gapbeam's, without a mesh. prepared: a further load case, once gapbeam.prepare has read the scene.",
+    "* All others have springs at nodes. springs are solved by gapbeam itself (supports as columns).",
+    "* scipy is the active set of the study contact, plain or incremental.",
+    "* OpenSees, if installed, has springs without tension and Newton's method. It gets up to 1,001 nodes: the time to",
+    "  make its model grows with their square.",
+    "",
+    "All start from Python's numbers. They end with contact ends, and deflection and moment at eleven points, which are",
+    "nodes of every mesh. Contact ends of springs are the zeros of the straight lines between the deflections of the",
+    "nodes.",
+    "",
+    "Columns:",
+    "",
+    "* cold: the first call in a process of its own, once all is imported and a small problem has been solved. hot: again",
+    "  and again in turn in one process. Both are medians of several.",
+    "* faster: how many times faster than scipy, incremental, with 1,001 nodes.",
+    "* ends, deflection, moment: errors against transfer matrices in decimals of 140 digits. They are relative to the",
+    "  largest true value, those of the ends to the length of the beam.",
 )
 """What the table shows."""
 PROBLEMS: dict[str, tuple[dict[str, Any], tuple[float, ...]]] = {
@@ -282,12 +295,12 @@ def findings(rows: Sequence[Row]) -> str:
         finest = [row for row in here if row.program == SPRINGS][-1]
         ratio = finest.seconds / own.seconds
         said.append(
-            f"{problem[:1].upper()}{problem[1:]}: the foundation has contact ends, deflections and moments right to "
-            f"{own.ends:.0e}, {own.deflection:.0e} and {own.moment:.0e} in {fmt.duration(own.seconds)}; {finest.nodes:,} springs "
-            f"by gapbeam itself to {_error_text(finest.ends)}, {finest.deflection:.0e} and {finest.moment:.0e} in "
+            f"* {problem[:1].upper()}{problem[1:]}: the foundation has contact ends, deflections and moments right to "
+            f"{own.ends:.0e}, {own.deflection:.0e} and {own.moment:.0e}, in {fmt.duration(own.seconds)}. {finest.nodes:,} springs "
+            f"by gapbeam itself have them right to {_error_text(finest.ends)}, {finest.deflection:.0e} and {finest.moment:.0e}, in "
             f"{ratio:{'.0f' if ratio >= 10.0 else '.2g'}} times that time."
         )
-    return " ".join(said)
+    return "\n".join(said)
 
 
 def table(rows: Iterable[Row]) -> list[list[str]]:
@@ -328,5 +341,5 @@ def _error_text(error: float, failed: bool = False) -> str:
 
 
 CAPTION = "Error of contact ends, deflection and moment against run time, for three beams"
-PAGE = Page("foundation", "Foundation or springs", WORDS, COLUMNS, 2, "foundation-study", CAPTION)
+PAGE = Page("foundation", "Beams on ground: foundation or springs", WORDS, COLUMNS, 2, "foundation-study", CAPTION)
 """How the table is written and printed."""

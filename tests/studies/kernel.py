@@ -18,13 +18,20 @@ from .page import Page
 COLUMNS = ("beam", "method", "nodes", "ns a node", "faster", "state", "GB/s", "of stream", "difference")
 """Headings of the table."""
 WORDS = (
-    "Assembly, factor and solve of the nodal mixed system of one beam, every mesh point a node, from plain arrays to deflections",
-    "and moments, compiled, the memory for it asked for before; the fastest of several counts. faster: how many times faster",
-    "than assembly and LAPACK's dgbsv, run in turn with it. state: bytes a node that the method keeps beside what it is given",
-    "(5 numbers a node) and gives (2). GB/s: all that, the state once each way, over the time; of stream: over the bandwidth of a",
-    "triad a = b + s c on this machine. difference: of deflections and moments from those of dgbsv with two steps of refinement,",
-    "relative to the largest. + 1: with a step of refinement, which goes through everything a second time. One span: a simple",
-    "beam, finely meshed. Random: lengths, EI and loads at random, a tenth of the nodes on rigid supports and a tenth on springs.",
+    "One beam, every mesh point a node: assembly, factor and solve of the nodal mixed system. All methods are compiled,",
+    "and go from plain arrays to deflections and moments. Memory is allocated before.",
+    "",
+    "* One span: a simple beam, finely meshed.",
+    "* Random: lengths, EI and loads at random, a tenth of the nodes on rigid supports and a tenth on springs.",
+    "* + 1: with a step of refinement, which goes through everything a second time.",
+    "",
+    "Columns:",
+    "",
+    "* ns a node: the fastest of several counts. faster: than assembly and LAPACK's dgbsv, run in turn with it.",
+    "* state: bytes a node that the method stores, beside what it is given (5 numbers a node) and gives (2).",
+    "* GB/s: all that, the state once each way, over the time. of stream: over the bandwidth of a triad a = b + s c on",
+    "  this machine.",
+    "* difference: of deflections and moments from those of dgbsv with two steps of refinement, relative to the largest.",
 )
 """What the table shows."""
 SIZES = (10, 100, 1000, 10**4, 10**5, 10**6)
@@ -214,5 +221,5 @@ def table(rows: Iterable[Row]) -> list[list[str]]:
     ]
 
 
-PAGE = Page("kernel", "The kernel", WORDS, COLUMNS, texts=2)
+PAGE = Page("kernel", "The linear solver (kernel)", WORDS, COLUMNS, texts=2)
 """How the table is written and printed."""

@@ -59,7 +59,9 @@ class Page:
         file = self.file or self.study
         drawn = f" --plot docs/{file}.svg" if picture else ""
         made = f"This page is made by `python tests/studies {self.study} --markdown docs/{file}.md{drawn}`."
-        said = (["", f"![{self.caption}]({picture})"] if picture else []) + (["", remark] if remark else [])
+        said = ["", f"![{self.caption}]({picture})"] if picture else []
+        said += ["", "Findings:"] if remark.startswith("* ") else []
+        said += ["", remark] if remark else []
         table = markdown_table(self.columns, cells, self.texts)
         return "\n".join([f"# {self.title}", "", made, "", *self.words, *said, "", *table]) + "\n"
 
@@ -94,7 +96,8 @@ class Page:
 
         say = Writer(console or Console(highlight=False))
         say.line(self.title, "bold")
-        say.line(" ".join(self.words), "dim")
+        for line in self.words:
+            say.line(line, "dim")
         if self.texts == 1:
             say.line()
             say.table(self.columns, cells, left=(0,))

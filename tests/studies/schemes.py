@@ -23,12 +23,17 @@ if TYPE_CHECKING:
 COLUMNS = ("problem", "one-sided", "block", "single", "events", "closed", "time")
 """Headings of the table."""
 WORDS = (
-    "Linear solves until the contact state is found: by the rule block, with few supports the largest number over all starting",
-    "schemes, else from all supports closed; by single, the paper's rule, from all supports closed. events is the number of",
-    "changes along the load from 0 to 1.",
-    "A warm start is the scheme of a load that is smaller by 0.1, 1 or 10 %. Solves of a part of the beam count by the part's",
-    "share of it. The time is that of the rule block, from scene to result, the fastest of 3. Fronts are drawn at random:",
-    "what lifts the beam, its base, the spacing of the supports.",
+    "How many linear solves it takes to find the contact state:",
+    "",
+    "* block: by the rule `block`. With few supports it is the largest number over all starting contact states, else that",
+    "  from all supports closed.",
+    "* single: by the paper's rule, from all supports closed.",
+    "* events: changes along the load from 0 to 1.",
+    "* closed: supports closed in the end.",
+    "* time: of the rule `block`, from scene to result, the fastest of 3.",
+    "",
+    "A warm start is the contact state of a load that is smaller by 0.1, 1 or 10 %. Solves of a part of the beam count by",
+    "the part's share of it. Fronts are drawn at random: what lifts the beam, its base, the spacing of the supports.",
 )
 """What the table shows."""
 
@@ -301,5 +306,5 @@ def table(rows: list[Row]) -> list[list[str]]:
     ]
 
 
-PAGE = Page("schemes", "Contact states", WORDS, COLUMNS, texts=1)
+PAGE = Page("schemes", "Solves needed to find the contact state", WORDS, COLUMNS, texts=1)
 """How the table is written and printed."""

@@ -82,7 +82,7 @@ def test_table(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(study, "batch", lambda largest: iter(rows[:-1]))
     page = tmp_path / "batch-study.md"
     assert main(["batch", "--largest", "30", "--markdown", str(page), "--csv", str(tmp_path / "a.csv")]) == 0
-    assert "3 spans: gapbeam solves" in page.read_text()
+    assert "* 3 spans: gapbeam solves" in page.read_text()
     assert "--markdown docs/batch-study.md`" in page.read_text()
-    assert "Many cases" in capsys.readouterr().out
+    assert "Run time of many load cases" in capsys.readouterr().out
     assert main(["batch", "--largest", "0"]) == 2

@@ -114,7 +114,7 @@ def test_command(rows, monkeypatch, tmp_path, capsys):
     page, drawn, table = (str(tmp_path / f"trains-study.{suffix}") for suffix in ("md", "svg", "csv"))
     assert main(["trains", "--largest", "100", "--markdown", page, "--plot", drawn, "--csv", table]) == 0
     assert "for two beams](trains-study.svg)" in (tmp_path / "trains-study.md").read_text()
-    assert "Exact envelopes or positions" in capsys.readouterr().out
+    assert "Moving loads: exact envelopes" in capsys.readouterr().out
     assert len((tmp_path / "trains-study.csv").read_text().splitlines()) == len(rows) + 1
 
 

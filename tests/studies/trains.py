@@ -24,21 +24,37 @@ from .train_truth import TrainTruth, solve_train
 COLUMNS = ("problem", "program", "positions", "time", "faster", "moment", "shear", "largest reaction", "smallest reaction")
 """Headings of the table."""
 WORDS = (
-    "A vehicle of three axles (35, 145 and 145, 4.3 apart: AASHTO's design truck in kN and m) goes over five spans of 20, 25, 30,",
-    "25 and 20 m, EI = 2e6. Both ways: rigid supports that hold both ways, own weight 12. Bearings: they give by 1/5e5 and cannot",
-    "pull, own weight 2, so that supports open and close 8 times on the way. gapbeam is `gapbeam.solve` and the exact extremes of",
-    "the envelope, from Python's numbers to Python's numbers; it has no positions. numpy is what a careful script does: all",
-    "positions at once, one inverse for every set of supports that act, the positions at which that set changes halved until",
-    "doubles have no number between, those at which an axle is at a support with the shears on both sides of it, moments also",
-    "where the shear is zero; refined, it then searches beside the best position of every value, 40 times at half the distance,",
-    "and finds the best of all unless that is beside another position. OpenSees, where it is installed, is given a load step for",
-    "every position, and springs without tension; PyCBA the vehicle (it knows supports that hold both ways only, keeps 100 points",
-    "a span of every position, and gets up to 10,000 positions). Errors are those of the largest and smallest moment and shear of",
-    "the beam, and of the largest and the smallest reaction of the support where it is worst, each relative to the largest true",
-    "value of its kind, against the exact envelope in decimals of 60 digits (Macaulay's functions; roots of polynomials in the",
-    "position). time: the least of several rounds in which all take their turn, by the clock or of the processor, whichever is",
-    "less: another program on the machine adds to the first, threads to the second. faster: how many times faster than numpy,",
-    "refined, with 1,000 positions beside it.",
+    "A vehicle of three axles crosses five spans of 20, 25, 30, 25 and 20 m, EI = 2e6. Its axles of 35, 145 and 145 are",
+    "4.3 apart: AASHTO's design truck in kN and m.",
+    "",
+    "* both ways: rigid two-way supports, own weight 12.",
+    "* bearings: compression-only supports with a flexibility of 1/5e5, own weight 2. Supports open and close 8 times",
+    "  while it passes.",
+    "",
+    "Programs:",
+    "",
+    "* gapbeam: `gapbeam.solve` and the exact extremes of the envelope, from Python's numbers to Python's numbers. It has",
+    "  no positions.",
+    "* numpy: what a careful script does. It solves all positions at once, with one inverse for every set of active",
+    "  supports. Positions at which that set changes are bisected until doubles have no number between.",
+    "* It includes positions at which an axle is at a support, with the shears on both sides, and moments where the shear",
+    "  is zero.",
+    "* numpy, refined: it then searches around the best position of every value, 40 times at half the distance. It finds",
+    "  the best of all unless that is near another position.",
+    "* OpenSees, if installed: a load step for every position, and springs without tension.",
+    "* PyCBA: it has two-way supports only, and stores 100 points a span of every position. It gets up to 10,000",
+    "  positions.",
+    "",
+    "Columns:",
+    "",
+    "* time: the least of several rounds in which all take their turn. It is the clock's or the processor's, whichever is",
+    "  less: another program adds to the first, threads to the second.",
+    "* faster: how many times faster than numpy, refined, with 1,000 positions.",
+    "* moment, shear: errors of the largest and smallest along the beam. largest, smallest reaction: at the support where",
+    "  it is worst.",
+    "",
+    "Errors are relative to the largest true value of their kind. The true envelope is exact, in decimals of 60 digits",
+    "(Macaulay's functions; roots of polynomials in the position).",
 )
 """What the table shows."""
 SPANS = [20.0, 25.0, 30.0, 25.0, 20.0]
@@ -195,29 +211,29 @@ def findings(rows: Sequence[Row]) -> str:
         here = [row for row in rows if row.problem == problem]
         own = next(row for row in here if row.program == OWN)
         said.append(
-            f"{problem[:1].upper()}{problem[1:]}: gapbeam has moments, shears and reactions right to {own.moment:.0e}, "
+            f"* {problem[:1].upper()}{problem[1:]}: gapbeam has moments, shears and reactions right to {own.moment:.0e}, "
             f"{own.shear:.0e} and {max(own.most, own.least):.0e} in {fmt.duration(own.seconds)}."
         )
         finest = [row for row in here if row.program == NUMPY][-1:]
         for row in finest + [row for row in here if (row.program, row.positions) == BESIDE]:
             said.append(
-                f"{row.program}{',' if row.program == REFINED else ''} with {row.positions:,} positions has them right to "
+                f"  * {row.program}{',' if row.program == REFINED else ''} with {row.positions:,} positions has them right to "
                 f"{row.moment:.0e}, {row.shear:.0e} and "
                 f"{max(row.most, row.least):.0e} in {row.seconds / own.seconds:.0f} times that time."
             )
         for row in [row for row in here if row.program == PYCBA and row.positions][-1:]:
             said.append(
-                f"PyCBA with {row.positions:,} positions has moments right to {row.moment:.0e} and largest reactions to "
-                f"{row.most:.0e}; its smallest ones are wrong by {row.least:.0%} of the largest with any number of positions, as "
-                "its envelopes begin at zero, and under own weight no reaction falls to zero here."
+                f"  * PyCBA with {row.positions:,} positions has moments right to {row.moment:.0e}, and largest reactions to "
+                f"{row.most:.0e}. Its smallest ones are wrong by {row.least:.0%} of the largest with any number of positions: its "
+                "envelopes begin at zero, and under own weight no reaction falls to zero here."
             )
     if has("pycba"):
         missing, tried = axles_missing()
         said.append(
-            f"An axle at the last support acts. Where the last axle of a vehicle has come there, PyCBA leaves it out on {missing} "
-            f"of {tried} beams whose spans and distances of axles are tenths: the difference of two sums is larger than the length."
+            f"* An axle at the last support acts. Where the last axle of a vehicle is there, PyCBA leaves it out on {missing} of "
+            f"{tried} beams. Their spans and axle distances are tenths, and the difference of two sums exceeds the length."
         )
-    return " ".join(said)
+    return "\n".join(said)
 
 
 def table(rows: Iterable[Row]) -> list[list[str]]:
@@ -254,5 +270,5 @@ def _error_text(row: Row, error: float) -> str:
 
 
 CAPTION = "Error of the envelope of a train against run time, for two beams"
-PAGE = Page("trains", "Exact envelopes or positions", WORDS, COLUMNS, 2, "trains-study", CAPTION)
+PAGE = Page("trains", "Moving loads: exact envelopes or positions", WORDS, COLUMNS, 2, "trains-study", CAPTION)
 """How the table is written and printed."""

@@ -10,7 +10,7 @@ supports[2].gap: expected a number, got "0,02"
 from __future__ import annotations
 
 import re
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from enum import IntEnum
 
 from .characters import visible
@@ -48,6 +48,39 @@ class SceneError(GapbeamError, ValueError):
     def __reduce__(self) -> tuple:
         """Pickle by place and problem, as made."""
         return type(self), (self.place, self.problem)
+
+
+class SceneFileError(SceneError):
+    """All mistakes of a scene file, each with its line.
+
+    Parameters
+    ----------
+    file : str
+        Its name.
+    mistakes : sequence of (int or None, str, str)
+        Line, place and problem of each.
+
+    Attributes
+    ----------
+    place, problem : str
+        Of the first one.
+    file, mistakes
+        As above.
+    """
+
+    def __init__(self, file: str, mistakes: Sequence[tuple[int | None, str, str]]) -> None:
+        _, place, problem = mistakes[0]
+        super().__init__(place, problem)
+        self.file, self.mistakes = file, tuple(mistakes)
+        lines = []
+        for line, place, problem in mistakes:
+            where = file if line is None else f"{file}:{line}"
+            lines.append(visible(f"{where}: {f'{place}: ' if place else ''}{problem}"))
+        self.args = ("\n".join(lines),)
+
+    def __reduce__(self) -> tuple:
+        """Pickle by what it was made of."""
+        return type(self), (self.file, self.mistakes)
 
 
 class UnsolvedError(GapbeamError):

@@ -11,9 +11,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..base.errors import SceneError
+from ..results import formatting as fmt
 from ..results.state.arguments import whole
 from ..scene.reading import read_scene
-from ..scene.structs import Scene
+from ..scene.structs import Beam, Scene, Units
 from ..scene.wording import shown
 from .chunks import TEXTS, count_statuses, read_columns
 from .folder import from_json, open_folder
@@ -83,6 +84,25 @@ class Batch(BatchVerbs):
     def results(self) -> tuple[str, ...]:
         """Columns that hold results: numbers that are not from the table."""
         return tuple(name for name in self.numbers if name not in self._folder.manifest["inputs"])
+
+    def unit(self, name: str) -> tuple[str, float] | None:
+        """Give the unit in which pictures show a result, by the labels of the scene.
+
+        Parameters
+        ----------
+        name : str
+            Of the result.
+
+        Returns
+        -------
+        (str, float) or None
+            The unit, and how many of it are one of the scene; None where the folder holds no single scene, or nothing is known.
+        """
+        data = self._folder.manifest["data"]
+        quantity = name.partition(".")[0]
+        if data is None or quantity not in fmt.UNITS:
+            return None
+        return fmt.shown_unit(Scene(beam=Beam(spans=[], EI=1.0), units=Units(**(data.get("units") or {}))), quantity)
 
     def _chosen(self, names: str | Sequence[str] | None) -> tuple[str, ...]:
         """Names of columns as they are given; default all."""

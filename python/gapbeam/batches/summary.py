@@ -15,7 +15,6 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import Record
-from ..results.envelopes.lifted import Lifted
 from ..results.state.arguments import finite, numbers, whole
 from ..scene.wording import shown
 from .verbs import SummaryVerbs
@@ -47,6 +46,8 @@ class Distribution(Record):
         A histogram: how many lie between two edges; the last part holds its upper edge too.
     above : dict of int
         By limit how many are greater.
+    positive : int
+        How many are greater than zero; of an opening the cases without contact.
     """
 
     count: int
@@ -58,6 +59,7 @@ class Distribution(Record):
     edges: np.ndarray
     counts: np.ndarray
     above: dict[float, int]
+    positive: int = 0
 
 
 @dataclass(frozen=True, repr=False)
@@ -74,8 +76,8 @@ class Summary(SummaryVerbs):
         By outcome the reason of the first such case.
     columns : dict of Distribution
         By name of the result.
-    lifted : list of Lifted
-        One-sided supports without contact, and in which part of the cases; empty where openings were not wanted.
+    units : dict of (str, float)
+        By name of the result its unit in pictures, and how many of it are one of the scene: 1000 for mm where lengths are in m.
     """
 
     cases: int
@@ -83,7 +85,7 @@ class Summary(SummaryVerbs):
     statuses: dict[str, int]
     reasons: dict[str, str]
     columns: dict[str, Distribution]
-    lifted: list[Lifted] = field(default_factory=list)
+    units: dict[str, tuple[str, float]] = field(default_factory=dict)
 
     renamed: ClassVar = {"asdict": "to_dict"}
 
@@ -165,8 +167,8 @@ def summarize(
         for counter in counters.values():
             counter.choose_digit()
     columns = {name: counter.found() for name, counter in counters.items()}
-    lifted = batch.lifted if any(name.startswith("opening.") for name in names) else []
-    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, lifted)
+    units = {name: found for name in columns if (found := batch.unit(name)) is not None}
+    return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, units)
 
 
 def distribution(values: np.ndarray, shares: Sequence[float] = SHARES, bins: int = 40) -> Distribution:
@@ -199,6 +201,7 @@ class _Counter:
         self._above = dict.fromkeys(limits, 0)
         self._shares, self._bins = shares, bins
         self._count, self._least, self._largest, self._sums = 0, math.inf, -math.inf, []
+        self._positive = 0
         self._squares: list[float] = []
 
     def range(self, values: np.ndarray) -> None:
@@ -210,6 +213,7 @@ class _Counter:
         self._sums.append(float(values.sum()))
         self._least = min(self._least, float(values.min()))
         self._largest = max(self._largest, float(values.max()))
+        self._positive += int((values > 0.0).sum())
         for limit in self._above:
             self._above[limit] += int((values > limit).sum())
 
@@ -261,5 +265,5 @@ class _Counter:
         deviation = math.sqrt(math.fsum(self._squares) / max(self._count - 1, 1))
         return Distribution(
             self._count, self._mean, deviation, self._least, self._largest, dict(zip(self._shares, values, strict=True)),
-            self._edges, self._counts, self._above,
+            self._edges, self._counts, self._above, self._positive,
         )  # fmt: skip

@@ -264,6 +264,13 @@ class SummaryVerbs(ManyVerbs):
     def _of(self, name: str) -> Distribution:
         return self.columns[name]
 
+    @property
+    def lifted(self) -> list[Lifted]:
+        """One-sided supports without contact: in which part of the cases, and the largest opening."""
+        names = [name for name in self.columns if name.startswith("opening.")]
+        ones = [(k, self.columns[name]) for k, name in enumerate(names)]
+        return [Lifted(k, one.largest, share=one.positive / one.count) for k, one in ones if one.positive]
+
     def _only(self, name: str) -> SummaryVerbs:
         """Give the summary of one result."""
         return replace(self, columns={name: self.columns[name]})

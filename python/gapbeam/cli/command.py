@@ -15,7 +15,7 @@ from traceback import extract_tb
 from typing import TYPE_CHECKING, NoReturn
 
 from ..base.characters import visible
-from ..base.errors import GapbeamError, SceneError, Status
+from ..base.errors import GapbeamError, SceneError, SceneFileError, Status
 from ..base.memory import reserve
 from .batch import add_batch
 from .exits import FAILED, INTERRUPTED, NO_SOLUTION, REFUSED, SOLVED, say
@@ -78,7 +78,7 @@ Exit status:
   1    the structure cannot stand, or a combination or a position of a train cannot or has no single answer: the
        report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
-       one line on standard error says why, no file is written
+       a line on standard error for every mistake says where and why, no file is written
   3    failed: not enough memory, or a fault of gapbeam; one line says what happened and what to do
   130  ended by Ctrl-C: no file is written in part
   143  ended by SIGTERM, likewise
@@ -165,6 +165,10 @@ def _report(error: Exception) -> int:
     lost = isinstance(error, RuntimeError) and "can't start new thread" in str(error)
     if isinstance(error, MemoryError) or lost or getattr(error, "status", None) == Status.NO_MEMORY:
         return say(FAILED, f"error: not enough memory{_reason(error)}; ask for fewer load steps or files, or give it more")
+    if isinstance(error, SceneFileError):
+        for line in error.args[0].splitlines():
+            say(REFUSED, f"error: {line}")
+        return REFUSED
     if isinstance(error, GapbeamError):
         return say(FAILED if getattr(error, "is_failure", False) else REFUSED, f"error: {error}")
     if isinstance(error, OSError) and error.filename is not None:
@@ -194,8 +198,8 @@ def _parser() -> argparse.ArgumentParser:
 
     run = commands.add_parser(
         "run", help="solve a scene and report", formatter_class=plain, epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
-        description="Solve a scene and print a report: the system, which supports act over the load, reactions and "
-        "openings,\nextremes with their places, residuals against run time; of combinations what governs.",
+        description="Solve a scene and print a report, the answer first: what lifts off and by how much, the largest values\n"
+        "with their places; then reactions and openings, sums beside the loads, events, what governs.",
     )  # fmt: skip
     _add_scene(run)
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")

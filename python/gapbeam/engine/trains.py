@@ -175,7 +175,8 @@ class Traversal:
             The state is not unique.
         """
         values, status, message = _engine.gbtinf(
-            self.beam.handle, self._handle, len(BENDING) + 1, np.append(closed, 0).astype(np.int32), np.append(supports, False).astype(np.int32),
+            self.beam.handle, self._handle, len(BENDING) + 1, np.append(closed, 0).astype(np.int32),
+            np.append(supports, False).astype(np.int32),
             piece, distance, places,
         )  # fmt: skip
         check_status(status, message)

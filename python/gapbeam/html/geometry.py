@@ -1,4 +1,4 @@
-"""What all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+"""Geometry that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..scene.structs import Scene
 
-MOST_PLACES = 240
-"""Places along a beam on the ground at which its states are given."""
+MOST_PLACES, FEWER_PLACES = 240, 120
+"""Places along a beam on the ground at which its states are given; while trains pass, of which there are more states."""
 SIDES = {"below": 1, "both": 0, "above": -1}
 
 
@@ -34,7 +34,8 @@ def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
     distance : numpy.ndarray
         Distance from its left end.
     """
-    return result._places_along(max(1, MOST_PLACES // len(result.scene.beam.spans)))
+    most = FEWER_PLACES if result.scene.trains else MOST_PLACES
+    return result._places_along(max(1, most // len(result.scene.beam.spans)))
 
 
 def beam_data(result: Result) -> dict[str, Any]:
@@ -49,9 +50,12 @@ def beam_data(result: Result) -> dict[str, Any]:
     -------
     dict
         ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; on the ground ``grid``, the number of the piece and the place of every row of a state.
+        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place
+        of every row of a state.
     """
     places = result._beam.places
+    forces = np.zeros((len(places.point_x), 2))
+    forces[places.node_points] = places.force
     with np.errstate(divide="ignore"):
         flexibility = 1.0 / places.pieces[:, 1:]
     found: dict[str, Any] = {
@@ -59,6 +63,7 @@ def beam_data(result: Result) -> dict[str, Any]:
         "pieces": np.column_stack((places.pieces[:, 0], flexibility)).tolist(),
         "dead": places.dead[:, :3].tolist(),
         "live": places.live[:, :3].tolist(),
+        "forces": forces.tolist(),
         "hinges": [float(x) for x in result.scene.beam.hinges],
     }
     if result._beam.ground_layers:
@@ -109,7 +114,8 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         kind = load.__struct_config__.tag
         one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
         if kind in ("force", "moment", "axial"):
-            one |= {"x": float(nodes[load.node]) if load.node is not None else load.x, "value": load.M if kind == "moment" else load.F}
+            one["x"] = float(nodes[load.node]) if load.node is not None else load.x
+            one["value"] = load.M if kind == "moment" else load.F
         else:
             from_, to = fmt.stretch(scene, load)
             ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]

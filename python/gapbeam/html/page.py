@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import jinja2
 import numpy as np
 
+from ..base.characters import visible
 from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope
+from ..results.envelopes.over_path import PathEnvelope
 from .geometry import foundations_data, panels_data, units_data
-from .hand_check import sums_data, three_moments_data
+from .hand_check import sums_data
 from .states import packed, stands
 from .tables import tables_of
-from .ways import collect_ways
+from .three_moments import three_moments_data
+from .ways import Of, collect_ways
 from .words import bounds_in_words, exactness, left_out
 
 if TYPE_CHECKING:
@@ -28,8 +31,8 @@ if TYPE_CHECKING:
     from ..results.trains.envelope import TrainEnvelope
 
 TEMPLATES = Path(__file__).parent / "templates"
-MOST_POINTS = 400
-"""Places along the beam at which an envelope is drawn, about."""
+MOST_POINTS, FEWER_POINTS, FEWEST_POINTS = 400, 160, 60
+"""Places along the beam at which an envelope is drawn, about; fewer while trains pass, fewest while they do so on the ground."""
 SECONDS = "seconds"
 """What differs from run to run, and is left out."""
 
@@ -84,28 +87,34 @@ def html_page(result: Result, source: Source | None = None) -> str:
     envelope = result.envelope() if result.has_envelope and has_cheap_envelope(result) else None
     if envelope is not None and not envelope.extremes:
         envelope = None
-    collected = collect_ways(result, envelope)
-    points = max(2, min(20, MOST_POINTS // len(scene.beam.spans)))
+    state = _state_to_check(result, envelope)
+    first = None if state is None else ((state.combination, state.train, state.direction), state.position)
+    collected = collect_ways(result, envelope, first)
+    sampled = scene.trains and not result._beam.is_linear_between_events
+    points = max(2, (FEWEST_POINTS if sampled else FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
+    whole = _result_data(result, points)
     data = {
+        "first": _first(collected.ways, first),
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
-        "result": _result_data(result, points),
+        "result": whole,
         "panels": panels_data(result._beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "foundations": foundations_data(scene),
-        "envelope": _curves(result, envelope, points),
+        "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
     }  # fmt: skip
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
-    checked = _checked(result, envelope)
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
     return environment.get_template("page.html").render(
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
-        source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"), tables=tables_of(result, envelope, collected.ways),
-        ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
-        units=scene.units, ground=bool(scene.foundation), status=result.status, checked=checked,
+        source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
+        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
+        footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
+        units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
         script="".join((TEMPLATES / name).read_text() for name in ("evaluate.js", "draw.js", "page.js")),
     )  # fmt: skip
@@ -115,8 +124,16 @@ def _result_data(result: Result, points: int) -> dict[str, Any]:
     """As the JSON output, without the seconds and without what is given state by state."""
     data = result.to_data(points, steps=_short_steps)
     data.pop("fields", None)
-    data.get("envelope", {}).pop("fields", None)
+    if "envelope" in data:
+        data["envelope"] = {key: _without_ties(value) for key, value in data["envelope"].items()}
     return data
+
+
+def _without_ties(value: Any) -> Any:
+    """Leave out of an envelope what stands beside its values: there may be very many ties."""
+    if isinstance(value, dict):
+        return {key: _without_ties(one) for key, one in value.items() if key not in ("ties", "concurrent")}
+    return [_without_ties(one) for one in value] if isinstance(value, list) else value
 
 
 def _short_steps(steps: Any) -> list[dict[str, Any]]:
@@ -130,14 +147,22 @@ def _short_steps(steps: Any) -> list[dict[str, Any]]:
     return found
 
 
-def _curves(result: Result, envelope: Envelope | TrainEnvelope | None, points: int) -> dict[str, Any] | None:
-    """Largest and smallest values along the beam, where there are several states."""
-    if envelope is None or not (result.combinations or result.scene.trains or hasattr(envelope, "over")):
+def _curves(
+    result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
+) -> dict[str, Any] | None:  # fmt: skip
+    """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
+    names = [one["name"] for one in panels_data(result._beam.fields)]
+    if "envelope" in whole:
+        columns = whole["envelope"].pop("fields")
+        pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
+        x = columns["x"]
+    elif envelope is not None and isinstance(envelope, PathEnvelope):
+        curves = result.envelope(points).fields
+        pairs, x = {name: (curves.largest[name], curves.smallest[name]) for name in names if name in curves.largest}, curves.x
+    else:
         return None
-    curves = result.envelope(points).fields
-    names = [one["name"] for one in panels_data(result._beam.fields) if one["name"] in curves.largest]
-    found = {name: [packed(curves.largest[name]), packed(curves.smallest[name])] for name in names}
-    return {"x": packed(curves.x), "fields": found} if np.isfinite(curves.x).all() else None
+    found = {name: [packed(np.array(values, dtype=float)) for values in pair] for name, pair in pairs.items()}
+    return {"x": packed(np.array(x)), "fields": found}
 
 
 def _json(data: Any) -> str:
@@ -146,35 +171,57 @@ def _json(data: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _checked(result: Result, envelope: Envelope | TrainEnvelope | None) -> dict[str, Any] | None:
-    """Check one state by hand: that at the end of the load, else that with the largest moment."""
-    found = _state_to_check(result, envelope)
-    if found is None:
-        return None
-    words, one, step = found
-    if not stands(step):
-        return None
-    return {"words": words, "sums": sums_data(one, step), "three": three_moments_data(one, step), "bounds": bounds_in_words(one, step),
-            "left_out": left_out(one)}  # fmt: skip
+def _css(text: str) -> str:
+    """Write a text of a style sheet between quotation marks."""
+    return "".join(one if one.isalnum() or one in " .,:-+()\u00b7" else f"\\{ord(one):x} " for one in text)
 
 
-def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -> tuple[str, Result, Step] | None:
+class Chosen(NamedTuple):
+    """The state that is shown first and checked by hand, and where it is from."""
+
+    words: str
+    result: Result
+    step: Step
+    combination: str | None = None
+    train: str | None = None
+    position: float | None = None
+    direction: str | None = None
+
+
+def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -> Chosen | None:
+    """Choose the state at the end of the load; with combinations or trains that with the largest moment."""
     if len(result.steps) and not result.scene.trains:
         step = result.steps[-1]
-        return f"at load factor {fmt.number(step.factor)}", result, step
+        last = "" if result.stands else ", the last state that stands"
+        return Chosen(f"at load factor {fmt.number(step.factor)}{last}", result, step)
     if envelope is None:
         return None
     extremes = [one for one in envelope.extremes["moment"].values() if one is not None]
     largest = max(extremes, key=lambda one: abs(one.value))
     name, train = largest.combination, getattr(largest, "train", None)
     one = result if name is None else result.combinations[name]
-    words = f"with the largest moment: {name}" if name is not None else "with the largest moment"
+    words = "with the largest moment" if name is None else f"with the largest moment: {visible(name)}"
     if train is not None:
         try:
             state = one.trains[train].state(largest.position, largest.direction)
         except (GapbeamError, ValueError):  # at the very position at which it can no longer stand
             return None
-        return f"{words}, {train} at {fmt.number(largest.position)}", state.result, state
-    if getattr(largest, "factor", None) is not None and name is not None:
-        words += " at the end of its load"
-    return (f"{words}, load factor {fmt.number(one.steps[-1].factor)}", one, one.steps[-1]) if len(one.steps) else None
+        words += f"{':' if name is None else ','} {visible(train)} at {fmt.number(largest.position)}"
+        return Chosen(words, state.result, state, name, train, largest.position, largest.direction)
+    return Chosen(f"{words}, load factor {fmt.number(one.steps[-1].factor)}", one, one.steps[-1], name) if len(one.steps) else None
+
+
+def _first(ways: list[dict[str, Any]], first: tuple[Of, float | None] | None) -> dict[str, Any]:
+    """Number of the way that is shown first, and of a train its position."""
+    if first is None or ways[0].get("motion"):
+        return {"way": 0, "at": None}
+    return next(({"way": k, "at": first[1]} for k, way in enumerate(ways) if way["of"] == list(first[0])), {"way": 0, "at": None})
+
+
+def _checked(state: Chosen) -> dict[str, Any] | None:
+    """Check a state by hand."""
+    if not stands(state.step):
+        return None
+    of = state.result, state.step
+    return {"words": state.words, "sums": sums_data(*of), "three": three_moments_data(*of), "bounds": bounds_in_words(*of),
+            "left_out": left_out(state.result)}  # fmt: skip

@@ -19,6 +19,7 @@ ROW = {name: k for k, name in enumerate(FIELDS)}
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
 ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 """What is given of a state at many places."""
+DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
 FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force"}
 """Fields by the short names of the columns of a state."""
 
@@ -59,7 +60,7 @@ class Recorder:
         self.x = result._beam.places.point_x
         self.grid = places_on_ground(result) if result._beam.ground_layers else None
 
-    def codes(self, states: tuple[str, ...]) -> list[int]:
+    def codes(self, states: tuple[str, ...]) -> str:
         """Number the states of the supports.
 
         Parameters
@@ -69,12 +70,13 @@ class Recorder:
 
         Returns
         -------
-        list of int
+        str
+            A digit for every support, of 36; what comes after has the last one.
         """
-        for state in states:
-            if state not in self._words:
+        for state in dict.fromkeys(states):
+            if state not in self._words and len(self._words) < len(DIGITS):
                 self._words.append(state)
-        return list(map(self._words.index, states))
+        return "".join(DIGITS[self._words.index(state)] if state in self._words else DIGITS[-1] for state in states)
 
     def columns(self, step: Step) -> dict[str, np.ndarray]:
         """Give the numbers of a state between which states are drawn.
@@ -121,7 +123,7 @@ class Recorder:
                 found[name] = values.tolist()
         columns = self.columns(step)
         if self.grid is not None:
-            found |= {"zones": zones_of(step), "free": free_spans_of(step)}
+            found |= on_ground(step)
             return found | {f"{name}_packed": packed(values) for name, values in columns.items()}
         return found | {name: values.tolist() for name, values in joined_moments(columns).items()}
 
@@ -144,8 +146,8 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
 
 
-def zones_of(step: Step) -> list[list[Any]]:
-    """Give the zones of contact: foundation, ends, state, resultant.
+def on_ground(step: Step) -> dict[str, Any]:
+    """Give what does not follow from the values at many places: zones of contact, free spans, exact extremes.
 
     Parameters
     ----------
@@ -154,24 +156,16 @@ def zones_of(step: Step) -> list[list[Any]]:
 
     Returns
     -------
-    list of list
+    dict
+        ``zones`` foundation, ends, state, resultant; ``free`` foundation, ends, sag; ``extremes`` by field value and place of
+        the largest and of the smallest.
     """
-    return [[one.foundation, one.from_, one.to, one.state, one.resultant] for one in step.contact]
-
-
-def free_spans_of(step: Step) -> list[list[Any]]:
-    """Give the free spans: foundation, ends, sag.
-
-    Parameters
-    ----------
-    step : Step
-        A state on the ground.
-
-    Returns
-    -------
-    list of list
-    """
-    return [[one.foundation, one.from_, one.to, one.sag] for one in step.free_spans]
+    values, x = step.solution.extremes()
+    return {
+        "zones": [[one.foundation, one.from_, one.to, one.state, one.resultant] for one in step.contact],
+        "free": [[one.foundation, one.from_, one.to, one.sag] for one in step.free_spans],
+        "extremes": {name: [values[:, ROW[name]].tolist(), x[:, ROW[name]].tolist()] for name in ON_GROUND.values()},
+    }
 
 
 def stands(step: Step) -> bool:

@@ -99,7 +99,7 @@ def _supports(result: Result) -> TableData:
     table = []
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
-        values = [Cell("") if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
+        values = [Cell("", 0.0) if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
         table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else step.state[k]), *values])
     return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
 
@@ -110,7 +110,8 @@ def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
         for kind, one in row.items():
             if one is not None:
                 words = f"{WORDS[kind]} {_heading(result, name, name.replace('_', ' '))}"
-                rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), Cell(source_in_words(one, result.scene))])
+                source = Cell(source_in_words(one, result.scene))
+                rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), source])
     head = ["", "value", _heading(result, "x", "at x"), "from"]
     if not any(row[3].text for row in rows):
         head, rows = head[:3], [row[:3] for row in rows]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import cached_property
+from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +14,8 @@ from ..engine.beam import SOLVED
 from ..results import formatting as fmt
 from ..results.trains.states import Placed, TrainLoads
 from ..scene.names import label
-from .load_ways import DEEPEST, PIXEL, Way
-from .states import Recorder, free_spans_of, joined_moments, packed, zones_of
+from .load_ways import PIXEL, Way
+from .states import Recorder, joined_moments, on_ground, packed
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -22,12 +25,18 @@ if TYPE_CHECKING:
 
 WITH_AXLES, WITH_UNIFORM = 3, 4
 """Degrees in the position of what axles and uniform loads of a train make at the joints, while the same supports act."""
-MOST_NUMBERS = 24_000
-"""Numbers that a train may take on the page; where its polynomials take more, straight lines between close states do."""
+MOST_NUMBERS = 40_000
+"""Numbers that trains may take on the page; where polynomials take more, parabolas between fewer states do."""
+LEAST_STATES = 100
+"""States of a train on the ground or on smooth laws that are always drawn."""
 
 
 class PlacedRecorder(Recorder):
     """Makes the records of states of a beam with a train on it: what axles make between the joints is added by the page."""
+
+    def __init__(self, result: Result, words: list[str]) -> None:
+        super().__init__(result, words)
+        self._at = result.scene.positions(result.scene.supports)
 
     def placed(self, one: Placed, loads: TrainLoads) -> dict[str, np.ndarray]:
         """Give the numbers of a state between which states are drawn.
@@ -55,19 +64,29 @@ class PlacedRecorder(Recorder):
             values = one.values(x, distance == lengths[piece])
             moment, shear = self._of_axles(one, loads, piece, x, distance == lengths[piece])
             found = {"w": values[0], "m": values[2] - moment, "v": values[3] - shear, "p": values[6]}
-        return found | {"reaction": one.at_supports[0]}
+        return found | ({"reaction": one.at_supports[0]} if self.with_reactions else {})
+
+    @cached_property
+    def with_reactions(self) -> bool:
+        """Whether reactions do not follow from jumps of the shear: on the ground, and where two supports may act at one place."""
+        beam, x = self._beam, self._at
+        across, levels = np.flatnonzero(beam.across), beam.places.levels
+        for one, other in pairwise(across[np.lexsort((beam.sides[across], x[across]))].tolist()):
+            if x[one] == x[other] and not (beam.sides[one] == -1 and beam.sides[other] == 1 and levels[one] < levels[other]):
+                return True
+        return self.grid is not None
 
     def _of_axles(
         self, one: Placed, loads: TrainLoads, piece: np.ndarray, x: np.ndarray, at_end: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Moment and shear of simple bars, as long as the pieces, under the train."""
-        moment, shear = np.zeros(len(x)), np.zeros(len(x))
+        moment, shear, near = np.zeros(len(x)), np.zeros(len(x)), loads.near
         left, right = self.x[piece], self.x[piece + 1]
         for _, at, end, value in loads.loads(one.position, one.acts):
-            here = (at > left) & (at < right) if end == 0.0 else (np.maximum(at, left) < np.minimum(end, right))
+            here = (at > left + near) & (at < right - near) if end == 0.0 else (np.maximum(at, left) < np.minimum(end, right))
             length = right - left
             if end == 0.0:
-                share, before = (at - left) / length, (x < at) | ((x == at) & at_end)
+                share, before = (at - left) / length, (x < at - near) | ((x <= at + near) & at_end)
                 moment += np.where(here, value * np.where(before, (1 - share) * (x - left), share * (right - x)), 0.0)
                 shear += np.where(here, value * np.where(before, 1 - share, -share), 0.0)
             else:
@@ -91,11 +110,19 @@ class TrainWay(Way):
         Largest value of every field.
     loads : TrainLoads
         Puts the train on the beam.
+
+    Attributes
+    ----------
+    numbers : int
+        How many a state takes.
     """
 
     def __init__(self, recorder: PlacedRecorder, largest: dict[str, float], loads: TrainLoads) -> None:
         super().__init__(recorder, largest)
         self.loads = loads
+        self.rows: list[dict[str, np.ndarray]] = []
+        grid = recorder.grid
+        self.numbers = (2 * len(recorder.x) if grid is None else 4 * len(grid[0])) + len(loads.beam.sides) * recorder.with_reactions
         self._known: dict[tuple[float, bytes], tuple[Placed, dict[str, np.ndarray], int | None]] = {}
 
     def at(self, position: float, acts: np.ndarray) -> tuple[Placed, dict[str, np.ndarray]] | None:
@@ -137,13 +164,26 @@ class TrainWay(Way):
         placed, columns, number = self._known[key]
         if number is None:
             number = len(self.states)
-            record: dict[str, Any] = {"position": one.position}
-            if self.recorder.grid is not None:
-                record |= {"zones": zones_of(one.step), "free": free_spans_of(one.step)}
-            packable = columns if self.recorder.grid is not None else joined_moments(columns)
-            self.states.append(record | {f"{name}_packed": packed(values) for name, values in packable.items()})
+            self.states.append(on_ground(one.step) if self.recorder.grid is not None else {})
+            self.rows.append(columns)
             self._known[key] = placed, columns, number
         return number
+
+    def matrix(self) -> dict[str, Any]:
+        """Give the numbers of all states.
+
+        Returns
+        -------
+        dict
+            ``columns`` names with their lengths, ``packed`` the states one after the other.
+        """
+        rows = self.rows
+        if self.recorder.grid is None:  # no couples: one moment for both sides of a joint
+            shorter = [joined_moments(row) for row in rows]
+            rows = shorter if all("m_left" not in row for row in shorter) else rows
+        columns = [[name, len(values)] for name, values in rows[0].items()] if rows else []
+        flat = [values for row in rows for values in row.values()]
+        return {"columns": columns, "packed": packed(np.concatenate(flat)) if flat else ""}
 
     def run(self, from_: float, to: float, degree: int) -> None:
         """Add the interval between two positions, as one polynomial, or halved until straight lines do.
@@ -163,33 +203,51 @@ class TrainWay(Way):
             return
         self.interval(from_, to, [self.number(one) for one, _ in nodes], inside[0].step)
 
-    def halve(self, from_: float, to: float, depth: int = 0) -> None:
-        """Add the interval between two positions by straight lines between states.
+    def refine(self, ends: list[float], most: int) -> float:
+        """Add parabolas between states, and halve the worst of them as long as they are wrong by more than a pixel.
 
         Parameters
         ----------
-        from_, to : float
-            Its ends.
-        depth : int
-            Times that it has been halved.
+        ends : list of float
+            Positions between which to begin.
+        most : int
+            States that are taken.
+
+        Returns
+        -------
+        float
+            By how many pixels the worst is wrong at the end.
         """
-        middle = from_ + (to - from_) / 2
-        acts = self.loads.acting(middle)
-        ends = [self.at(position, acts) for position in (from_, middle, to)]
-        if None in ends:
-            return
-        (one, first), (inside, found), (other, last) = ends
-        straight = {name: (first[name] + last[name]) / 2 for name in first if name != "reaction"}
-        if depth < DEEPEST and self.difference(straight, {name: found[name] for name in straight}) > PIXEL:
-            self.halve(from_, middle, depth + 1)
-            self.halve(middle, to, depth + 1)
-        else:
-            self.interval(from_, to, [self.number(one), self.number(other)], inside.step)
+        queue = [one for pair in pairwise(ends) if (one := self._parabola(*pair)) is not None]
+        heapify(queue)
+        while 2 * len(queue) < most and queue and -queue[0][0] > PIXEL:
+            _, from_, middle, to = heappop(queue)
+            for one in (self._parabola(from_, middle), self._parabola(middle, to)):
+                if one is not None:
+                    heappush(queue, one)
+        worst = -queue[0][0] / PIXEL if queue else 0.0
+        for _, from_, _, to in sorted(queue, key=lambda one: one[1]):
+            self.run(from_, to, 2)
+        return worst
+
+    def _parabola(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
+        """Error of parabolas between two positions, less than 0 so that the worst comes first; and positions."""
+        positions = [from_ + (to - from_) * part for part in (0.0, 0.25, 0.5, 0.75, 1.0)]
+        acts = self.loads.acting(positions[2])
+        states = [self.at(position, acts) for position in positions]
+        if to - from_ <= 4 * self.loads.near or None in states:
+            return None
+        nodes, error = [states[k][1] for k in (0, 2, 4)], 0.0
+        for (_, found), parts in ((states[1], (3, 6, -1)), (states[3], (-1, 6, 3))):
+            drawn = {name: sum(part * one[name] for part, one in zip(parts, nodes, strict=True)) / 8 for name in found}
+            drawn, found = ({name: values for name, values in one.items() if name != "reaction"} for one in (drawn, found))
+            error = max(error, self.difference(drawn, found))
+        return -error, from_, positions[2], to
 
 
 def way_of_train(
     result: Result, train: TrainResult, traversal: ExactTraversal | SampledTraversal, words: list[str], largest: dict[str, float],
-    most: int = MOST_NUMBERS,
+    most: int = MOST_NUMBERS, also: Sequence[float] = (),
 ) -> dict[str, Any]:  # fmt: skip
     """Give the way of a train in one direction.
 
@@ -207,6 +265,8 @@ def way_of_train(
         Largest value of every field over all positions.
     most : int
         Numbers that it may take.
+    also : sequence of float
+        Positions whose states are given too.
 
     Returns
     -------
@@ -216,15 +276,16 @@ def way_of_train(
     loads = TrainLoads(beam, result._rule, course, traversal.near)
     way = TrainWay(PlacedRecorder(result, words), largest, loads)
     lost = [one for one in train.unstable_positions if one.direction == course.direction]
-    changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)})
+    changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)} | {*also})
     ends = _ends(course, changes, way.recorder.x)
     degree = WITH_UNIFORM if len(course.uniform) else WITH_AXLES
-    numbers = 2 * len(way.recorder.x) + len(result.scene.supports)
-    exact = beam.is_linear_between_events and len(ends) * degree * numbers <= most
-    for from_, to in pairwise(ends):
-        if to - from_ <= 4 * traversal.near or any(one.from_ <= from_ and to <= one.to for one in lost):
-            continue
-        way.run(from_, to, degree) if exact else way.halve(from_, to)
+    exact, worst = beam.is_linear_between_events and len(ends) * degree * way.numbers <= most, 0.0
+    if not exact:
+        kept = ends if beam.ground_layers else _kept(course, changes, way.recorder.x)
+        worst = way.refine(kept, max(LEAST_STATES, most // way.numbers))
+    for from_, to in pairwise(ends if exact else []):
+        if to - from_ > 4 * traversal.near and not any(one.from_ <= from_ and to <= one.to for one in lost):
+            way.run(from_, to, degree)
     scene = result.scene
     events = []
     for one in traversal.events:
@@ -233,10 +294,11 @@ def way_of_train(
         what = {"support": one.support} if of_support else {"foundation": one.foundation}
         events.append({"at": one.position, **what, "x": one.x, "words": f"{name} {one.event}"})
     return {
-        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states, "intervals": way.intervals,
+        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states,
+        **way.matrix(), "intervals": way.intervals,
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
-        "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],
+        "pixels": worst, "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],
     }  # fmt: skip
 
 
@@ -247,3 +309,8 @@ def _ends(course: Course, changes: list[float], x: np.ndarray) -> list[float]:
     inside = passing[(passing > course.from_) & (passing < course.to)].tolist()
     found = sorted({course.from_, course.to, *inside, *(one for one in changes if course.from_ <= one <= course.to)})
     return found
+
+
+def _kept(course: Course, changes: list[float], x: np.ndarray) -> list[float]:
+    """Positions of `_ends` but those at which loads pass inner joints."""
+    return _ends(course, changes, x[[0, -1]])

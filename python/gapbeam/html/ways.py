@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
 
-MOST_WAYS = 60
-"""Combinations, or trains in combinations, that a page moves."""
+Of = tuple[str | None, str | None, str | None]
+"""Names of a combination and of a train, and which way that goes; None for what there is not."""
+MOST_WAYS, MOST_VALUES = 60, 12_000
+"""Combinations, or trains in combinations, that a page moves; numbers that their states may take."""
 
 
 class Collected:
@@ -40,11 +42,13 @@ class Collected:
         self.words: list[str] = []
         self.left_out = 0
 
-    def add(self, title: str, result: Result, way: dict[str, Any]) -> None:
+    def add(self, of: Of, title: str, result: Result, way: dict[str, Any]) -> None:
         """Add a way.
 
         Parameters
         ----------
+        of : (str, str, str)
+            Names of the combination and of the train, and which way that goes; None for what there is not.
         title : str
             What it is called.
         result : Result
@@ -53,10 +57,11 @@ class Collected:
             States, intervals, events; or a motion.
         """
         supports = supports_data(result.scene, result._beam.places.levels)
-        self.ways.append({
-            "title": title, "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
-            "loads": _number(self.loads, loads_data(result.scene)), **way,
-        })  # fmt: skip
+        shared = {
+            "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
+            "loads": _number(self.loads, loads_data(result.scene)),
+        }  # fmt: skip
+        self.ways.append({"of": list(of), "title": title, **shared, **way})
 
 
 def _number(known: list[Any], one: Any) -> int:
@@ -65,7 +70,9 @@ def _number(known: list[Any], one: Any) -> int:
     return known.index(one)
 
 
-def collect_ways(result: Result, envelope: Envelope | TrainEnvelope | None) -> Collected:
+def collect_ways(
+    result: Result, envelope: Envelope | TrainEnvelope | None, first: tuple[Of, float | None] | None = None
+) -> Collected:
     """Find all that a page moves.
 
     Parameters
@@ -74,6 +81,8 @@ def collect_ways(result: Result, envelope: Envelope | TrainEnvelope | None) -> C
         Of one load or of combinations.
     envelope : Envelope or TrainEnvelope or None
         Its `Result.envelope`, if there is one.
+    first : (tuple, float or None), optional
+        The way that is shown first, as in `Collected.add`, and of a train its position.
 
     Returns
     -------
@@ -82,16 +91,17 @@ def collect_ways(result: Result, envelope: Envelope | TrainEnvelope | None) -> C
     """
     found = Collected()
     if not result.combinations:
-        _ways_of(found, "", result, envelope)
+        _ways_of(found, None, result, envelope, first)
         return found
     names = list(result.combinations)
     chosen = set(_governing(envelope) if envelope is not None else names)
     chosen = [name for name in names if name in chosen] + [name for name in names if name not in chosen]
-    most = MOST_WAYS if not result.scene.trains else max(1, MOST_WAYS // (4 * len(result.scene.trains)))
+    numbers = 2 * len(result._beam.places.point_x) + 3 * len(result.scene.supports)
+    most = max(1, min(MOST_WAYS, MOST_VALUES // numbers) // (1 + 4 * len(result.scene.trains)))
     chosen = sorted(chosen[:most], key=names.index)
     found.left_out = len(names) - len(chosen)
     for name in chosen:
-        _ways_of(found, visible(name), result.combinations[name], envelope, len(chosen))
+        _ways_of(found, name, result.combinations[name], envelope, first, len(chosen))
     return found
 
 
@@ -104,24 +114,26 @@ def _governing(envelope: Envelope | TrainEnvelope) -> Iterator[str]:
 
 
 def _ways_of(
-    found: Collected, name: str, result: Result, envelope: Envelope | TrainEnvelope | None, shared_by: int = 1
+    found: Collected, of: str | None, result: Result, envelope: Envelope | TrainEnvelope | None,
+    first: tuple[Of, float | None] | None, shared_by: int = 1,
 ) -> None:  # fmt: skip
     """Add the ways of one load: that of the load, those of its trains, and how it moves where it cannot stand."""
+    name = visible(of or "")
     trains = result.trains.values() if result.scene.trains and result.has_answer else ()
     traversals = [(train, one) for train in trains for one in train.traversals]
-    largest = {} if envelope is None else {
-        field: max((abs(one.value) for one in row.values() if one is not None), default=0.0) for field, row in envelope.extremes.items()
-    }  # fmt: skip
+    fields = {} if envelope is None else envelope.extremes
+    largest = {name: max((abs(one.value) for one in row.values() if one), default=0.0) for name, row in fields.items()}
     for train, traversal in traversals:
         going = f", going {traversal.course.direction}" if len(train.traversals) > 1 else ""
         most = MOST_NUMBERS // (len(traversals) * shared_by)
         words = ": ".join(part for part in (name, f"{visible(train.name)}{going}") if part)
-        found.add(words, result, way_of_train(result, train, traversal, found.words, largest, most))
+        way = of, train.name, traversal.course.direction
+        also = [first[1]] if first is not None and first[0] == way else []
+        found.add(way, words, result, way_of_train(result, train, traversal, found.words, largest, most, also))
+    if result.motion or not (result.steps or traversals):
+        motion = {"motion": [list(pair) for pair in result.motion or ()], "reason": visible(result.reason or ""), "axis": "motion"}
+        words = "free motion" if result.motion else "no answer"
+        found.add((of, None, "motion"), ": ".join(part for part in (name, words) if part), result, motion)
     if result.steps:
-        alone = "without trains" if traversals else ""
-        found.add(": ".join(part for part in (name, alone) if part), result, way_of_load(result, found.words))
-    if result.motion:
-        motion = {"motion": [list(pair) for pair in result.motion], "reason": result.reason, "axis": "motion"}
-        found.add(": ".join(part for part in (name, "free motion") if part), result, motion)
-    elif not result.steps and not traversals:
-        found.add(name or "no answer", result, {"motion": [], "reason": result.reason, "axis": "motion"})
+        alone = "without trains" if traversals else "as far as it stands" if result.motion else ""
+        found.add((of, None, None), ": ".join(part for part in (name, alone) if part), result, way_of_load(result, found.words))

@@ -1,7 +1,8 @@
-"""What a checker has to know beside the numbers, in sentences: what was left out, error bounds, how exact the pictures are."""
+"""Sentences for a checker, beside the numbers: what was left out, error bounds, how exact the pictures are."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
@@ -34,11 +35,11 @@ EXACT = {
     "one": "It is the state at full load. Give follow = \"events\" in [analysis] to follow the load.",
     "steps": "The slider goes through the load steps of the input. Nothing is drawn between them.",
     "path": "Between two events every value is a straight line in the load factor, so all that is drawn is exact.",
-    "states": "Between two events values are curved in the load factor. Drawn are states at most a pixel apart, with straight lines "
-    "between them; events, tables and extremes are exact.",
+    "states": "Between two events values are curved in the load factor. Drawn are states at most a pixel apart, with straight "
+    "lines between them. Events and tables are exact.",
     "positions": "Between two events every value is a polynomial in the position of the train. Drawn are these polynomials.",
-    "close positions": "Drawn are states at positions so close that straight lines between them are right to a pixel; events, "
-    "tables and extremes are exact.",
+    "close positions": "While the train passes, states at single positions are drawn, with parabolas between them. Tables are "
+    "exact.",
 }  # fmt: skip
 """How exact the pictures are, by `over` of a way."""
 
@@ -103,7 +104,10 @@ def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
     list of str
     """
     kinds = dict.fromkeys(way["over"] for way in collected.ways if "over" in way)
-    found = [EXACT[kind] for kind in kinds]
+    found = [EXACT[kind] for kind in kinds if kind != "one" or len(collected.ways) == 1]
+    if "close positions" in kinds:
+        worst = max(1.0, *(way.get("pixels", 0.0) for way in collected.ways))
+        found.append(f"The parabolas are right to {fmt.count(math.ceil(worst), 'pixel')}.")
     if scene_has_ground:
         found.append("Along a beam on the ground values are given at many places, with straight lines between them.")
     elif kinds:

@@ -13,16 +13,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.path import Path
-from matplotlib.transforms import ScaledTranslation, Transform
 
 from ..results.formatting import stretch
 from .reactions import arrow_lane, draw_reactions
+from .sheet import is_upright
 from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, plain_kinds
 from .support_labels import SupportTexts
+from .turned import Turned, is_turned, shifted
 
 if TYPE_CHECKING:
-    from ..results.state.step import Step
     from ..scene.structs import Scene, Support
+    from .support_values import SupportValues
 
 #: Half the depth of the beam, points
 HALF = 2.5
@@ -41,6 +42,7 @@ _WALL = Path(
     [(0, -1), (0, 1), *(point for y in np.linspace(-0.8, 1.0, 7) for point in ((0, y), (-0.35, y - 0.2)))],
     [1, 2] * 8,
 )
+_SETTLED = Path([(0, 1), (0, -1), (-0.35, -0.5), (0, -1), (0.35, -0.5)], [1, 2, 1, 2, 2])
 _SPIRAL = Path(np.array([(t * math.cos(7 * t), t * math.sin(7 * t)) for t in np.linspace(0.0, 1.0, 40)]))
 
 
@@ -53,12 +55,12 @@ class SupportLanes:
         The scene.
     states : tuple of str
         State of each support.
-    width : float
-        Width of the panel.
+    length : float
+        Length of the drawn beam.
     ground : (float, float)
         What foundations take up below and above the axis of the beam.
-    step : Step, optional
-        State whose reactions are drawn.
+    values : SupportValues, optional
+        Reactions and openings that are drawn.
     kinds : tuple of str, optional
         What each support does, as `states.kinds_of`; default by its state.
 
@@ -77,15 +79,16 @@ class SupportLanes:
     """
 
     def __init__(
-        self, scene: "Scene", states: tuple[str, ...], width: float, ground: tuple[float, float] = (0.0, 0.0),
-        step: "Step | None" = None, kinds: tuple[str, ...] | None = None,
+        self, scene: "Scene", states: tuple[str, ...], length: float, ground: tuple[float, float] = (0.0, 0.0),
+        values: "SupportValues | None" = None, kinds: tuple[str, ...] | None = None,
     ) -> None:  # fmt: skip
-        self.step, self.kinds = step, kinds or plain_kinds(states)
+        self.values, self.kinds = values, kinds or plain_kinds(states)
         supports = [support for support in scene.supports if support.direction == "normal"]
         self.x = scene.positions(scene.supports)
         self.places = np.unique(self.x)
-        self.spacing = (width - 60) / max(1, len(self.places) - 1)
-        self.size = min(8.0, max(2.0, 0.75 * self.spacing))
+        self.spacing = length / max(1, len(self.places) - 1)
+        near = np.diff(self.places).min(initial=np.inf) * length / float(scene.span_ends()[-1])
+        self.size = min(8.0, max(2.0, 0.75 * self.spacing), max(3.5, 0.8 * near))
         self.rows: list[str] = []
         below = above = HALF
         if len(self.places) > MOST_SYMBOLS:
@@ -103,17 +106,18 @@ class SupportLanes:
                 below, above = max(below, 13.0), max(above, 12.0)
         below, above = max(below, ground[0]), max(above, ground[1])
         self.arrows = -below - 2.0
-        self.texts = SupportTexts(scene, self.x, width, self.arrows - arrow_lane(step), step)
+        foot = self.arrows - arrow_lane(values)
+        self.texts = SupportTexts(scene, self.x, length, foot, values, is_upright(scene))
         self.bottom = self.texts.bottom
         self.top = above + 2.0
 
 
-def draw_beam(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+def draw_beam(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
     """Draw the beam, its hinges and its supports.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel; its vertical unit is one point.
     scene : Scene
         The scene.
@@ -130,21 +134,21 @@ def draw_beam(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Suppor
         _ticks(axes, scene, states, lanes)
     else:
         _symbols(axes, scene, states, lanes)
-    if lanes.step is not None:
-        draw_reactions(axes, scene, lanes.step, lanes.x, lanes.arrows)
+    if lanes.values is not None:
+        draw_reactions(axes, lanes.values, lanes.x, lanes.arrows)
     for x, y, words, lifted in lanes.texts.texts:
         axes.text(x, y, words, fontsize=6.5, ha="center", va="top", color=VERMILION if lifted else "0.15", linespacing=1.15)
-    if lanes.texts.unit:
+    if lanes.texts.unit and not is_turned(axes):
         axes.annotate(lanes.texts.unit, (0.0, lanes.arrows), (-14, -3), xycoords="data", textcoords="offset points", fontsize=6.5,
                       ha="right", va="top", annotation_clip=False)  # fmt: skip
 
 
-def draw_contacts(axes: Axes, scene: "Scene", lanes: SupportLanes, largest: float) -> list[tuple[float, float]]:
+def draw_contacts(axes: Axes | Turned, scene: "Scene", lanes: SupportLanes, largest: float) -> list[tuple[float, float]]:
     """Mark in the panel of the deflection where one-sided supports meet the beam: gap and opening to scale.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel, positive downward.
     scene : Scene
         The scene.
@@ -162,15 +166,15 @@ def draw_contacts(axes: Axes, scene: "Scene", lanes: SupportLanes, largest: floa
         return []
     groups = defaultdict(list)
     for support, state, x in zip(scene.supports, lanes.kinds, lanes.x, strict=True):
-        if support.side != "both" and support.direction == "normal":
-            sign = 1.0 if support.side == "below" else -1.0
+        if (support.side != "both" or support.settlement) and support.direction == "normal":
+            sign = -1.0 if support.side == "above" else 1.0
             y = support.settlement + sign * support.gap
             if abs(y) <= 1.5 * largest:
                 groups[state, sign].append((float(x), y))
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
         symbol = SYMBOLS[state]
-        axes.scatter(x, y, marker=_turned(symbol.path, sign), s=_area(5.0), facecolors=symbol.face,
+        axes.scatter(x, y, marker=_mirrored(symbol.path, sign), s=_area(5.0), facecolors=symbol.face,
                      edgecolors=symbol.edge, linewidths=0.75 * symbol.width, zorder=4, label=f"contact {state}")  # fmt: skip
     return [point for points in groups.values() for point in points]
 
@@ -197,17 +201,12 @@ def _area(height: float) -> float:
     return (2.0 * height) ** 2
 
 
-def _shifted(axes: Axes, points: float) -> Transform:
-    """Make the transform of the panel, moved to the right by some points."""
-    return axes.transData + ScaledTranslation(points / 72, 0.0, axes.figure.dpi_scale_trans)
-
-
-def _turned(path: Path, sign: float) -> Path:
+def _mirrored(path: Path, sign: float) -> Path:
     """Mirror a symbol upward where `sign` is negative."""
     return Path(path.vertices * (1.0, sign), path.codes)
 
 
-def _girder(axes: Axes, scene: "Scene") -> None:
+def _girder(axes: Axes | Turned, scene: "Scene") -> None:
     """Draw the beam, the thicker the stiffer."""
     ends = scene.span_ends()
     cuts = np.unique([*ends, *(x for section in scene.sections for x in stretch(scene, section))])
@@ -225,9 +224,9 @@ def _girder(axes: Axes, scene: "Scene") -> None:
     axes.add_collection(LineCollection(pieces, linewidths=widths, colors="0.2", capstyle="projecting", zorder=3, label="beam"))
 
 
-def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
     """Draw every support as a symbol; equal ones are one collection."""
-    symbols, springs, ground = defaultdict(list), defaultdict(list), defaultdict(list)
+    symbols, springs, ground, settled = (defaultdict(list) for _ in range(4))
     end = float(scene.span_ends()[-1])
     for support, state, kind, x in zip(scene.supports, states, lanes.kinds, lanes.x, strict=True):
         if support.direction == "axial":
@@ -240,7 +239,7 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
         elif support.rotation != "free" and support.rotation:
             outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
             axes.scatter([x], [0.0], marker=_SPIRAL, s=_area(7.0), facecolors="none", edgecolors="black", zorder=6,
-                         linewidths=0.9, transform=_shifted(axes, outward), label="rotational spring")  # fmt: skip
+                         linewidths=0.9, transform=shifted(axes, outward), label="rotational spring")  # fmt: skip
         for sign in (1.0, -1.0):
             if support.side == ("above" if sign > 0 else "below"):
                 continue
@@ -252,19 +251,26 @@ def _symbols(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: Support
                 springs[sign].append((x, -sign * y))
                 y += lanes.size
             ground[sign].append((x, -sign * y))
+        if support.settlement:
+            settled[math.copysign(1.0, support.settlement)].append((x, -y if support.side != "above" else y))
+    for sign, points in settled.items():  # a small arrow beside the symbol
+        x, y = np.transpose(points)
+        axes.scatter(x, y, marker=Path(_SETTLED.vertices * (1.0, sign), _SETTLED.codes), s=_area(6.0), facecolors="none",
+                     edgecolors=VERMILION, linewidths=1.0, zorder=5, transform=shifted(axes, 1.1 * lanes.size),
+                     label="settlements")  # fmt: skip
     for (label, kind, sign), points in symbols.items():
         x, y = np.transpose(points)
         symbol = SYMBOLS[kind]
-        axes.scatter(x, y, marker=_turned(symbol.path, sign), s=_area(lanes.size), facecolors=symbol.face,
+        axes.scatter(x, y, marker=_mirrored(symbol.path, sign), s=_area(lanes.size), facecolors=symbol.face,
                      edgecolors=symbol.edge, linewidths=symbol.width, zorder=5, label=label)  # fmt: skip
     for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
         for sign, points in sets.items():
             x, y = np.transpose(points)
-            axes.scatter(x, y, marker=_turned(path, sign), s=_area(lanes.size * (1.0 if name == "springs" else 0.75)),
+            axes.scatter(x, y, marker=_mirrored(path, sign), s=_area(lanes.size * (1.0 if name == "springs" else 0.75)),
                          facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
 
 
-def _clamp(axes: Axes, x: float, end: float) -> None:
+def _clamp(axes: Axes | Turned, x: float, end: float) -> None:
     """Draw a wall at an end of the beam, a wall on either side inside it."""
     for sign in (1.0, -1.0):
         if (sign < 0.0 and x <= 1e-9 * end) or (sign > 0.0 and x >= end * (1.0 - 1e-9)):
@@ -274,7 +280,7 @@ def _clamp(axes: Axes, x: float, end: float) -> None:
                      edgecolors="black", linewidths=1.0, zorder=5, label="clamp")  # fmt: skip
 
 
-def _axial(axes: Axes, scene: "Scene", x: float, end: float, lanes: SupportLanes) -> None:
+def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: SupportLanes) -> None:
     """Draw a horizontal support: a triangle outside the end of the beam, or under it where it is inside."""
     outward = -1.0 if x <= end / 2 else 1.0
     clamped = any(
@@ -282,12 +288,12 @@ def _axial(axes: Axes, scene: "Scene", x: float, end: float, lanes: SupportLanes
         for support, place in zip(scene.supports, lanes.x, strict=True)
     )
     path = Path(TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), TRIANGLE.codes)
-    beside = _shifted(axes, outward * (6.0 if clamped else 1.0))
+    beside = shifted(axes, outward * (6.0 if clamped else 1.0))
     axes.scatter([x], [0.0], marker=path, s=_area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
                  linewidths=0.8, zorder=5, transform=beside, label="axial")  # fmt: skip
 
 
-def _ticks(axes: Axes, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
+def _ticks(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:
     """Draw one row of ticks for every state and side."""
     groups = defaultdict(list)
     for support, state, x in zip(scene.supports, states, lanes.x, strict=True):

@@ -26,7 +26,7 @@ KINK = ("s", "black")
 NOTES = {
     "closes": "circles: filled, the support closes; open, it opens",
     "breaks": "crosses: a support breaks",
-    "kink": "squares: a support passes a breakpoint of its law",
+    "kink": "squares: a support {what}",
     "limit": "triangles: limit loads",
     "unstable": "dotted: unstable",
     "jump": "arrows: jumps",
@@ -116,7 +116,8 @@ class Trace:
         """Say what lines and marks mean, as far as they occur."""
         named = {_kind(mark.what) for mark in self.marks}
         named |= {name for name, way in (("unstable", UNSTABLE), ("jump", JUMP)) if way in self.ways}
-        notes = [text for name, text in NOTES.items() if name in named]
+        what = " or ".join(sorted({mark.what for mark in self.marks if _kind(mark.what) == "kink"}))
+        notes = [text.format(what=what) for name, text in NOTES.items() if name in named]
         if self.lands:
             notes[-1] = "arrow and diamonds: where the load would jump to"
         return "; ".join(notes)
@@ -182,7 +183,7 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
             axes.plot(x, y, linewidth=1.0, color="0.4", linestyle=(0, (0.8, 2.4)), clip_on=False,
                       label=f"unstable {k}")  # fmt: skip
         else:
-            axes.plot(x, y, linewidth=1.3, clip_on=False, label=label, **style)
+            axes.plot(x, y, linewidth=1.5, clip_on=False, label=label, **style)
     if arrows and 2 * len(trace.spans) <= MOST_POINTS:
         for first, last in trace.spans:
             middle = (trace.factors[first] + trace.factors[last]) / 2
@@ -190,7 +191,7 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
             x, y = trace.factors[j : j + 2], values[j : j + 2]
             if abs(trace.factors[last] - trace.factors[first]) > 0.12 * np.ptp(trace.factors):
                 near = [(x[0] + share * (x[1] - x[0]), y[0] + share * (y[1] - y[0])) for share in (0.6, 0.62)]
-                _arrow(axes, *near, {"arrowstyle": "-|>", "linewidth": 0.0, "color": "black", "mutation_scale": 10.0})
+                _arrow(axes, *near, {"arrowstyle": "-|>", "linewidth": 0.0, "color": style["color"], "mutation_scale": 10.0})
     for point, support, what in trace.marks:
         if what == "limit":
             axes.plot(trace.factors[point], values[point], "^", color="black", markersize=6.5, clip_on=False)

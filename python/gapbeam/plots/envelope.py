@@ -1,148 +1,241 @@
-"""The envelope of combinations as one picture: largest and smallest values along the beam, and which combination gives them."""
+"""Envelopes of combinations and trains as pictures: largest and smallest values along the beam, reactions, and what governs."""
 
 from __future__ import annotations
 
+import textwrap
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
+from msgspec.structs import replace
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.formatting import stretch
+from ..results.trains.envelope import places_along
+from ..scene.loads import ForceLoad
 from .beam import SupportLanes, draw_beam
+from .bezier import path_of, smooth
+from .curves import add_path, limit_values
 from .ground import GroundLanes, draw_ground, points_a_span
+from .key import CHARACTERS, LINE, Key, source_name
 from .labels import text_width
+from .load_symbols import draw_loads
+from .loads import LoadLanes
 from .marks import Marks
-from .panels import (
-    LEFT,
-    MOST_POINTS,
-    PANEL,
-    PANELS,
-    RIGHT,
-    SPACE,
-    WIDTH,
-    counts,
-    cut_text,
-    frame_panel,
-    panel_axes,
-)
+from .panels import MOST_POINTS, PANELS, counts, cut_text
 from .save import literal
+from .sheet import Sheet, along
+from .states import legend_handles, plain_states
+from .support_values import EnvelopeValues
 from .thin import outline
+from .turned import Turned, is_turned, raw
 
 if TYPE_CHECKING:
-    from ..results.cases.combined import CombinedResult
     from ..results.envelopes.envelope import Curves, Envelope
+    from ..results.result import Result
+    from ..results.trains.envelope import TrainEnvelope
+    from ..scene.structs import Scene
 
-STRIP = 0.06
-"""Height of the strip that tells which combination governs, as a share of the panel."""
-SHADES = ("0.88", "0.70")
+STRIP = 0.08
+"""Height of the strip that tells what governs, as a share of the panel."""
 MOST_POINTS_FILLED = 20_000
 """Points of a curve up to which the range is filled."""
+MOST_CURVED = 1_000
+"""Points of a curve up to which it is rounded between them."""
 MOST_STRIPS = 500
-"""Changes of the combination that governs that are drawn along a beam."""
-MOST_NAMED = 26
-"""Characters of the name of a combination beside its value."""
+"""Changes of what governs that are drawn along a beam."""
+POINTS, POINTS_ALL, MOST_ON_GROUND = 40, 80, 80
+"""Divisions of a span, and of a beam, at least."""
+BESIDE = 1e-9
+"""How far beside a place a curve is looked at where it may jump, as a share of the beam."""
+ABOUT = ("moment", "shear", "deflection")
+"""Quantity whose largest value decides where trains are drawn: the first that is there."""
 
 
-def envelope_figure(result: CombinedResult) -> Figure:
-    """Draw the envelope of combinations as a matplotlib figure.
+def envelope_figure(result: Result) -> Figure:
+    """Draw the envelope of combinations, of trains, or of both as a matplotlib figure.
 
     Parameters
     ----------
-    result : CombinedResult
-        What `gapbeam.solve` returned.
+    result : Result
+        With combinations or trains.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Under the beam a panel for every field: the range between its smallest and its largest values; the strips at the edges
-        tell which combination gives them, and extremes have place and combination beside them.
+        Beside the supports stand their largest and smallest reactions; trains stand where the largest moment comes from. Under the
+        beam is a panel for every field: the range between its smallest and its largest values. The strips at the edges tell what
+        governs, by letters that the key below explains; extremes have place and source beside them.
     """
     scene = result.scene
-    solved = "solved" in result.statuses
-    points = int(max(2, min(max(40, points_a_span(scene, result._beam)), MOST_POINTS // len(scene.beam.spans))))
-    envelope = result.envelope(points) if solved else None
+    envelope = _envelope(result)
+    sources = [] if envelope is None else getattr(envelope, "_members", None) or envelope.sources
+    names = [source_name(one) for one in sources]
+    key = Key(len(set(names)))
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
-    states = tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
-    width = (WIDTH - LEFT - RIGHT) * 72
-    ground = GroundLanes(scene, width)
-    supports = SupportLanes(scene, states, width, (ground.below, ground.above))
-    beam, heading = (supports.top + 4.0 - supports.bottom) / 72, 0.6
-    height = heading + 0.04 + beam + len(panels) * (PANEL + SPACE) + 0.42
-    picture = Figure(figsize=(WIDTH, height), dpi=200)
-    top = height - heading
-    axes = panel_axes(picture, scene, top - beam, beam)
-    axes.set_axis_off()
-    axes.set_ylim(supports.bottom, supports.top + 4.0)
-    draw_ground(axes, ground, ())
-    draw_beam(axes, scene, states, supports)
-    _headings(picture, result)
-    bottom = top - beam - SPACE
+    drawn = {panel[0]: _governing(envelope.fields, panel[0], names, key) for panel in panels}
+    length, states = along(scene), plain_states(scene)
+    ground = GroundLanes(scene, length)
+    values = None if envelope is None else EnvelopeValues(scene, envelope, key)
+    supports = SupportLanes(scene, states, length, (ground.below, ground.above), values)
+    extremes = {panel[0]: _marks(envelope.extremes[panel[0]], key) for panel in panels}
+    loaded, note = _loaded(envelope, scene) if scene.trains and envelope is not None else (None, "")
+    loads = None if loaded is None else LoadLanes(loaded, supports.top, length)
+    if values is not None and len(values.up):
+        positions = ", with the position of the train" * bool(scene.trains)
+        note += f" Beside supports: the largest and the smallest reaction{positions}."
+    top = supports.top + 4.0 if loads is None else loads.top
+    lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
+    foot = LINE * len(lines) + 0.08
+    text = _headline(result, sources)
+    sheet = Sheet(scene, 0.6 + 0.15 * text.count("\n"), supports.bottom, top, len(panels), foot)
+    draw_ground(sheet.sketch, ground, ())
+    draw_beam(sheet.sketch, scene, states, supports)
+    if loads is not None:
+        draw_loads(sheet.sketch, loads)
+    sheet.write_heading(text, legend_handles(states) * (not supports.rows), low=False)
     for quantity, words, downward in panels:
-        bottom -= PANEL
-        axes = panel_axes(picture, scene, bottom, PANEL)
-        frame_panel(axes, scene, quantity, words, downward)
-        _range(axes, quantity, envelope, result.names, fmt.shown_unit(scene, quantity)[1])
-        bottom -= SPACE
-    if panels:
-        axes.tick_params(labelbottom=True)
-        axes.set_xlabel(fmt.with_unit(scene, "x"), fontsize=8)
-    return literal(picture)
+        panel = sheet.panel(quantity, words, downward)
+        _range(panel, scene, envelope.fields, quantity, extremes[quantity], bool(drawn[quantity]))
+        for edge, stretches in enumerate(drawn[quantity]):
+            _strip(panel, stretches, key, edge, length)
+    sheet.finish()
+    key.write(sheet.picture, lines, 0.24)
+    return literal(sheet.picture)
 
 
-def _headings(picture: Figure, result: CombinedResult) -> None:
-    height, left = picture.get_figheight(), LEFT / WIDTH * 0.25
-    title = cut_text(fmt.title(result.scene, "Beam"), 95)
-    picture.text(left, 1 - 0.22 / height, title, fontsize=10, fontweight="bold", va="center")
-    solved = result.statuses.count("solved")
-    text = f"Envelope of {fmt.count(solved, 'combination')}; the strips tell which one governs"
-    if solved < len(result.names):
-        text = f"Envelope of {solved:,} of {fmt.count(len(result.names), 'combination')}, the others are not solved"
-    picture.text(left, 1 - 0.34 / height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
+def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
+    """Make the envelope at so many places that its curves look smooth; where something jumps, on both sides."""
+    scene = result.scene
+    points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result._beam), MOST_ON_GROUND))
+    points = int(max(2, min(points, MOST_POINTS // len(scene.beam.spans))))
+    if not scene.trains:
+        return result.envelope(points) if "solved" in result.statuses else None
+    places, end = places_along(result._beam, points), float(scene.span_ends()[-1])
+    jumps = [scene.positions(scene.supports), *_ends_of_ways(result), *([stretch(scene, item)] for item in scene.foundation)]
+    jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
+    jumps = jumps[(jumps > 0.0) & (jumps < end)]
+    beside = np.concatenate((places, jumps - BESIDE * end, jumps + BESIDE * end))
+    return result.envelope(x=np.unique(beside))
 
 
-def _range(axes: Axes, quantity: str, envelope: Envelope, names: tuple[str, ...], factor: float) -> None:
-    """Draw the range of one field, its extremes, and which combinations give it."""
-    curves, extremes = envelope.fields, envelope.extremes[quantity]
-    width = (WIDTH - LEFT - RIGHT) * 72
+def _ends_of_ways(result: Result) -> list[np.ndarray]:
+    """Give the places of axles where trains begin and end their way, if that is on the beam: there shears jump."""
+    found = []
+    for train in result.scene.trains:
+        ends = [place for place in (train.from_, train.to) if place is not None]
+        offsets = np.array([distance for distance, _ in train.axles], dtype=float)
+        found += [place + sign * offsets for place in ends for sign in (1.0, -1.0)]
+    return found
+
+
+def _headline(result: Result, sources: list[Any]) -> str:
+    """Say what the picture is of."""
+    text = "Largest and smallest values"
+    if result.combinations:
+        total, solved = len(result.names), result.statuses.count("solved")
+        text = f"Envelope of {fmt.count(total, 'combination')}"
+        if solved < total and not result.scene.trains:
+            text = f"Envelope of {solved:,} of {fmt.count(total, 'combination')}, the others are not solved"
+    if result.scene.trains:
+        names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
+        text += cut_text(f" while trains pass: {names}", 85)
+    return text + "; the strips tell which one governs" * (len({source_name(one) for one in sources}) > 1)
+
+
+def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
+    """Give the scene with the axles where the largest value comes from, and say so."""
+    for name in ABOUT:
+        found = [one for one in envelope.extremes.get(name, {}).values() if one is not None and one.position is not None]
+        if found:
+            most = max(found, key=lambda one: abs(one.value))
+            state = getattr(most.state, "result", None)
+            unit, factor = fmt.shown_unit(scene, name)
+            value = f"{fmt.number(factor * most.value, 4)} {unit}".rstrip().replace("-", "\N{MINUS SIGN}")
+            words = f"Drawn: {source_name(most)} at {fmt.number(most.position, 4)}, where the largest {name} is, {value}."
+            if state is None:
+                return None, ""
+            first = len(scene.loads)
+            loads = [*state.scene.loads[:first], *(replace(load, name="axle") if isinstance(load, ForceLoad) else load
+                                                   for load in state.scene.loads[first:])]  # fmt: skip
+            return replace(state.scene, loads=loads), words
+    return None, ""
+
+
+def _marks(extremes: dict[str, Any], key: Key) -> list[tuple[float, float, str]]:
+    """Choose the extremes that are written: values, places, sources."""
+    there = {kind: one for kind, one in extremes.items() if one is not None}
+    pairs = {kind: (one.value, one.x) for kind, one in there.items()}
+    found = []
+    for kind, one in there.items():
+        if counts(one.value, pairs):
+            source = key.source(one)
+            if not key.needed and getattr(one, "position", None) is not None:
+                source = f"{visible(one.train)} {source}"
+            found.append((*pairs[kind], f", {source}" if source else ""))
+    return found
+
+
+def _range(
+    axes: Axes | Turned, scene: Scene, curves: Curves, quantity: str, extremes: list[tuple[float, float, str]], strips: bool
+) -> None:
+    """Draw the range of one field, and its extremes."""
     for values in (curves.largest[quantity], curves.smallest[quantity]):
-        x, y = outline(curves.x, values, width)
-        axes.plot(x, y, color="black", linewidth=1.1 if len(x) < 3000 else 0.6, solid_joinstyle="round", zorder=3, label="curve")
+        if len(curves.x) <= MOST_CURVED:
+            add_path(axes, *path_of(smooth(curves.x, values), np.ptp(values) / 2e3), 1.1)
+        else:
+            x, y = outline(curves.x, values, along(scene))
+            axes.plot(x, y, color="black", linewidth=0.6, solid_joinstyle="round", zorder=3, label="curve")
     if len(curves.x) <= MOST_POINTS_FILLED:
         axes.fill_between(curves.x, curves.smallest[quantity], curves.largest[quantity], color="0.9", linewidth=0, zorder=1)
-    pairs = {kind: (one.value, one.x) for kind, one in extremes.items()}
-    low, high = min(0.0, pairs["min"][0]), max(0.0, pairs["max"][0])
-    span = (high - low) or 1.0
-    bounds = (low - span * 0.34, high + span * 0.34)
-    axes.set_ylim(bounds[::-1] if axes.yaxis_inverted() else bounds)
-    marks = Marks(axes, factor)
-    for one in extremes.values():
-        if counts(one.value, pairs):
-            others = f" +{len(one.ties) - 1}" if len(one.ties) > 1 else ""
-            marks.extreme(one.value, one.x, f", {cut_text(visible(one.combination or ''), MOST_NAMED)}{others}")
-    upper, lower = 1.0 - STRIP, 0.0
-    if axes.yaxis_inverted():
-        upper, lower = lower, upper
-    _strip(axes, curves, curves.largest_of[quantity], names, upper)
-    _strip(axes, curves, curves.smallest_of[quantity], names, lower)
+    limit_values(axes, [value for value, *_ in extremes], 0.24 + 0.12 * strips)
+    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1])
+    for value, x, more in extremes:
+        marks.extreme(value, x, more)
 
 
-def _strip(axes: Axes, curves: Curves, of: np.ndarray, names: tuple[str, ...], bottom: float) -> None:
-    """Draw which combination governs along the beam, with its name where there is room."""
-    changes = np.concatenate(([0], np.flatnonzero(np.diff(of)) + 1, [len(of)]))
-    ends = np.append(curves.x[changes[:-1]], curves.x[-1])
-    left, right = axes.get_xlim()
-    scale = (WIDTH - LEFT - RIGHT) * 72 / (right - left)
-    if len(changes) > MOST_STRIPS:
-        return  # no eye could part them
-    place = blended_transform_factory(axes.transData, axes.transAxes)
-    for shade in (0, 1):
-        pairs = [(a, b - a) for a, b in list(pairwise(ends.tolist()))[shade::2]]
-        axes.broken_barh(pairs, (bottom, STRIP), facecolors=SHADES[shade], linewidth=0, transform=place, zorder=2, label="governs")
-    for first, (a, b) in zip(changes.tolist(), pairwise(ends.tolist()), strict=False):
-        name = visible(names[of[first]])
-        if text_width(name) < (b - a) * scale:
-            axes.text((a + b) / 2, bottom + STRIP / 2, name, fontsize=5.5, ha="center", va="center", transform=place, zorder=6)
+def _governing(curves: Curves, quantity: str, names: list[str], key: Key) -> list[list[tuple[float, float, str]]]:
+    """Cut the beam where what governs changes: stretches with its name, for the largest and for the smallest values."""
+    if not key.needed:
+        return []
+    numbers = {name: k for k, name in enumerate(dict.fromkeys(names))}
+    same = np.array([numbers[name] for name in names])
+    order = list(numbers)
+    found = []
+    for of in (curves.largest_of[quantity], curves.smallest_of[quantity]):
+        of = same[of]
+        changes = np.concatenate(([0], np.flatnonzero(np.diff(of)) + 1, [len(of)]))
+        if len(changes) > MOST_STRIPS:
+            return []  # no eye could part them
+        ends = np.append(curves.x[changes[:-1]], curves.x[-1]).tolist()
+        stretches = [(a, b, order[of[first]]) for first, (a, b) in zip(changes.tolist(), pairwise(ends), strict=False) if b > a]
+        for *_, name in stretches:
+            key.letter(name)
+        found.append(stretches)
+    return found
+
+
+def _strip(axes: Axes | Turned, stretches: list[tuple[float, float, str]], key: Key, edge: int, length: float) -> None:
+    """Draw what governs along the beam, with its letter where there is room."""
+    inner, turned = raw(axes), is_turned(axes)
+    upper = (edge == 0) != axes.yaxis_inverted()
+    bottom = 1.0 - STRIP if upper else 0.0
+    place = blended_transform_factory(*((inner.transAxes, inner.transData) if turned else (inner.transData, inner.transAxes)))
+    scale = length / max(end for _, end, _ in stretches)
+    for name in dict.fromkeys(name for *_, name in stretches):
+        corners = []
+        for a, b in [(a, b) for a, b, other in stretches if other == name]:
+            box = [(a, bottom), (b, bottom), (b, bottom + STRIP), (a, bottom + STRIP)]
+            corners.append([point[::-1] for point in box] if turned else box)
+            if (6.0 if turned else text_width(key.letter(name))) < (b - a) * scale:
+                middle = ((a + b) / 2, bottom + STRIP / 2)
+                inner.text(*(middle[::-1] if turned else middle), key.letter(name), fontsize=6.0, ha="center", va="center",
+                           transform=place, zorder=6)  # fmt: skip
+        areas = PolyCollection(corners, facecolors=key.colour(name), edgecolors="white", linewidths=0.3, transform=place, zorder=2,
+                               label="governs")  # fmt: skip
+        inner.add_collection(areas, autolim=False)

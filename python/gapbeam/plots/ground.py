@@ -13,27 +13,33 @@ from matplotlib.lines import Line2D
 from ..base.characters import visible
 from ..results.formatting import stretch
 from ..results.state.ground import TOUCHING
+from ..scene.ground_laws import PlasticGround
 from .beam import HALF, OFF
-from .labels import LINE, text_width
+from .labels import LINE, Labels, text_width
+from .sheet import is_upright
 from .states import face
 from .thin import outline
+from .turned import Turned
 
 if TYPE_CHECKING:
     from ..engine.beam import Beam
     from ..results.state.ground import Contact
     from ..scene.structs import Foundation, Scene
+    from .bezier import Cells
 
 STRIP = 6.0
 """Depth of the hatched strip, points."""
 SWING = 9.0
 """How far off the surface is drawn where its gap is largest, when gaps vary, points."""
-MOST_NAMES = 12
-"""Foundations up to which they are named."""
+MOST_NAMES, MOST_UNNAMED = 12, 4
+"""Foundations up to which they are named, and numbered where none has a name."""
 HATCHES = {"below": "/////", "above": "/////", "both": "xxxxx"}
 TOUCHED = "|"
 """Mark of a place at which the beam only touches the ground."""
-PER_LENGTH = 20
-"""Points of a curve in every length of (4 EI/k)^(1/4), within which it bends."""
+PER_LENGTH, CELLS_PER_LENGTH = 20, 4
+"""Points of a polyline, and cells of a curve, in every length of (4 EI/k)^(1/4), within which it bends."""
+CELLS, MANY, MOST_CELLS = 4, 200, 25_000
+"""Cells of a span without ground; spans from which on half as many do; cells of a beam at most."""
 
 
 @dataclass
@@ -50,8 +56,6 @@ class Layer:
         Its surface: places, heights in points.
     rim : float
         Where the strip ends.
-    name : str
-        Written beside the strip; may be empty.
     """
 
     number: int
@@ -59,7 +63,6 @@ class Layer:
     x: np.ndarray
     y: np.ndarray
     rim: float
-    name: str
 
 
 class GroundLanes:
@@ -70,12 +73,14 @@ class GroundLanes:
     scene : Scene
         The scene.
     width : float
-        Width of the panel.
+        Length of the drawn beam.
 
     Attributes
     ----------
     layers : list of Layer
         The foundations.
+    names : list of (float, float, str, str)
+        Their names: place, height, words, alignment.
     below, above : float
         What they take up below and above the axis of the beam; 0 where there is none.
     """
@@ -84,29 +89,48 @@ class GroundLanes:
         self.layers: list[Layer] = []
         self.width = width
         end = float(scene.span_ends()[-1])
-        scale = (width - 60.0) / end
+        scale = width / end
         surfaces = [surface(scene, item) for item in scene.foundation]
         low = min((gap.min() for _, gap in surfaces), default=0.0)
         high = max((gap.max() for _, gap in surfaces), default=0.0)
         varying = any(np.ptp(gap) > 0.0 for _, gap in surfaces)
-        named = 1 < len(surfaces) <= MOST_NAMES
+        words = ["" if item.name is None else visible(item.name) for item in scene.foundation]
+        if not any(words) and 1 < len(words) <= MOST_UNNAMED:
+            words = [f"foundation {number}" for number in range(len(words))]
+        self.upright = is_upright(scene)
+        self.names: list[tuple[float, float, str, str]] = []
         self.below = self.above = 0.0
         lanes: dict[int, list[list[float]]] = {1: [], -1: []}  # ends of what lies there, and where it begins and ends in height
+        taken = Labels()
         for number, (item, (x, gap)) in enumerate(zip(scene.foundation, surfaces, strict=True)):
             sign = -1 if item.side == "above" else 1
             off = np.where(gap > 0.0, OFF, 0.0)
             if varying:
                 off = SWING * (gap - min(low, 0.0)) / (high - min(low, 0.0))
             lane = next((lane for lane in lanes[sign] if lane[0] <= x[0]), None)
-            words = f"foundation {number}" if item.name is None else visible(item.name)
-            name = words if (named or item.name is not None) and text_width(words) < (x[-1] - x[0]) * scale else ""
             if lane is None:
-                top = lanes[sign][-1][2] + 3.0 if lanes[sign] else HALF + 0.8
-                lane = [x[-1], top, top + STRIP + max(SWING * varying, OFF) + LINE * named]
+                top = lanes[sign][-1][3] + 3.0 if lanes[sign] else HALF + 0.8
+                lane = [x[-1], top, top + STRIP + max(SWING * varying, OFF), 0.0]
+                lane[3] = lane[2]
                 lanes[sign].append(lane)
             lane[0] = x[-1]
-            self.layers.append(Layer(number, item.side, x, -sign * (lane[1] + off), -sign * (lane[2] - LINE * named), name))
-        self.below, self.above = (max((lane[2] for lane in lanes[sign]), default=0.0) for sign in (1, -1))
+            self.layers.append(Layer(number, item.side, x, -sign * (lane[1] + off), -sign * lane[2]))
+            if words[number] and len(surfaces) <= MOST_NAMES:
+                self._name(words[number], (x[0] + x[-1]) / 2, lane, sign, scale, taken)
+        self.below, self.above = (max((lane[3] for lane in lanes[sign]), default=0.0) for sign in (1, -1))
+
+    def _name(self, words: str, x: float, lane: list[float], sign: int, scale: float, taken: Labels) -> None:
+        """Write the name of a foundation beyond its strip, further off where one is there already."""
+        if self.upright:
+            self.names.append((x, -sign * (lane[2] + 2.0), words, "top" if sign > 0 else "bottom"))
+            lane[3] = max(lane[3], lane[2] + 4.0 + text_width(words))
+            return
+        for row in range(MOST_NAMES):
+            foot = -sign * (lane[2] + 1.0 + LINE * row) - (LINE if sign > 0 else 0.0)
+            if taken.take(x * scale, foot, words):
+                self.names.append((x, foot + (LINE if sign > 0 else 0.0), words, "top" if sign > 0 else "bottom"))
+                lane[3] = max(lane[3], lane[2] + 2.0 + LINE * (row + 1))
+                return
 
 
 def surface(scene: Scene, item: Foundation) -> tuple[np.ndarray, np.ndarray]:
@@ -133,12 +157,12 @@ def surface(scene: Scene, item: Foundation) -> tuple[np.ndarray, np.ndarray]:
     return np.r_[from_, inside[:, 0], to], np.r_[ends[0], inside[:, 1], ends[1]]
 
 
-def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) -> None:
+def draw_ground(axes: Axes | Turned, lanes: GroundLanes, contact: tuple[Contact, ...]) -> None:
     """Draw the foundations in the panel of the beam, thick where they carry.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel; its vertical unit is one point.
     lanes : GroundLanes
         Where to draw.
@@ -151,16 +175,13 @@ def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) ->
         axes.fill_between(x, y, layer.rim, facecolor="white", edgecolor="0.6", linewidth=0.0, hatch=HATCHES[layer.side], zorder=1,
                           label=f"ground {layer.number}")  # fmt: skip
         axes.plot(x, y, color="0.35", linewidth=0.7, zorder=2, label=f"surface {layer.number}")
-        if layer.name:
-            upward = layer.side == "above"
-            axes.text((x[0] + x[-1]) / 2, layer.rim + (1.0 if upward else -1.0), layer.name, fontsize=6.5, color="0.25",
-                      ha="center", va="bottom" if upward else "top", zorder=7,
-                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8})  # fmt: skip
         for zone in contact:
             if zone.foundation == layer.number:
                 inside = slice(*np.searchsorted(x, [zone.from_, zone.to]))
                 places = np.r_[zone.from_, x[inside], zone.to]
                 zones.setdefault(zone.state, []).append(np.column_stack((places, np.interp(places, x, y))))
+    for x, y, words, va in lanes.names:
+        axes.text(x, y, words, fontsize=6.5, color="0.25", ha="center", va=va, zorder=7)
     places = zones.pop(TOUCHING, None)
     if places:
         axes.plot(*np.concatenate([line[:1] for line in places]).T, linestyle="none", marker=TOUCHED, markersize=5,
@@ -170,31 +191,72 @@ def draw_ground(axes: Axes, lanes: GroundLanes, contact: tuple[Contact, ...]) ->
                                            zorder=2.5, label=f"contact {state}"))  # fmt: skip
 
 
-def zone_handles(contact: tuple[Contact, ...]) -> list[Line2D]:
-    """Make the entries of the legend for the zones of contact."""
+def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
+    """Make the entries of the legend for the zones of contact; what branches of laws are is said in words."""
     states = sorted({zone.state for zone in contact})
     names = {"closed": "in contact", "bilateral": "bilateral ground", TOUCHING: "touching"}
+    names |= {state: _branch(scene, {zone.foundation for zone in contact if zone.state == state}, state) for state in states
+              if state not in names}  # fmt: skip
     return [
         Line2D([], [], linestyle="none", marker=TOUCHED, markersize=5, markeredgewidth=1.2, color=_shade("closed"),
                label=names[state])
         if state == TOUCHING else
-        Line2D([], [], linestyle="none", marker="_", markersize=8, markeredgewidth=2.6, color=_shade(state),
-               label=names.get(state, f"ground on {state}"))
+        Line2D([], [], linestyle="none", marker="_", markersize=8, markeredgewidth=2.6, color=_shade(state), label=names[state])
         for state in states
     ]  # fmt: skip
 
 
-def draw_surface(axes: Axes, scene: Scene, width: float) -> None:
+def _branch(scene: Scene, foundations: set[int], state: str) -> str:
+    """Name a branch of a law of the ground: elastic, then plastic where that is all there is."""
+    number = int(state.rpartition(" ")[2])
+    plastic = all(isinstance(scene.foundation[k].law, PlasticGround) for k in foundations)
+    if number == 1:
+        return "ground, elastic"
+    return "ground, at its strength" if plastic else f"ground, branch {number} of its law"
+
+
+def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float, float]]:
+    """Give points on the surface of the ground near the beam, which labels keep clear of.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    cells : Cells
+        Its fields.
+    length : float
+        Length of the drawn beam (points).
+
+    Returns
+    -------
+    list of (float, float)
+        Places and deflections.
+    """
+    found = []
+    for item in scene.foundation:
+        x, gap = surface(scene, item)
+        at = np.linspace(x[0], x[-1], max(2, int(length * (x[-1] - x[0]) / float(scene.span_ends()[-1]))))
+        size = 1.5 * float(np.ptp(cells.values["deflection"]))
+        for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
+            y = sign * np.interp(at, x, gap)
+            for off in (0.0, sign * 0.04 * size) if item.side != "both" or gap.any() else ():
+                found += [(float(a), float(b) + off) for a, b in zip(at, y, strict=True) if abs(b) < size]
+    return found
+
+
+def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float) -> None:
     """Draw in the panel of the deflection where the ground begins to act, as far as that is near the beam.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel with the deflection, positive downward.
     scene : Scene
         The scene.
     width : float
-        Width of the panel in points.
+        Length of the drawn beam (points).
+    room : float
+        What is left free beyond the surface, as a share of the range.
     """
     high, low = sorted(axes.get_ylim())
     size = low - high
@@ -206,11 +268,30 @@ def draw_surface(axes: Axes, scene: Scene, width: float) -> None:
                 levels.append((number, sign, *outline(x, sign * gap, width)))
     seen = np.concatenate([y for *_, y in levels] or [np.zeros(0)])
     seen = seen[(seen > high - size / 2) & (seen < low + size / 2)]
-    high, low = min([high, *(seen - 0.05 * size)]), max([low, *(seen + 0.05 * size)])
+    high, low = min([high, *(seen - room * size)]), max([low, *(seen + room * size)])
     for number, sign, x, y in levels:
         axes.fill_between(x, y, y + sign * 0.05 * size, facecolor="none", edgecolor="0.65", linewidth=0.0, hatch="//////", zorder=2)
         axes.plot(x, y, color="0.45", linewidth=0.8, zorder=2, label=f"surface {number}")
     axes.set_ylim(low, high)
+
+
+def cells_a_span(scene: Scene, beam: Beam) -> int:
+    """Count the cells of a span in which fields are as good as cubics: more on stiff ground, where the beam bends more sharply.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    beam : Beam
+        Made of it.
+
+    Returns
+    -------
+    int
+    """
+    spans = len(scene.beam.spans)
+    plain = CELLS if spans <= MANY else CELLS // 2
+    return int(max(plain, min(points_a_span(scene, beam) * CELLS_PER_LENGTH / PER_LENGTH, MOST_CELLS // spans)))
 
 
 def points_a_span(scene: Scene, beam: Beam) -> float:

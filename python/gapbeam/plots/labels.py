@@ -41,3 +41,32 @@ class Labels:
             return False
         self._taken.append((x, half, y, top))
         return True
+
+
+def spread(wanted: list[float], apart: float, top: float) -> list[float]:
+    """Move ascending heights as little as need be for a distance between them, the highest not above `top`.
+
+    Parameters
+    ----------
+    wanted : list of float
+        Heights.
+    apart, top : float
+        Distance, and the upper end.
+
+    Returns
+    -------
+    list of float
+
+    Examples
+    --------
+    >>> spread([0.0, 1.0, 50.0], 10.0, 100.0)
+    [0.0, 10.0, 50.0]
+    >>> spread([98.0, 99.0], 10.0, 100.0)
+    [90.0, 100.0]
+    """
+    places: list[float] = []
+    for height in wanted:
+        places.append(max(height, places[-1] + apart) if places else height)
+    for k in range(len(places) - 1, -1, -1):
+        places[k] = min(places[k], top - apart * (len(places) - 1 - k))
+    return places

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..results import formatting as fmt
-from .panels import LEFT, PANEL, RIGHT, WIDTH, Point
+from .panels import Point
+from .turned import Turned, is_turned, raw
 
 if TYPE_CHECKING:
     from ..results.state.fields import Fields
@@ -27,12 +28,16 @@ ROUNDS = 8
 """Secants to a zero of the shear."""
 
 
+Box = tuple[float, float, float, float]
+"""Left, lower, right and upper edge (points)."""
+
+
 class Marks:
     """The labels of a panel; its limits along both axes are set before.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel.
     factor : float
         How many shown units are one of the scene, for example 1000 for mm.
@@ -43,15 +48,18 @@ class Marks:
     """
 
     def __init__(
-        self, axes: Axes, factor: float = 1.0, avoid: Sequence[Point] = (), curve: tuple[np.ndarray, np.ndarray] | None = None
+        self, axes: Axes | Turned, factor: float = 1.0, avoid: Sequence[Point] = (),
+        curve: tuple[np.ndarray, np.ndarray] | None = None,
     ) -> None:
-        self.axes, self.factor = axes, factor
-        self.width, self.height = (WIDTH - LEFT - RIGHT) * 72, PANEL * 72
-        self.taken: list[tuple[float, float, float, float]] = []
+        self.axes, self.factor, self.turned = axes, factor, is_turned(axes)
+        size = axes.figure.bbox_inches.size * 72 * raw(axes).get_position().size
+        self.width, self.height = size.tolist()
+        self.taken: list[Box] = []
+        self.written: set[tuple[str, str]] = set()
         self.avoid = self._points(np.array(avoid, dtype=float).reshape(-1, 2))
         self.curve = np.zeros((0, 2))
         if curve is not None:
-            x = np.linspace(curve[0][0], curve[0][-1], int(self.width))
+            x = np.linspace(curve[0][0], curve[0][-1], int(max(self.width, self.height)))
             self.curve = self._points(np.column_stack((x, np.interp(x, *curve))))
 
     def extreme(self, value: float, x: float, more: str = "") -> None:
@@ -59,64 +67,87 @@ class Marks:
         self._write(value, x, f"{self._number(value)} at {fmt.number(x, DIGITS)}{more}".replace("-", "\N{MINUS SIGN}"), must=True)
 
     def peak(self, value: float, x: float) -> None:
-        """Write a value where there is room."""
+        """Write a value where there is room, unless it is written."""
+        if (self._number(value), fmt.number(x, DIGITS)) in self.written:
+            return
         self._write(value, x, self._number(value).replace("-", "\N{MINUS SIGN}"), must=False)
 
     def _number(self, value: float) -> str:
         return fmt.number(self.factor * value, DIGITS)
 
     def _points(self, places: np.ndarray) -> np.ndarray:
-        """Give places of the panel in points from its lower left corner."""
+        """Give places and values in points to the right and upward from the lower left corner of the panel."""
         (left, right), (low, high) = self.axes.get_xlim(), self.axes.get_ylim()
-        return (places - (left, low)) / (right - left, high - low) * (self.width, self.height)
+        share = (places - (left, low)) / (right - left, high - low)
+        return (share[:, ::-1] * (1.0, -1.0) + (0.0, 1.0) if self.turned else share) * (self.width, self.height)
+
+    def _boxes(self, at: np.ndarray, wide: float, outward: bool, levels: int) -> Iterator[tuple[float, str, str, Box]]:
+        """Propose places for a label: the dearer the farther off; with its alignments, and its box."""
+        x, y = at.tolist()
+        for level in range(levels):
+            away = OFF + level * HIGH
+            if self.turned:
+                for order, (side, start) in enumerate((("left", x + OFF), ("right", x - OFF - wide))):
+                    for up in (away - OFF, OFF - away):
+                        box = (start, y + up - HIGH / 2, start + wide, y + up + HIGH / 2)
+                        yield 2 * level + (order != (not outward)) / 2, side, "center", box
+                continue
+            foot = y + away if outward else y - away - HIGH
+            for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
+                yield 2 * level + order / 4, align, "bottom" if outward else "top", (start, foot, start + wide, foot + HIGH)
 
     def _write(self, value: float, x: float, text: str, must: bool) -> None:
-        up = (value > 0.0) != self.axes.yaxis_inverted()
-        (at, foot), wide = self._points(np.array([[x, value]]))[0], LETTER * len(text) + 2.0
-        starts = {"center": at - wide / 2, "left": at - 2.0, "right": at - wide + 2.0}
+        outward = (value > 0.0) != self.axes.yaxis_inverted()
+        at, wide = self._points(np.array([[x, value]]))[0], LETTER * max(map(len, text.split("\n"))) + 2.0
         found = []
-        for level in range(4 if must else 1):
-            away = OFF + level * HIGH
-            for order, (align, start) in enumerate(starts.items()):
-                box = (start, foot + away, start + wide, foot + away + HIGH)
-                if not up:
-                    box = (start, foot - away - HIGH, start + wide, foot - away)
-                if box[0] < 2.0 or box[2] > self.width + 9.0 or box[1] < -4.0 or box[3] > self.height + 8.0 or not self._free(box):
-                    continue
-                covered = 20 * _inside(self.avoid, box) + _inside(self.curve, box)
-                if must or not covered:
-                    found.append((covered + 2 * level + order / 4, align, away, box))
+        out = 5.0 * self.turned  # there is room beside the panels of upright beams
+        for price, align, upright, box in self._boxes(at, wide, outward, (5 + 5 * self.turned) if must else 1):
+            aside = box[0] < 2.0 - 2.0 * out or box[2] > self.width + 9.0 + out
+            if aside or box[1] < 1.0 - out or box[3] > self.height + 8.0 or not self._free(box):
+                continue
+            covered = 20 * _inside(self.avoid, box) + 2 * _inside(self.curve, box)
+            if must or not covered:
+                found.append((covered + price, align, upright, box))
         if not found and not must:
             return
-        if not found:  # at an end of a long text
-            start = min(max(starts["center"], 2.0), self.width + 9.0 - wide)
-            found = [(0.0, "left", OFF, (start, foot, start + wide, foot + HIGH))]
-        _, align, away, box = min(found)
+        if not found:  # at an end of a long text: anywhere inside that is free
+            start = min(max(at[0] - wide / 2, 2.0), self.width + 9.0 - wide)
+            rows = [(start, foot, start + wide, foot + HIGH) for foot in np.arange(0.0, self.height - HIGH, HIGH / 2)]
+            box = min((box for box in rows if self._free(box)), key=lambda box: abs(box[1] - at[1]), default=rows[0])
+            found = [(0.0, "left", "bottom", box)]
+        _, align, upright, box = min(found)
         self.taken.append(box)
-        anchor = {"center": (box[0] + box[2]) / 2, "left": box[0], "right": box[2]}[align] - at
+        self.written.add((self._number(value), fmt.number(x, DIGITS)))
+        anchor = np.array([
+            {"center": (box[0] + box[2]) / 2, "left": box[0], "right": box[2]}[align],
+            {"center": (box[1] + box[3]) / 2, "bottom": box[1], "top": box[3]}[upright],
+        ]) - at  # fmt: skip
         self.axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
-        self.axes.annotate(text, (x, value), (anchor, away if up else -away), textcoords="offset points", fontsize=7.5, zorder=5,
-                           ha=align, va="bottom" if up else "top")  # fmt: skip
+        place = (value, x) if self.turned else (x, value)
+        raw(self.axes).annotate(text, place, anchor.tolist(), textcoords="offset points", fontsize=7.5, zorder=5, ha=align,
+                                va=upright)  # fmt: skip
 
-    def _free(self, box: tuple[float, float, float, float]) -> bool:
+    def _free(self, box: Box) -> bool:
         return all(
             box[0] >= other[2] + 1.0 or box[2] <= other[0] - 1.0 or box[1] >= other[3] or box[3] <= other[1] for other in self.taken
         )
 
 
-def _inside(points: np.ndarray, box: tuple[float, float, float, float]) -> int:
+def _inside(points: np.ndarray, box: Box) -> int:
     """Count points in a rectangle."""
     x, y = points.T
     return int(((x > box[0]) & (x < box[2]) & (y > box[1]) & (y < box[3])).sum())
 
 
-def find_peaks(fields: Fields, ends: np.ndarray, at: Callable[[np.ndarray], Fields]) -> list[tuple[float, float]]:
+def find_peaks(
+    x: np.ndarray, moment: np.ndarray, ends: np.ndarray, at: Callable[[np.ndarray], Fields]
+) -> list[tuple[float, float]]:
     """Find the largest and the smallest moment of every span, where the shear is zero or jumps.
 
     Parameters
     ----------
-    fields : Fields
-        At points along the beam.
+    x, moment : numpy.ndarray
+        Points along the beam, and the moment there.
     ends : numpy.ndarray
         Ends of the spans.
     at : callable
@@ -127,17 +158,16 @@ def find_peaks(fields: Fields, ends: np.ndarray, at: Callable[[np.ndarray], Fiel
     list of (float, float)
         Values and places, the largest first; only those that are worth a label.
     """
-    x, moment = fields.x, fields.moment
-    first = np.searchsorted(x, ends)
+    first = np.searchsorted(x, ends)  # places at which something changes are there twice
     found = set()
     for a, b in pairwise(first.tolist()):
         if b > a:
             found |= {a + int(np.argmax(moment[a : b + 1])), a + int(np.argmin(moment[a : b + 1]))}
     worth = WORTH * np.abs(moment).max(initial=0.0)
     chosen = sorted((k for k in found if abs(moment[k]) > worth), key=lambda k: -abs(moment[k]))[: 2 * MOST_MARKS]
-    low = x[[max(0, k - 1) for k in chosen]]
-    high = x[[min(len(x) - 1, k + 1) for k in chosen]]
     middle = x[chosen]
+    low = x[np.maximum(np.searchsorted(x, middle) - 1, 0)]
+    high = x[np.minimum(np.searchsorted(x, middle, side="right"), len(x) - 1)]
     if not len(middle):
         return []
     # On the side on which the shear changes its sign; by secants that keep a bracket (the Illinois rule)
@@ -145,7 +175,7 @@ def find_peaks(fields: Fields, ends: np.ndarray, at: Callable[[np.ndarray], Fiel
     on_left = left * here < 0.0
     low, high = np.where(on_left, low, middle), np.where(on_left, middle, high)
     a, b = np.where(on_left, left, here), at(high).shear
-    inside = low + (high - low) / 2
+    zero, inside = a * b < 0.0, low + (high - low) / 2
     for _ in range(ROUNDS):
         share = np.divide(a, a - b, out=np.where(np.abs(a) <= np.abs(b), 0.0, 1.0), where=a * b < 0.0)
         inside = low + (high - low) * share
@@ -154,6 +184,6 @@ def find_peaks(fields: Fields, ends: np.ndarray, at: Callable[[np.ndarray], Fiel
         low, high = np.where(same, inside, low), np.where(same, high, inside)
         a, b = np.where(same, shear, a / 2), np.where(same, b / 2, shear)
     values, before = at(inside).moment, at(middle).moment
-    better = np.sign(before) * (values - before) > 0.0
+    better = zero & (np.sign(before) * (values - before) > 0.0)
     pairs = zip(np.where(better, values, before).tolist(), np.where(better, inside, middle).tolist(), strict=True)
     return sorted(set(pairs), key=lambda pair: -abs(pair[0]))

@@ -16,7 +16,8 @@ from ..results.paths.branches import BranchPath
 from ..scene.names import label
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
-from .panels import LEFT, WIDTH, outcome
+from .labels import spread
+from .panels import LEFT, WIDTH, cut_text, outcome
 from .save import literal, save
 
 if TYPE_CHECKING:
@@ -35,18 +36,21 @@ OF_LAWS = (PANELS[0], ("deflection", "deflection, downward positive"))
 ZONES, ALONG = ("x", "x of contact"), ("deflection", "deflection, downward positive")
 """On the ground the zones of contact come first; without supports the largest deflections follow."""
 
-MOST_LINES = 12
+MOST_LINES = 8
 """Supports in a panel; of more those with the largest values."""
+MOST_CHARACTERS = 13
+"""Of the name of a line."""
 MOST_ARROWS = 3
 """Supports on whose lines arrows show which way the load goes."""
 CURVE = 100
 """Points about of a line that is curved, since a support has a smooth law."""
 MOST_DOTS = 40
 """Load steps that are drawn each; of more those at which the contact state changes, between which nothing bends."""
-DASHES = ((), (5, 2), (1, 1.5), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
-NO_DOTS = tuple(pattern for pattern in DASHES if pattern != (1, 1.5))
-SHADES = ("0.0", "0.35", "0.5", "0.65")
-"""Every line of a picture has a pattern and a shade of its own: twice `MOST_LINES` of them."""
+DASHES = ((), (5, 2), (7, 2, 1, 2), (10, 3), (6, 2, 1, 2, 1, 2))
+COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+"""Every line of a picture has a pattern and a colour of its own: twice `MOST_LINES` of them. Colours are those of Okabe and Ito."""
+ALIKE = 1e-9
+"""Share of the largest value by which lines differ that are drawn as one."""
 
 
 def plot_path(result: Result, path: str | os.PathLike) -> None:
@@ -102,14 +106,16 @@ def path_figure(result: Result) -> Figure:
     if stretches:
         lines += textwrap.wrap(note_on_ground(result), 105)
     foot = FOOT + 0.15 * len(lines)
-    height = (0.35 if result.status == "solved" else 0.65) + len(panels) * (GAP + PANEL) + foot
+    said = "" if result.status == "solved" else outcome(result)
+    height = 0.35 + (0.18 + 0.14 * (1 + said.count("\n"))) * bool(said) + len(panels) * (GAP + PANEL) + foot
     picture = Figure(figsize=(WIDTH, height), dpi=200)
     picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
-    if result.status != "solved":
-        picture.text(0.02, 1 - 0.36 / height, outcome(result), fontsize=8, va="top", color="0.3", linespacing=1.3)
+    if said:
+        picture.text(0.02, 1 - 0.36 / height, said, fontsize=8, va="top", color="0.3", linespacing=1.3)
     of_supports = [] if stretches and not normal else [name for name, _ in panels if name != ZONES[0]]
     tables = {name: np.array([getattr(step, name) for step in states]) for name in of_supports}
-    drawn = {name: _largest(table, normal) for name, table in tables.items()}
+    alike = {name: _alike(table, normal) for name, table in tables.items()}
+    drawn = {name: _largest(table, alike[name]) for name, table in tables.items()}
     styles = _styles(result, drawn, trace)
     for row, (name, words) in enumerate(panels):
         above, width = len(panels) - 1 - row, WIDTH - LEFT - NAMES
@@ -122,11 +128,15 @@ def path_figure(result: Result) -> Figure:
             draw_zones(axes, result, stretches)
         else:
             draw_extremes(axes, result, states, dots)
-        _frame(axes, fmt.with_unit(scene, name, words), last=not above)
+        unit, factor = fmt.shown_unit(scene, name)
+        _frame(axes, f"{words} [{unit}]" if unit else words, last=not above)
+        if factor != 1.0:
+            axes.yaxis.set_major_formatter(lambda value, _, by=factor: fmt.number(by * value).replace("-", "\N{MINUS SIGN}"))
         if name in tables:
             end = len(factors) - 1 if trace is None else trace.end()
-            _name_lines(axes, scene, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
-            moving = int((np.abs(tables[name][:, normal]).max(axis=0, initial=0.0) > 0.0).sum())
+            names = {k: _names(scene, alike[name][k]) for k in drawn[name]}
+            _name_lines(axes, names, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
+            moving = len(alike[name])
             if moving > len(drawn[name]):
                 axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
     axes.set_xlabel("load factor" + (f" ({note})" if note and not lines else ""), fontsize=9)
@@ -148,8 +158,8 @@ def _styles(result: Result, drawn: dict[str, list[int]], trace: Trace | None) ->
     if trace is None:
         return {k: _style(order) for order, k in enumerate(sorted(shown))}
     laws = {k for k in shown if result.scene.supports[k].law is not None}
-    # Dots are for what is unstable; what the picture is about is drawn through
-    return {k: _style(order, NO_DOTS) for order, k in enumerate([*sorted(laws), *sorted(shown - laws)])}
+    # What the picture is about is drawn through
+    return {k: _style(order) for order, k in enumerate([*sorted(laws), *sorted(shown - laws)])}
 
 
 def _draw_supports(
@@ -185,7 +195,7 @@ def _states(result: Result, dots: bool) -> list[Step]:
 def _note(result: Result) -> str:
     """Say what the marks of events mean."""
     kinds = {event.event for event in result.events if event.support is not None}
-    law = "squares, it passes a breakpoint of its law" if kinds - {"closes", "opens", "turns"} else ""
+    law = f"squares, it {' or '.join(sorted(others))}" if (others := kinds - {"closes", "opens", "turns"}) else ""
     return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if kinds else "", law]))
 
 
@@ -197,10 +207,20 @@ def _bends(result: Result) -> list[int]:
     return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 
-def _largest(table: np.ndarray, supports: list[int]) -> list[int]:
-    """Choose the supports to draw: those with the largest values that are not zero all along."""
-    size = {k: float(np.abs(table[:, k]).max()) for k in supports}
-    return sorted(sorted((k for k in supports if size[k] > 0.0), key=lambda k: -size[k])[:MOST_LINES])
+def _alike(table: np.ndarray, supports: list[int]) -> dict[int, list[int]]:
+    """Put supports together whose lines are one: the first of them stands for all. What is zero all along is left out."""
+    same = ALIKE * float(np.abs(table).max(initial=0.0))
+    found: dict[int, list[int]] = {}
+    for k in supports:
+        if np.abs(table[:, k]).max(initial=0.0) > same:
+            first = next((j for j in found if np.abs(table[:, j] - table[:, k]).max() <= same), k)
+            found.setdefault(first, []).append(k)
+    return found
+
+
+def _largest(table: np.ndarray, lines: dict[int, list[int]]) -> list[int]:
+    """Choose the lines to draw: those with the largest values."""
+    return sorted(sorted(lines, key=lambda k: -float(np.abs(table[:, k]).max()))[:MOST_LINES])
 
 
 def _few(table: np.ndarray, supports: set[int]) -> list[int]:
@@ -208,9 +228,9 @@ def _few(table: np.ndarray, supports: set[int]) -> list[int]:
     return sorted(supports, key=lambda k: (-float(np.abs(table[:, k]).max()), k))[:MOST_ARROWS]
 
 
-def _style(order: int, dashes: tuple[tuple[float, ...], ...] = DASHES) -> dict:
-    pattern = dashes[order % len(dashes)]
-    return {"color": SHADES[order // len(dashes) % len(SHADES)], "linestyle": (0, pattern) if pattern else "-"}
+def _style(order: int) -> dict:
+    pattern = DASHES[order % len(DASHES)]
+    return {"color": COLOURS[order % len(COLOURS)], "linestyle": (0, pattern) if pattern else "-"}
 
 
 def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
@@ -231,7 +251,17 @@ def _frame(axes: Axes, words: str, last: bool) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _name_lines(axes: Axes, scene: Scene, ends: dict[int, float], styles: dict[int, dict]) -> None:
+def _names(scene: Scene, supports: list[int]) -> str:
+    """Name the supports that a line is of, as far as there is room."""
+    names = [label(scene.supports, k) for k in supports]
+    text = ", ".join(names)
+    while len(text) > MOST_CHARACTERS and len(names) > 1:
+        names.pop()
+        text = f"{', '.join(names)}, ..."
+    return cut_text(text, MOST_CHARACTERS)
+
+
+def _name_lines(axes: Axes, lines: dict[int, str], ends: dict[int, float], styles: dict[int, dict]) -> None:
     """Write the name of every line beside its end, with a sample of it, one above another."""
     if not ends:
         return
@@ -240,29 +270,11 @@ def _name_lines(axes: Axes, scene: Scene, ends: dict[int, float], styles: dict[i
     # Of equal ends the first support is the uppermost
     order = sorted(ends, key=lambda k: (ends[k], -k))
     at = [(ends[k] - low) / (high - low) for k in order]
-    names = [place / tall for place in _spread([tall * height for height in at], NAME, tall)]
+    names = [place / tall for place in spread([tall * height for height in at], NAME, tall)]
     sample = (1.0 + OFF / wide, 1.0 + (OFF + SAMPLE) / wide)
     beside = {"transform": axes.transAxes, "clip_on": False}
     for k, end, name in zip(order, at, names, strict=True):
         axes.plot((1.0, sample[0]), (end, name), color="0.7", linewidth=0.6, **beside)
         axes.plot(sample, (name, name), linewidth=1.3, **styles[k], **beside)
-        axes.text(sample[1] + 3.0 / wide, name, label(scene.supports, k)[:10], fontsize=8, va="center", transform=axes.transAxes)
+        axes.text(sample[1] + 3.0 / wide, name, lines[k], fontsize=8, va="center", transform=axes.transAxes)
     axes.text(sample[0], names[-1] + 0.8 * NAME / tall, "support", fontsize=8, transform=axes.transAxes)
-
-
-def _spread(wanted: list[float], apart: float, top: float) -> list[float]:
-    """Move ascending heights as little as need be for a distance between them, the highest not above `top`.
-
-    Examples
-    --------
-    >>> _spread([0.0, 1.0, 50.0], 10.0, 100.0)
-    [0.0, 10.0, 50.0]
-    >>> _spread([98.0, 99.0], 10.0, 100.0)
-    [90.0, 100.0]
-    """
-    places: list[float] = []
-    for height in wanted:
-        places.append(max(height, places[-1] + apart) if places else height)
-    for k in range(len(places) - 1, -1, -1):
-        places[k] = min(places[k], top - apart * (len(places) - 1 - k))
-    return places

@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.path import Path
 
+from .turned import Turned, shifted
+
 if TYPE_CHECKING:
-    from ..results.state.step import Step
-    from ..scene.structs import Scene
+    from .support_values import SupportValues
 
 ARROW, SHORTEST = 15.0, 7.0
 """Length of the longest and of the shortest arrow (points)."""
@@ -19,51 +20,58 @@ BLUE = "#00538A"
 MOST_HEADS = 120
 """Arrows that have heads; more are thin lines from an axis, upward where they push up."""
 NONE = 1e-9
+"""Share of the largest reaction below which there is none."""
+BESIDE = 3.0
+"""How far an arrow is moved aside where one points the other way (points)."""
 
 _HEAD = Path([(0, 0), (-0.45, -1), (0.45, -1), (0, 0)], [1, 2, 2, 79])
 
 
-def arrow_lane(step: Step | None) -> float:
+def arrow_lane(values: SupportValues | None) -> float:
     """Give the height that the arrows take (points)."""
-    return 0.0 if step is None or not len(step.reaction) else ARROW + 2.0
+    return 0.0 if values is None or not len(values.up) else ARROW + 2.0
 
 
-def draw_reactions(axes: Axes, scene: Scene, step: Step, x: np.ndarray, top: float) -> None:
-    """Draw the reactions across the beam.
+def draw_reactions(axes: Axes | Turned, values: SupportValues, x: np.ndarray, top: float) -> None:
+    """Draw the reactions across the beam; of an envelope the largest that push up, and beside them those that push down.
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
+    axes : matplotlib.axes.Axes or Turned
         The panel of the beam; its vertical unit is one point.
-    scene : Scene
-        The scene.
-    step : Step
-        The state.
+    values : SupportValues
+        The reactions.
     x : numpy.ndarray
         Places of the supports.
     top : float
         Upper end of the arrows.
     """
-    across = np.array([support.direction == "normal" for support in scene.supports])
-    force = np.where(across, step.reaction, 0.0)
-    largest = np.abs(force).max(initial=0.0)
-    which = np.flatnonzero(np.abs(force) > NONE * largest)
-    if not len(which):
+    up, down = values.up, values.down
+    largest = max(up.max(initial=0.0), down.max(initial=0.0))
+    pushing, pulling = (np.flatnonzero(force > NONE * largest) for force in (up, down))
+    if not len(pushing) + len(pulling):
         return
-    x, force = x[which], force[which]
-    heads = len(which) <= MOST_HEADS
-    if heads:
-        length = SHORTEST + (ARROW - SHORTEST) * np.abs(force) / largest
-        ends = np.column_stack((np.full(len(x), top), top - length))
-    else:
-        zero = top - ARROW * max(0.0, force.max()) / np.ptp(np.append(force, 0.0))
-        ends = np.column_stack((np.full(len(x), zero), zero + ARROW * force / np.ptp(np.append(force, 0.0))))
-    # One line with breaks: one path in a file
-    axes.plot(np.repeat(x, 3), np.column_stack((ends, np.full(len(x), np.nan))).ravel(), color=BLUE,
-              linewidth=1.3 if heads else 0.4, solid_capstyle="butt", zorder=4, label="reactions")  # fmt: skip
-    for sign in (1.0, -1.0) if heads else ():
-        points = sign * force > 0.0
-        if points.any():
-            tips = ends[points, 0 if sign > 0.0 else 1]
-            axes.scatter(x[points], tips, marker=Path(_HEAD.vertices * (1.0, sign), _HEAD.codes), s=(2.0 * 5.0) ** 2, c=BLUE,
-                         linewidths=0, zorder=4.5, label=f"reactions {'up' if sign > 0.0 else 'down'}")  # fmt: skip
+    heads = len(pushing) + len(pulling) <= MOST_HEADS
+    high, low = up.max(initial=0.0), down.max(initial=0.0)
+    axis = top - ARROW * high / (high + low)  # of lines without heads
+    for which, force, sign in ((pushing, up, 1.0), (pulling, down, -1.0)):
+        if not len(which):
+            continue
+        places, size = x[which], force[which] / largest
+        both = np.isin(places, x[pulling if sign > 0.0 else pushing])
+        if heads:
+            ends = np.column_stack((np.full(len(which), top), top - SHORTEST - (ARROW - SHORTEST) * size))
+        else:
+            ends = axis + np.column_stack((np.zeros(len(which)), sign * ARROW * force[which] / (high + low)))
+        for beside in np.unique(both):
+            chosen = both == beside
+            move = shifted(axes, BESIDE * sign * beside)
+            # One line with breaks: one path in a file
+            line = np.column_stack((ends[chosen], np.full(chosen.sum(), np.nan))).ravel()
+            axes.plot(np.repeat(places[chosen], 3), line, color=BLUE, linewidth=1.3 if heads else 0.4, solid_capstyle="butt",
+                      zorder=4, transform=move, label="reactions")  # fmt: skip
+            if heads:
+                tips = ends[chosen, 0 if sign > 0.0 else 1]
+                axes.scatter(places[chosen], tips, marker=Path(_HEAD.vertices * (1.0, sign), _HEAD.codes), s=(2.0 * 5.0) ** 2,
+                             c=BLUE, linewidths=0, zorder=4.5, transform=move,
+                             label=f"reactions {'up' if sign > 0.0 else 'down'}")  # fmt: skip

@@ -75,7 +75,7 @@ def compact(svg: bytes) -> bytes:
     >>> compact(b'<path d="M 0.12345 1" style="a"/>\n<path d="M 2 3" style="a"/><use x="1.23456" y="2"/>')
     b'<path d="M 0.12 1M 2 3" style="a"/>\n<use x="1.23" y="2"/>'
     """
-    for part in (rb'<path d="[^"]*"', rb"<use [^>]*>"):
+    for part in (rb'<path (?:id="[^"]*" )?d="[^"]*"', rb"<use [^>]*>"):
         svg = re.sub(part, lambda found: re.sub(rb"(\.\d\d)\d+", rb"\1", found[0]), svg)
     svg = re.sub(rb'<path d="[^"]*"([^>]*)/>\s*(?:<path d="[^"]*"\1/>\s*)+', _joined, svg)
     return re.sub(rb'<use ([^>]*?) (style="[^"]*")/>\s*(?:<use [^>]*? \2/>\s*)+', _grouped, svg)

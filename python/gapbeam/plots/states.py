@@ -13,6 +13,7 @@ from ..results.state.breakpoints import Piece, piece_of, what_happens
 if TYPE_CHECKING:
     from ..engine.beam import Beam
     from ..results.state.step import Step
+    from ..scene.structs import Scene
 
 #: State -> fill of its symbol; in this order in the legend
 FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
@@ -92,9 +93,9 @@ def plain_kinds(states: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(state if state in SYMBOLS else "closed" for state in states)
 
 
-def known_states(states: tuple[str, ...]) -> list[str]:
-    """List the states that occur as the legend does."""
-    return [state for state in FACES if state in states] + sorted({state for state in states if state not in FACES})
+def plain_states(scene: Scene) -> tuple[str, ...]:
+    """Take for states what supports are, where nothing is known of what they do."""
+    return tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
 
 
 def legend_handles(kinds: tuple[str, ...]) -> list[Line2D]:

@@ -1,7 +1,8 @@
-"""Numbers, reactions, openings and gaps of supports: texts below the beam that keep clear of one another."""
+"""Numbers, reactions, openings, gaps, settlements and springs of supports: texts beside the beam that keep clear of one another."""
 
 from __future__ import annotations
 
+import textwrap
 from collections import defaultdict
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,16 +10,14 @@ import numpy as np
 
 from ..results import formatting as fmt
 from ..scene.names import labels
-from .labels import LINE, Labels, text_width
+from .labels import LINE, Labels, spread, text_width
+from .support_values import SupportValues, properties
 
 if TYPE_CHECKING:
-    from ..results.state.step import Step
     from ..scene.structs import Scene
 
-DIGITS = 4
-"""Of a reaction."""
-MOST_LINES = 6
-"""Lines that the gaps may take under the numbers of the supports."""
+MOST_LINES = 8
+"""Lines that gaps and springs may take under the numbers of the supports."""
 ROWS, MOST_ROWS = 2, 5
 """Rows that reactions take at most, and openings."""
 MOST_UNITS = 8
@@ -27,8 +26,10 @@ MOST_PLACES, MOST_LARGEST = 60, 16
 """Places up to which all reactions and openings are labelled if there is room, and how many of either where there are more."""
 DENSE = 20.0
 """Distance of places below which they are near one another (points)."""
-NONE = 1e-9
-"""Reactions and openings below this share of the largest, or of the deflections, are said to be none."""
+EACH = 3
+"""Supports with the same gap or spring, of which it is said once for all of them."""
+WIDE = 110
+"""Characters of a line of a note."""
 
 
 class Text(NamedTuple):
@@ -41,7 +42,7 @@ class Text(NamedTuple):
 
 
 class SupportTexts:
-    """Lay out the texts of the supports from a height downward.
+    """Lay out the texts of the supports from a height downward; of an upright beam to the right.
 
     Parameters
     ----------
@@ -49,12 +50,14 @@ class SupportTexts:
         The scene.
     x : numpy.ndarray
         Places of the supports.
-    width : float
-        Width of the panel (points).
+    length : float
+        Length of the drawn beam (points).
     top : float
         Upper edge of the first line (points).
-    step : Step, optional
-        State whose reactions and openings are written.
+    values : SupportValues, optional
+        Reactions and openings.
+    upright : bool
+        Whether the beam stands.
 
     Attributes
     ----------
@@ -64,28 +67,50 @@ class SupportTexts:
         Lower edge (points).
     unit : str
         Heading of the reactions where their unit does not stand beside them; may be empty.
-    note : str
-        How many reactions are labelled, where not all are; else empty. It is the last of the texts.
+    notes : list of str
+        What holds for many supports, and what is not labelled.
     """
 
-    def __init__(self, scene: Scene, x: np.ndarray, width: float, top: float, step: Step | None = None) -> None:
-        self.scene, self.names = scene, labels(scene.supports)
-        self.scale = (width - 60.0) / float(scene.span_ends()[-1])  # points per length
-        self.page = (width - 22.0) / self.scale
+    def __init__(
+        self, scene: Scene, x: np.ndarray, length: float, top: float, values: SupportValues | None = None, upright: bool = False
+    ) -> None:
+        self.scene, self.names, self.values = scene, labels(scene.supports), values
+        self.scale = length / float(scene.span_ends()[-1])  # points per length
+        self.page = (length + 38.0) / self.scale
         self.at: dict[float, list[int]] = defaultdict(list)
         for index, place in enumerate(x.tolist()):
             self.at[place].append(index)
-        self.unit = self.note = ""
-        groups, every = self._groups()
-        self.texts = [Text(_middle(group), top, self._numbers(group)) for group in groups]
-        self.alone = {group[0] for group in groups if len(group) == 1}
-        rows = self._reactions(step, top - LINE) if step is not None else 0
-        if every == 1:
-            self._gaps(top - LINE * (1 + rows))
-        if self.note:
-            foot = min(text.y - LINE * (1 + text.words.count("\n")) for text in self.texts)
-            self.texts.append(Text(float(scene.span_ends()[-1]) / 2, foot - 2.0, self.note))
-        self.bottom = min((text.y - LINE * (1 + text.words.count("\n")) for text in self.texts), default=top) - 1.0
+        self.unit, self.notes = "", []
+        self.few = len(self.at) <= MOST_UNITS
+        self.each = self._common()
+        if upright:
+            self.texts = self._beside(top)
+            self.bottom = min((text.y - text_width(text.words) for text in self.texts), default=top) - 2.0
+        else:
+            groups, every = self._groups()
+            self.texts = [Text(_middle(group), top, self._numbers(group)) for group in groups]
+            self.alone = {group[0] for group in groups if len(group) == 1}
+            rows = self._reactions(top - LINE) if values is not None else 0
+            self._properties(top - LINE * (1 + rows), every)
+            foot = min((text.y - LINE * (1 + text.words.count("\n")) for text in self.texts), default=top)
+            for k, note in enumerate(self.notes):
+                self.texts.append(Text(float(scene.span_ends()[-1]) / 2, foot - 2.0 - LINE * k, note))
+            self.bottom = min((text.y - LINE * (1 + text.words.count("\n")) for text in self.texts), default=top) - 1.0
+
+    def _common(self) -> set[tuple[str, str]]:
+        """Find what many supports have alike, and note it once."""
+        found: dict[tuple[str, str], list[str]] = defaultdict(list)
+        sides = {support.side for support in self.scene.supports} - {"both"}
+        for k, support in enumerate(self.scene.supports):
+            for kind, words in properties(self.scene, k).items():
+                found[kind, support.side].append(words)
+        each = {pair for pair, words in found.items() if len(words) > EACH and len(set(words)) == 1}
+        notes: dict[str, list[str]] = defaultdict(list)
+        for kind, side in sorted(each, key=lambda pair: (pair[1], pair[0])):
+            where = f" {side}" * (len(sides) > 1 and side != "both")
+            notes[f"{len(found[kind, side])} supports{where}"].append(found[kind, side][0])
+        self.notes += textwrap.wrap("; ".join(f"{which}: {', '.join(words)} each" for which, words in notes.items()), WIDE)
+        return each
 
     def _groups(self) -> tuple[list[list[float]], int]:
         """Choose the places whose supports are numbered: near ones together, every one in so many."""
@@ -109,93 +134,112 @@ class SupportTexts:
             return ", ".join(self.names[index] for index in indices)
         return fmt.ranges(sorted(indices))
 
-    def _reactions(self, step: Step, top: float) -> int:
+    def _reactions(self, top: float) -> int:
         """Write reactions and openings, what has no contact first, then the largest; return the number of rows they take."""
-        few = len(self.at) <= MOST_UNITS
-        lines = {place: found for place, indices in self.at.items() if (found := self._lines(step, place, indices, few))}
-        if not few:
-            self.unit = fmt.with_unit(self.scene, "reaction")
+        told = {place: self.values.told(indices, self.few, place not in self.alone) for place, indices in self.at.items()}
+        told = {place: one for place, one in told.items() if one.lines or one.openings}
+        if not self.few:
+            self.unit = self.values.heading
         # Where places are near one another, what has no contact stands under the reactions
         dense = (len(self.at) - 1) * DENSE > self.page * self.scale
-        order = sorted(lines, key=lambda place: (not lines[place][2], -lines[place][1]))
+        order = sorted(told, key=lambda place: (not told[place].lifted, -told[place].size))
         if len(self.at) > MOST_PLACES:
-            order = [place for lifted in (True, False) for place in [p for p in order if lines[p][2] == lifted][:MOST_LARGEST]]
+            order = [place for lifted in (True, False) for place in [p for p in order if told[p].lifted == lifted][:MOST_LARGEST]]
         taken, used, written = Labels(), 0, 0
+        tallest = max((len(one.lines) + len(one.openings) for one in told.values()), default=1)
         for place in order:
-            words, _, lifted = lines[place]
-            middle = min(place, self.page - text_width(words) / 2 / self.scale)
-            high = 1 + words.count("\n")
-            for row in range(ROWS * (dense and lifted), MOST_ROWS if lifted else ROWS):
+            one = told[place]
+            every, lifted = (*one.lines, *one.openings), one.lifted
+            words, high = "\n".join(every), len(every)
+            middle = self._inside(place, words)
+            for row in range(ROWS * (dense and lifted), (MOST_ROWS if lifted else ROWS) * tallest):
                 if taken.take(middle * self.scale, top - LINE * (row + high), words):
-                    self.texts.append(Text(middle, top - LINE * row, words, lifted))
+                    if one.lines:
+                        self.texts.append(Text(middle, top - LINE * row, "\n".join(one.lines), lifted and not one.openings))
+                    if one.openings:
+                        self.texts.append(Text(middle, top - LINE * (row + len(one.lines)), "\n".join(one.openings), True))
                     used, written = max(used, row + high), written + 1
                     break
-        if written < len(lines):
-            self.note = f"reactions at {written} of {fmt.count(len(lines), 'place')} labelled, the largest"
+        if written < len(told):
+            self.notes.append(f"reactions at {written} of {fmt.count(len(told), 'place')} labelled, the largest")
         return used
 
-    def _lines(self, step: Step, place: float, indices: list[int], few: bool) -> tuple[str, float, bool] | None:
-        """Word what the supports of a place do: a line each, the largest reaction or opening, and whether none of them acts."""
-        scene, found, largest, axial = self.scene, [], 0.0, 0.0
-        small = NONE * float(np.abs(step.reaction).max(initial=0.0))
-        acting = [k for k in indices if abs(step.reaction[k]) > small]
-        for k in acting:
-            force = abs(float(step.reaction[k]))
-            if scene.supports[k].direction == "axial":
-                arrow = "\N{RIGHTWARDS ARROW}" if step.reaction[k] > 0.0 else "\N{LEFTWARDS ARROW}"
-                found.append((k, f"{arrow} {_with_unit(scene, 'reaction', force)}"))
-                axial = max(axial, force)
-            else:
-                found.append((k, _with_unit(scene, "reaction", force) if few else fmt.number(force, DIGITS)))
-                largest = max(largest, force)
-        across = [k for k in indices if scene.supports[k].direction == "normal"]
-        small = NONE * float(np.abs(step.deflection).max(initial=0.0))
-        lifted = bool(across) and not largest and all(step.state[k] == "open" and step.opening[k] > small for k in across)
-        if lifted:
-            largest = max(float(step.opening[k]) for k in across)
-            found += [(k, f"open {_with_unit(scene, 'opening', float(step.opening[k]))}") for k in across]
-        elif across and not largest and few:
-            found.append((across[0], "0"))
-        named = len(across) > 1 or place not in self.alone
-        words = [f"{self.names[k]}: {text}" if named else text for k, text in found]
-        small = NONE * float(np.abs(step.couple).max(initial=0.0))
-        for k in indices:
-            if abs(step.couple[k]) > small:
-                arrow = "\N{CLOCKWISE OPEN CIRCLE ARROW}" if step.couple[k] > 0.0 else "\N{ANTICLOCKWISE OPEN CIRCLE ARROW}"
-                words.append(f"{arrow} {_with_unit(scene, 'couple', abs(float(step.couple[k])))}")
-        return ("\n".join(words), max(largest, axial), lifted) if words else None
+    def _inside(self, place: float, words: str) -> float:
+        """Move the middle of a text so that it ends on the page."""
+        return min(place, self.page - text_width(words) / 2 / self.scale)
 
-    def _gaps(self, top: float) -> None:
-        """Write the gaps under the rest, further down where they would cover one another; none where that goes too far.
+    def _properties(self, top: float, every: int) -> None:
+        """Write gaps, settlements and springs under the rest, further down where they would cover one another.
 
-        Places of which the number stands alone need not repeat it.
+        Places of which the number stands alone need not repeat it. What has no room is summed up.
         """
-        rows, written, supports = Labels(), [], self.scene.supports
-        for place, indices in sorted(self.at.items()):
-            gaps = {k: _with_unit(self.scene, "gap", supports[k].gap) for k in indices if supports[k].gap}
-            if not gaps:
-                continue
-            sides = {supports[k].side for k in indices}
-            each = [f"{self.names[k]}{f' {supports[k].side}' if len(sides) > 1 else ''}: gap {gap}" for k, gap in gaps.items()]
-            texts = ["\n".join(each)] * MOST_LINES
-            if place in self.alone and len(gaps) == len(indices) and len(set(gaps.values())) == 1:
-                texts[0] = f"gap {gaps[indices[0]]}"  # right under the numbers, and the same for all of them
-            for line, text in enumerate(texts):
-                middle = min(place, self.page - text_width(text) / 2 / self.scale)
-                lines = line + 1 + text.count("\n")
-                if lines <= MOST_LINES and rows.take(middle * self.scale, top - LINE * lines, text):
+        rows, written = Labels(), []
+        wanted = {place: words for place, indices in sorted(self.at.items()) if (words := self._of_place(place, indices))}
+        for place, text in wanted.items() if every == 1 else ():
+            middle, high = self._inside(place, text), 1 + text.count("\n")
+            for line in range(MOST_LINES):
+                if line + high <= MOST_LINES and rows.take(middle * self.scale, top - LINE * (line + high), text):
                     written.append(Text(middle, top - LINE * line, text))
                     break
-            else:
-                return
+        if len(written) < len(wanted):
+            self._sum_up()
+            return
         self.texts += written
+
+    def _of_place(self, place: float, indices: list[int]) -> str:
+        """Word what the supports of a place are, as far as it is not said of all."""
+        found = {
+            k: [words for kind, words in properties(self.scene, k).items() if (kind, self.scene.supports[k].side) not in self.each]
+            for k in indices
+        }
+        found = {k: words for k, words in found.items() if words}
+        if not found:
+            return ""
+        same = len(found) == len(indices) and len({tuple(words) for words in found.values()}) == 1
+        if same and self._stands_alone(place):
+            return "\n".join(found[indices[0]])
+        sides = len({self.scene.supports[k].side for k in indices}) > 1
+        return "\n".join(
+            f"{self.names[k]}{f' {self.scene.supports[k].side}' * sides}: {words}" for k, each in found.items() for words in each
+        )
+
+    def _stands_alone(self, place: float) -> bool:
+        return place in getattr(self, "alone", self.at)
+
+    def _sum_up(self) -> None:
+        """Note between which values gaps, settlements and springs are, where they cannot all be written."""
+        values = {
+            "gaps": ("gap", [s.gap for s in self.scene.supports if s.gap]),
+            "settlements": ("gap", [s.settlement for s in self.scene.supports if s.settlement]),
+            "springs": ("uniform", [s.stiffness for s in self.scene.supports if 0.0 < s.stiffness < np.inf and s.law is None]),
+        }
+        words = []
+        for name, (quantity, found) in values.items():
+            if not found or name.removesuffix("s") in {kind for kind, _ in self.each}:
+                continue
+            unit, factor = fmt.shown_unit(self.scene, quantity)
+            low, high = (fmt.number(factor * value, 4).replace("-", "\N{MINUS SIGN}") for value in (min(found), max(found)))
+            reach = f"of {low}" if low == high else f"from {low} to {high}"
+            words.append(f"{len(found):,} {name} {reach} {unit}".rstrip())
+        self.notes += ["; ".join(words)] * bool(words)
+
+    def _beside(self, start: float) -> list[Text]:
+        """Write a line for every place to the right of an upright beam, moved along it as little as need be."""
+        found = []
+        for place, indices in sorted(self.at.items()):
+            told = self.values.told(indices, self.few, False) if self.values is not None else None
+            lines = [*told.lines, *told.openings] if told else []
+            lines += self._of_place(place, indices).replace("\n", ", ").split("\n") if self._of_place(place, indices) else []
+            head = self._numbers([place])
+            text = head if not lines else f"{head}: {', '.join(lines)}" if len(indices) == 1 else f"{', '.join(lines)}"
+            found.append((place, text, bool(told and told.lifted)))
+        most = int(self.page * self.scale / LINE)
+        if len(found) > most:
+            self.notes.append(f"{most} of {len(found)} places labelled")
+            found = found[:: -(-len(found) // most)]
+        at = spread([place * self.scale for place, *_ in found], LINE, self.page * self.scale)
+        return [Text(y / self.scale, start, text, lifted) for y, (_, text, lifted) in zip(at, found, strict=True)]
 
 
 def _middle(places: list[float]) -> float:
     return (places[0] + places[-1]) / 2
-
-
-def _with_unit(scene: Scene, quantity: str, value: float) -> str:
-    """Write a value with its unit, displacements in mm where lengths are in m."""
-    unit, factor = fmt.shown_unit(scene, quantity)
-    return f"{fmt.number(factor * value, DIGITS)} {unit}".rstrip()

@@ -143,7 +143,7 @@ def replace(scene: S, path: str, value: Any) -> S:
     ([10000.0, 20000.0], 0.01, 0.0)
     """
     new = deepcopy(scene)
-    pieces = _pieces(path)
+    pieces = pieces_of(path)
     owner, place = new, ""
     for k, piece in enumerate(pieces):
         key = _key(owner, piece, place)
@@ -161,8 +161,28 @@ def replace(scene: S, path: str, value: Any) -> S:
     return new
 
 
-def _pieces(path: str) -> list[str | int]:
-    """Keys and numbers of a path as they are written."""
+def pieces_of(path: str) -> list[str | int]:
+    """Give keys and numbers of a path as they are written.
+
+    Parameters
+    ----------
+    path : str
+        As in messages.
+
+    Returns
+    -------
+    list of str or int
+
+    Raises
+    ------
+    SceneError
+        It is no path.
+
+    Examples
+    --------
+    >>> pieces_of('supports "R-1".law[2][0]')
+    ['supports', 'R-1', 'law', 2, 0]
+    """
     pieces: list[str | int] = []
     at = 0
     for piece in PIECE.finditer(path):

@@ -22,7 +22,31 @@ LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+
 """A key of more than a hundred parts: no scene has one, and tomllib takes minutes for some ten thousand parts."""
 
 
-def read_file(path: Path) -> dict[str, Any]:
+class Written(dict):
+    """Data of a file, with its text for messages that name a line.
+
+    Parameters
+    ----------
+    data : dict
+        What stands there.
+    name : str
+        Of the file.
+    text : str
+        Its contents.
+    """
+
+    __slots__ = ("name", "text")
+
+    def __init__(self, data: dict[str, Any], name: str, text: str) -> None:
+        super().__init__(data)
+        self.name, self.text = name, text
+
+    def __reduce__(self) -> tuple:
+        """Pickle as made."""
+        return type(self), (dict(self), self.name, self.text)
+
+
+def read_file(path: Path) -> Written:
     """Read a TOML or JSON file.
 
     Parameters
@@ -32,7 +56,7 @@ def read_file(path: Path) -> dict[str, Any]:
 
     Returns
     -------
-    dict
+    Written
         The data as they stand there; only the syntax is checked.
 
     Raises
@@ -53,12 +77,12 @@ def read_file(path: Path) -> dict[str, Any]:
     return _parse(_decoded(data, str(path)), kind, str(path))
 
 
-def read_standard_input() -> dict[str, Any]:
+def read_standard_input() -> Written:
     """Read TOML, or JSON where the text begins with a brace, from standard input.
 
     Returns
     -------
-    dict
+    Written
         As from `read_file`.
 
     Raises
@@ -90,7 +114,7 @@ def _decoded(data: bytes, name: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
+def _parse(text: str, kind: str, name: str) -> Written:
     """Parse a text of the kind .toml or .json that came from a place with a name."""
     if kind == ".toml" and LONG_KEY.search(text):
         raise SceneError(name, TOO_DEEP)
@@ -125,7 +149,7 @@ def _parse(text: str, kind: str, name: str) -> dict[str, Any]:
         raise SceneError(_place(data, far[0]) or name, out_of_range(far[0].word, far[0].value))
     if not isinstance(data, dict):
         raise SceneError("the scene", f"expected a table, got {shown(data)}")
-    return data
+    return Written(data, name, text)
 
 
 @dataclass(eq=False)

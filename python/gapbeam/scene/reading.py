@@ -14,11 +14,12 @@ from ..base.errors import EngineError, SceneError
 from ..engine.beam import Beam, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
-from .files import read_file
+from .files import Written, read_file
 from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
 from .ground_tables import is_table, least_and_most, settled
 from .laws import is_smooth, wrong_parameter
 from .limits import check_limits
+from .mistakes import all_mistakes
 from .names import check_names, names_in_errors
 from .refusals import refusal
 from .structs import Scene
@@ -56,13 +57,13 @@ def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     ...     print(error)
     supports[0].gap: expected a number, got "0,02"
     """
-    scene = _structured(source)
-    with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
-        _prepared(scene)
-    if scene.combinations:
-        with names_in_errors(scene):
-            plan_combinations(scene)
-    return scene
+    source = _opened(source)
+    try:
+        return _checked(source)
+    except SceneError as error:
+        if isinstance(source, Written):
+            raise all_mistakes(source, error, _checked) from None
+        raise
 
 
 def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Scene, Beam]:
@@ -87,8 +88,38 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
     EngineError
         Numbers are beyond the range of doubles.
     """
+    source = _opened(source)
+    try:
+        scene = _structured(source)
+        beam = _prepared(scene)
+        if isinstance(source, Written):
+            _plan(scene)
+        return scene, beam
+    except SceneError as error:
+        if isinstance(source, Written):
+            raise all_mistakes(source, error, _checked) from None
+        raise
+
+
+def _opened(source: Any) -> Any:
+    """Read a file where its name is given."""
+    return read_file(Path(source)) if isinstance(source, str | os.PathLike) else source
+
+
+def _checked(source: Scene | Mapping[str, Any]) -> Scene:
+    """Check a scene completely."""
     scene = _structured(source)
-    return scene, _prepared(scene)
+    with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
+        _prepared(scene)
+    _plan(scene)
+    return scene
+
+
+def _plan(scene: Scene) -> None:
+    """Check the combinations, if there are any."""
+    if scene.combinations:
+        with names_in_errors(scene):
+            plan_combinations(scene)
 
 
 def _prepared(scene: Scene) -> Beam:
@@ -100,10 +131,10 @@ def _prepared(scene: Scene) -> Beam:
             raise refusal(scene, *refused.codes) from None
 
 
-def _structured(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
+def _structured(source: Scene | Mapping[str, Any]) -> Scene:
     """A scene whose keys and types are right, and which asks for nothing that this version has not."""
-    if isinstance(source, str | os.PathLike):
-        source = read_file(Path(source))
+    if isinstance(source, Written):
+        source = dict(source)
     if not isinstance(source, Scene | Mapping):
         again = "; to solve it again, give its scene" if hasattr(source, "scene") else ""
         got = f"a {type(source).__name__}" if again else "None" if source is None else shown(source)

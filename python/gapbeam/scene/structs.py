@@ -33,13 +33,14 @@ import numpy as np
 from msgspec import field
 
 from ..base.files import write_files
+from .analysis import Analysis
 from .edited import to_data, to_toml
 from .ground_laws import GroundLaw
 from .ground_tables import Along
 from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
-from .table import Count, NotNegative, Point, Positive, Side, Spans, Stretch, Table
+from .table import NotNegative, Point, Positive, Side, Spans, Stretch, Table
 
 inf = math.inf
 
@@ -76,6 +77,9 @@ class Beam(Table, forbid_unknown_fields=True):
         Places of moment hinges inside the beam (length, from the left end).
     width : float, optional
         Width on the ground (length), by which pressures are set beside `limits.pressure`; it changes no result.
+    direction : {"right", "down"}
+        Where x goes in pictures: right (default), or down for what stands upright, such as a pile; it changes no result.
+        Downward in a lying beam is to the right then.
     """
 
     spans: Spans
@@ -84,6 +88,7 @@ class Beam(Table, forbid_unknown_fields=True):
     EA: Positive | list[Positive] = inf
     hinges: list[float] = []
     width: Positive | None = None
+    direction: Literal["right", "down"] = "right"
 
 
 class Section(Stretch, kw_only=True, gc=False):
@@ -248,46 +253,6 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     settlements: dict[int | str, float] = {}
     scheme_of: str | None = None
     expand: dict[str, Literal["signs", "spans"]] = {}
-
-
-class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
-    """How the load is followed.
-
-    Parameters
-    ----------
-    steps : int
-        Number of equal steps of the load factor up to 1; default 1.
-    follow : {"steps", "events"}
-        steps (default), or events: every change of the acting supports at its exact load factor.
-    rule : {"block", "single"}
-        How the acting supports are found: block (default) changes many at once and always ends, single (the
-        paper's rule) releases the one that pulls most and puts back all that are penetrated.
-    at_limit : {"stop", "jump", "follow"}
-        Where the load cannot grow any more, since supports soften or yield: stop (default); jump to the next stable state
-        at the same load factor; or follow the path on, with falling load (only with follow = "events").
-    history : list of float
-        Load factors (no unit) gone through in turn, from event to event; default [1.0].
-    first_order : bool
-        True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
-        false: such a scene is refused, since that effect is left out.
-    """
-
-    steps: Count = 1
-    follow: Literal["steps", "events"] = "steps"
-    rule: Literal["block", "single"] = "block"
-    at_limit: Literal["stop", "jump", "follow"] = "stop"
-    history: list[float] = field(default_factory=lambda: [1.0])
-    first_order: bool = False
-
-    @property
-    def has_history(self) -> bool:
-        """Whether other load factors are gone to than the full load alone."""
-        return self.history != [1.0]
-
-    @property
-    def is_one_step(self) -> bool:
-        """Whether the full load is put on at once."""
-        return self.follow == "steps" and self.steps == 1 and not self.has_history
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):

@@ -54,14 +54,17 @@ def answer(result: Any) -> list[str]:
     return [headline(result), *answer_of_result(result)]
 
 
-def plot(result: Any, kind: str | None = None, path: str | os.PathLike | None = None, ax: Axes | None = None) -> Figure:
+def plot(
+    result: Any, kind: str | None = None, path: str | os.PathLike | None = None, ax: Axes | None = None,
+    support: int | str | None = None,
+) -> Figure:  # fmt: skip
     """Draw a result.
 
     Parameters
     ----------
     result : Result, Envelope, TrainResult, Cases, Batch or Summary
         Of what.
-    kind, path, ax
+    kind, path, ax, support
         As for `Shown.plot`.
 
     Returns
@@ -76,7 +79,7 @@ def plot(result: Any, kind: str | None = None, path: str | os.PathLike | None = 
     from ..plots.save import picture, save
 
     result = _whole(result)
-    drawn = _pictures(result, kind, ax)
+    drawn = _pictures(result, kind, ax, support)
     if path is not None:
         if os.path.splitext(path)[1].lower() not in (".png", ".pdf", ".svg"):
             raise ValueError(f"path: expected a file that ends in .png, .pdf or .svg, got {shown(os.fspath(path))}")
@@ -86,12 +89,14 @@ def plot(result: Any, kind: str | None = None, path: str | os.PathLike | None = 
     return drawn
 
 
-def _pictures(result: Any, kind: str | None, ax: Axes | None) -> Figure:
+def _pictures(result: Any, kind: str | None = None, ax: Axes | None = None, support: int | str | None = None) -> Figure:
     """Draw the picture that is meant."""
-    from ..plots import figure, path_figure
+    from ..plots import figure, hysteresis_figure, path_figure
     from ..plots.batch import summary_figure
     from ..plots.diagram import draw_diagram, draw_table, draw_tables
 
+    if support is not None and kind != "hysteresis":
+        raise ValueError(f'support: only a picture of one support needs it, kind = "hysteresis"; got {shown(support)}')
     if isinstance(result, ManyVerbs):
         summary = result if isinstance(result, Summary) else None
         names = list(summary.columns if summary is not None else result.results)
@@ -102,7 +107,7 @@ def _pictures(result: Any, kind: str | None, ax: Axes | None) -> Figure:
         return summary_figure(summary._only(kind) if kind is not None else summary)
     is_result = isinstance(result, Result)
     fields = list(result._beam.fields if is_result else result.extremes)
-    _expect(kind, ["path", *fields] if is_result else fields)
+    _expect(kind, ["path", "hysteresis", *fields] if is_result else fields)
     if kind in fields:
         return draw_diagram(result, kind, ax) if is_result else draw_table(result.scene, result.table("fields"), kind, ax)
     _one_picture(ax, fields[2])
@@ -110,6 +115,8 @@ def _pictures(result: Any, kind: str | None, ax: Axes | None) -> Figure:
         return summary_figure(cases_summary(result))
     if isinstance(result, PartVerbs):
         return draw_tables(result.scene, result.table("fields"), part_answer(result)[0])
+    if kind == "hysteresis":
+        return hysteresis_figure(result, support)
     return path_figure(result) if kind == "path" else figure(result)
 
 
@@ -247,7 +254,7 @@ def notebook(result: Any) -> str:
     result = _whole(result)
 
     def drawn() -> bytes:
-        return picture(_pictures(result, None, None), ".svg")
+        return picture(_pictures(result), ".svg")
 
     if isinstance(result, Result):
         return html_of(result, answer(result), drawn)

@@ -130,4 +130,5 @@ def cases_summary(cases: Cases) -> Summary:
     statuses = {word: counts.count(word) for word in dict.fromkeys(counts)}
     reasons = {} if cases.reason is None else {next(word for word in counts if word != "solved"): cases.reason}
     columns = {name: distribution(np.asarray(values, dtype=float)) for name, values in table.items()}
-    return Summary(len(cases), len(cases), statuses, reasons, columns, cases.lifted)
+    units = {name: fmt.shown_unit(cases.scene, name.partition(".")[0]) for name in columns}
+    return Summary(len(cases), len(cases), statuses, reasons, columns, units)

@@ -15,7 +15,8 @@ from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.stepping import solve
 from ..scene.reading import read_scene
-from ..scene.structs import Analysis, Scene
+from ..scene.analysis import Analysis
+from ..scene.structs import Scene
 from .exact import Reference
 from .meshes import (
     MeshedBeam,
@@ -47,23 +48,30 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 WORDS = (
-    "The largest error of deflections, moments and reactions at all nodes, each relative to the largest true value of its kind,",
-    "and the time of one solve. All methods solve the same beam of the same elements and give the same values at the same nodes.",
-    "Compiled methods go from plain arrays to answers; gapbeam.solve goes from a scene to answers inside Python. Contact states",
-    "are part of it: those of the engine by its own search, the others by switching all wrong supports (one at a time after 40",
-    "solves, which ends most cycles). Marked (* or bold) is the Pareto front: no other method is both faster and more accurate on",
-    "that beam; errors below 4e-16 are equal, and answers without a right digit do not count. The true values are decimals of 80",
-    "digits, or a closed form. Times are the fastest of several, taken in turn, on one machine; compare them with each other only.",
+    "The largest error of deflections, moments and reactions at all nodes, relative to the largest true value of its",
+    "kind, and the time of one solve.",
+    "",
+    "* All methods solve the same beam of the same elements and give the same values at the same nodes.",
+    "* Compiled methods go from plain arrays to answers. gapbeam.solve goes from a scene to answers inside Python.",
+    "* Contact states are included. The engine uses its own search. The others switch all wrong supports, one at a time",
+    "  after 40 solves, which ends most cycles.",
+    "* Marked (* or bold) is the Pareto front: no other method is both faster and more accurate on that beam. Errors",
+    "  below 4e-16 are equal, and answers without a right digit do not count.",
+    "* The true values are decimals of 80 digits, or a closed form.",
+    "* Times are the fastest of several, taken in turn, on one machine. Compare them with each other only.",
 )
 """What the tables show."""
 METHODS = (
-    "condensed mixed: the engine's normal route; only supports are nodes, everything else is condensed exactly and recovered.",
-    "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination; fused kernel:",
-    "the same by its kernel for plain beams, without reactions; dgbsv: the same by LAPACK; + 1, + 2: steps of refinement,",
-    "residuals in plain double with differences first (those of the kernel with the remainders of the divisions); dd: in",
-    "double-double.",
-    "displacement: cubic Hermite elements and banded Cholesky (dpbtrf), what most programs do; incremental: its residual is",
-    "summed element by element, differences first, and corrected until it no longer falls.",
+    "condensed mixed: the engine's normal route. Only supports are nodes; everything else is condensed exactly and recovered.",
+    "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination.",
+    "fused kernel: the same by its kernel for plain beams, without reactions.",
+    "dgbsv: the same by LAPACK.",
+    "+ 1, + 2: steps of refinement. Residuals are in plain double with differences first (those of the kernel with "
+    "the remainders of the divisions).",
+    "dd: residuals in double-double.",
+    "displacement: cubic Hermite elements and banded Cholesky (dpbtrf), what most programs do.",
+    "displacement, incremental: its residual is summed element by element, differences first, and corrected until "
+    "it no longer falls.",
 )
 """What the methods are."""
 FIELDS = (
@@ -261,7 +269,7 @@ def findings(comparisons: Sequence[Comparison]) -> list[str]:
     Returns
     -------
     list of str
-        One sentence or two for every family.
+        A few sentences for every family.
     """
     lines = []
     for name in dict.fromkeys(comparison.beam for comparison in comparisons):
@@ -271,7 +279,7 @@ def findings(comparisons: Sequence[Comparison]) -> list[str]:
             continue
         sizes = [member.elements for member in members]
         best, plain = ([found[method].error for found in rows] for method in (CONDENSED, DISPLACEMENT))
-        line = f"{_capital(name)}: condensed mixed is right to {max(best):.0e} on all meshes; the plain displacement method "
+        line = f"{_capital(name)}: condensed mixed is right to {max(best):.0e} on all meshes. The plain displacement method "
         bad = next((k for k, error in enumerate(plain) if not error <= GOOD), len(plain))
         if bad == len(plain):
             line += f"is as good for every practical purpose ({max(plain):.0e} at worst)"
@@ -279,11 +287,11 @@ def findings(comparisons: Sequence[Comparison]) -> list[str]:
             line += f"is right to {max(plain[:bad]):.0e} up to {sizes[bad - 1]:,} elements and " if bad else ""
             worst = int(np.argmax(plain))
             line += f"keeps {_kept(plain[worst])} at {sizes[worst]:,}"
-        line += f"; it takes {_times(rows, DISPLACEMENT, CONDENSED)} the time of condensed mixed"
+        line += f". It takes {_times(rows, DISPLACEMENT, CONDENSED)} the time of condensed mixed"
         if all(KERNEL in found for found in rows):
             error, refined = (max(found[name].error for found in rows) for name in (KERNEL, KERNEL_REFINED))
-            line += f", {_times(rows, DISPLACEMENT, KERNEL)} that of the fused kernel, which is right to {error:.0e}, and"
-            line += f" {_times(rows, DISPLACEMENT, KERNEL_REFINED)} that of the refined one, which is right to {refined:.0e}"
+            line += f". That is {_times(rows, DISPLACEMENT, KERNEL)} the time of the fused kernel (right to {error:.0e}), and "
+            line += f"{_times(rows, DISPLACEMENT, KERNEL_REFINED)} that of the refined kernel (right to {refined:.0e})"
         lines.append(f"{line}.")
     return lines
 
@@ -346,19 +354,14 @@ def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: st
     comparisons = [replace(one, beam=literal_markdown(one.beam)) for one in comparisons]
     command = " ".join(["gapbeam study accuracy", *options.split(), "--markdown docs/accuracy.md --plot docs/accuracy.svg"])
     made = f"This page is made by `{command}`."
-    lines = ["# Error against run time", "", made, "", *WORDS, "", *(f"* {line}" for line in _sentences(METHODS)), ""]
+    lines = ["# Error against run time", "", made, "", *WORDS, "", "Methods:", "", *(f"* {line}" for line in METHODS), ""]
     if picture:
         caption = "Error against run time: one line a method, the Pareto front in circles, failures at the upper edge"
         lines += [f"![{caption}]({picture})", ""]
-    lines += [f"* {line}" for line in findings(comparisons)] + ([remark] if remark else [])
+    lines += ["Findings:", "", *(f"* {line}" for line in findings(comparisons))] + ([remark] if remark else [])
     for name, (columns, cells) in tables(comparisons, _both).items():
         lines += ["", f"## {_capital(name)}", "", *markdown_table(columns, cells, texts=1)]
     return "\n".join(lines) + "\n"
-
-
-def _sentences(lines: Iterable[str]) -> list[str]:
-    """Each description on a line of its own."""
-    return [f"{text.strip()}." for text in " ".join(lines).split(".") if text.strip()]
 
 
 def print_comparisons(comparisons: Sequence[Comparison], remark: str = "", console: Console | None = None) -> None:
@@ -379,8 +382,8 @@ def print_comparisons(comparisons: Sequence[Comparison], remark: str = "", conso
 
     say = Writer(console or Console(highlight=False))
     say.line("Error against run time", "bold")
-    say.line(" ".join(WORDS), "dim")
-    say.line(" ".join(METHODS), "dim")
+    for line in (*WORDS, *METHODS):
+        say.line(line, "dim")
     times = tables(comparisons, _time)
     for name, (columns, cells) in tables(comparisons, _error).items():
         say.heading(_capital(name))

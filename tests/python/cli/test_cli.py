@@ -252,7 +252,7 @@ def test_module_with_plain_characters(scene):
     environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
     run = subprocess.run(command, capture_output=True, env=environment, check=True)
     assert run.stdout.isascii()
-    assert b"# closed" in run.stdout
+    assert b"# in contact" in run.stdout
 
 
 @pytest.mark.parametrize(("name", "status"), [("scene", 0), ("tipping", 1)])

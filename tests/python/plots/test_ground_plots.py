@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from scenes.ground import footing, on_ground, rail, stopped, touching, two, yielding
 
+from .curves import curve
+
 WAVES = [[x, 0.02 + 0.02 * np.sin(x)] for x in np.linspace(0.0, 20.0, 21).tolist()]
 
 
@@ -69,9 +71,9 @@ def test_pressure_has_a_panel_with_its_extremes(on_rail, rail_picture):
     assert rail_picture.axes[-1] is axes
     (value, x) = on_rail._pairs_of_extremes()["pressure"]["max"]
     assert [text.get_text() for text in axes.texts] == [f"{value:.4g} at {x:g}"]
-    drawn = line(axes, "curve")
-    np.testing.assert_allclose(drawn[:, 1], on_rail.at(drawn[:, 0]).pressure, atol=1e-12)
-    assert {end for zone in on_rail.steps[-1].contact for end in (zone.from_, zone.to)} <= set(drawn[:, 0].tolist())
+    x, drawn = curve(axes)
+    np.testing.assert_allclose(drawn, on_rail.at(x).pressure, atol=1e-4 * value)
+    assert {end for zone in on_rail.steps[-1].contact for end in (zone.from_, zone.to)} <= set(x.tolist())
 
 
 def test_no_pressure_without_ground():
@@ -82,9 +84,10 @@ def test_no_pressure_without_ground():
 def test_curves_on_stiff_ground_are_smooth():
     loads, ground = [scenes.force(10.0, 1.0)], [{"k": 4e4}]
     result = gapbeam.solve(on_ground([20.0], ground, loads, EI=1.0))
-    drawn = line(panel(figure(result), "moment"), "curve")
-    near = np.abs(drawn[:, 0] - 10.0) < 0.1  # a length of (4 EI/k)^(1/4)
+    x, drawn = curve(panel(figure(result), "moment"))
+    near = np.abs(x - 10.0) < 0.1  # a length of (4 EI/k)^(1/4)
     assert near.sum() > 20
+    np.testing.assert_allclose(drawn, result.at(x).moment, atol=1e-3 * drawn.max())
 
 
 def test_the_surface_is_to_scale_beside_the_deflection():
@@ -128,7 +131,8 @@ def test_a_constant_gap_stands_off_as_those_of_supports():
 def test_foundations_that_overlap_lie_under_one_another():
     first, second = GroundLanes(read_scene(two()), 450.0).layers
     assert first.rim > second.y.max()
-    assert (first.name, second.name) == ("foundation 0", "foundation 1")
+    names = [words for *_, words, _ in GroundLanes(read_scene(two()), 450.0).names]
+    assert names == ["foundation 0", "foundation 1"]
     apart = [{"k": 1.0, "side": "below", "to": 4.0}, {"k": 1.0, "side": "below", "from": 4.0}]
     first, second = GroundLanes(read_scene(on_ground([10.0], apart, [])), 450.0).layers
     assert first.rim == second.rim
@@ -178,7 +182,7 @@ def test_files_come_out(on_rail, tmp_path):
 def test_path_shows_where_zones_end(following, monkeypatch):
     monkeypatch.setattr(ground_path, "MOST_STATES", 12)
     picture = path_figure(following)
-    assert [axes.get_ylabel() for axes in picture.axes] == ["x of contact [m]", "reaction, upward positive [kN]", "opening [m]"]
+    assert [axes.get_ylabel() for axes in picture.axes] == ["x of contact [m]", "reaction, upward positive [kN]", "opening [mm]"]
     (area,) = (found for found in collections(picture.axes[0], "contact") if found.get_paths())
     for path in area.get_paths():
         (low, from_), (_, to) = path.vertices[:2]

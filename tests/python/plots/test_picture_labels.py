@@ -52,7 +52,7 @@ def test_reactions_and_openings_are_those_of_the_result(drawn):
     reactions = {number(abs(value), DIGITS) for value in step.reaction} | {"0"}
     openings = {f"open {number(value, DIGITS)}" for value in step.opening}
     shown = [text.get_text().split(": ")[-1] for text in words(made.axes[0]) if text.get_position()[1] < -15.0]
-    shown = [text for text in shown if not re.match("gap|reaction|bilateral|closed|open below|hardens", text)]
+    shown = [text for text in shown if not re.match(r"gap|reaction|bilateral|closed|open below|hardens|spring|\d+ gaps", text)]
     assert len(shown) > 3
     assert set(shown) <= names | reactions | openings
     assert "open" not in step.state or max(openings, key=lambda text: float(text[5:])) in shown

@@ -8,6 +8,8 @@ from gapbeam.plots import figure, plot
 from matplotlib.colors import to_rgba
 from matplotlib.image import imread
 
+from .curves import curve
+
 
 def paper():
     """The paper's beam: clamp; closed from above; open; closed from below."""
@@ -89,11 +91,6 @@ def symbols(picture):
         for collection in picture.axes[0].collections
         if len(collection.get_facecolor())
     }
-
-
-def curve(axes):
-    """The data of the curve in a panel."""
-    return next(line for line in axes.lines if line.get_label() == "curve").get_data()
 
 
 def test_closed_symbols_are_filled_and_open_ones_are_not():

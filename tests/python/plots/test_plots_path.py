@@ -75,7 +75,7 @@ def test_names_stand_in_the_order_of_the_ends():
 
 def test_what_is_left_out_is_said():
     upper, lower = path_figure(gapbeam.solve(lifted(40, follow="events"))).axes
-    assert upper.get_title("right") == "the 12 largest of 41"
+    assert upper.get_title("right") == f"the {MOST_LINES} largest of 41"
     result = gapbeam.solve(lifted(40, follow="events"))
     largest = max(range(41), key=lambda k: max(step.opening[k] for step in result.steps))
     assert largest in curves(lower)

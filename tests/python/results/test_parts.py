@@ -289,7 +289,7 @@ def test_cases_that_are_not_solved():
     assert "1 of 3 cases solved" in repr(cases)
     assert json.loads(cases.to_json())["moment_max"][1] is None
     assert cases.lifted == []
-    assert cases.plot().axes
+    assert prepared.solve([[1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]).plot().axes
 
 
 def test_cases_of_other_kinds():
@@ -315,7 +315,8 @@ def test_batches_and_their_summaries(things):
     (lifted,) = [one for one in batch.lifted if one.support == 2]
     assert (lifted.share, lifted.case) == (pytest.approx(2 / 3), 2)
     assert lifted.opening == batch.openings["C"].max()
-    assert summary.lifted == batch.lifted
+    (of_summary,) = [one for one in summary.lifted if one.support == 2]
+    assert (of_summary.share, of_summary.opening) == (lifted.share, lifted.opening)
     assert summary.reactions["B"].largest == batch.reactions["B"].max()
     assert summary.extremes["moment"]["max"].quantiles[0.5] == np.sort(batch.extremes["moment"]["max"].value)[1]
     assert summary.table()["result"] == [name for name, one in summary.columns.items() if one.count]

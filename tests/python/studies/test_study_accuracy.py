@@ -88,7 +88,7 @@ def test_findings_follow_the_numbers():
     assert "Easy: condensed mixed is right to 1e-16" in said[0]
     assert "as good for every practical purpose (2e-13 at worst)" in said[0]
     assert "is right to 1e-14 up to 10 elements and keeps no digit at 1,000" in said[1]
-    assert "it takes 2.0 times the time of condensed mixed" in said[1]
+    assert "It takes 2.0 times the time of condensed mixed" in said[1]
     assert "method keeps 4 digits at 100" in findings(bad[1:2])[0]
 
 

@@ -1,7 +1,8 @@
 /* The picture of a state: the model with loads, supports and reactions, and a panel for every field. */
 
-const WIDTH = 1000, LEFT = 64, RIGHT = 28, PANEL = 132, PAD = 20;
-const MODEL = { loads: 84, lift: 34, labels: 78 };
+const WIDTH = 1000, LEFT = 84, RIGHT = 28, PANEL = 148, TITLE = 30, FOOT = 20;
+const MODEL = { loads: 94, lift: 34, labels: 88, level: 28, levels: 4 };
+const TURNED = 46; // pixels between supports below which their numbers are turned
 const MOST_NAMED = 60; // supports whose numbers are written
 
 function number(value, digits = 5) {
@@ -59,12 +60,16 @@ class Scale {
     const largest = (values) => Math.max(0, ...values.map(Math.abs)) || 1;
     this.force = largest([...loads.filter((one) => one.type === "force").map((one) => one.value),
       ...DATA.ways.flatMap((way) => way.axles || []).map(([, force]) => force)]);
+    if (DATA.supports.some((supports) => supports.length <= MOST_NAMED && spacingOf(supports) < TURNED)) MODEL.labels = 140;
+    MODEL.loads += MODEL.level * Math.max(0, ...DATA.loads.map(stack));
     this.uniform = largest([...loads.filter((one) => one.ends && one.type !== "curvature").flatMap((one) => one.ends),
       ...DATA.ways.flatMap((way) => way.uniform || []).map(([q]) => q)]);
   }
 
   x(place) { return LEFT + (place / (this.end || 1)) * (WIDTH - LEFT - RIGHT); }
 }
+
+function spacingOf(supports) { return (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size); }
 
 function line(x1, y1, x2, y2, name) { return `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" class="${name}"/>`; }
 function words(x, y, text, name = "", more = "") { return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" class="${name}" ${more}>${escaped(text)}</text>`; }
@@ -76,6 +81,16 @@ function path(points, name, closed = false) {
 function arrow(x, tip, length, name) {
   const sign = Math.sign(length) || 1;
   return line(x, tip - length, x, tip - sign * 3, name) + path([[x - 3.5, tip - sign * 8], [x + 3.5, tip - sign * 8], [x, tip]], `${name} head`, true);
+}
+
+/* Put distributed loads that overlap above each other; the number of the highest level. */
+function stack(loads) {
+  const bands = loads.filter((one) => one.ends);
+  bands.forEach((one, i) => {
+    const taken = bands.slice(0, i).filter((other) => other.from < one.to && one.from < other.to).map((other) => other.level);
+    one.level = Math.min(MODEL.levels, [0, 1, 2, 3, 4].find((level) => !taken.includes(level)) ?? MODEL.levels);
+  });
+  return Math.max(0, ...bands.map((one) => one.level));
 }
 
 /* The model: beam, loads, supports, reactions. */
@@ -100,19 +115,19 @@ function along(state, scale, from, to, below) {
 }
 
 function drawLoads(state, scale, y, axis) {
-  const parts = [], loads = DATA.loads[state.way.loads], top = axis - MODEL.lift - 14;
+  const parts = [], loads = DATA.loads[state.way.loads], top = axis - MODEL.lift - 24;
   const factorOf = (one) => (one.dead ? 1 : state.factor), label = loads.length <= 14;
   for (const one of loads) {
     const factor = factorOf(one);
     if (factor === 0) continue;
     if (one.ends) {
       const [a, b] = one.ends.map((q) => (one.type === "curvature" ? 5 : (Math.abs(factor * q) / scale.uniform) * 14));
-      const left = scale.x(one.from), right = scale.x(one.to);
-      parts.push(path([[left, top], [left, top - a], [right, top - b], [right, top]], one.type === "curvature" ? "band bent" : "band", true));
+      const left = scale.x(one.from), right = scale.x(one.to), foot = top - MODEL.level * one.level;
+      parts.push(path([[left, foot], [left, foot - a], [right, foot - b], [right, foot]], one.type === "curvature" ? "band bent" : "band", true));
       const [from, to] = one.ends.map((q) => number(factor * q, 4));
       const unit = one.type === "curvature" ? "" : ` ${DATA.units.uniform[0]}`;
       const text = `${one.type === "curvature" ? "\u03ba " : ""}${from === to ? from : `${from} to ${to}`}${unit}`;
-      if (label) parts.push(words((left + right) / 2, top - Math.max(a, b) - 3, text, "load"));
+      if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
     } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label));
     else {
       const x = scale.x(one.x), at = y(one.x, false), turn = Math.sign(factor * one.value);
@@ -123,7 +138,9 @@ function drawLoads(state, scale, y, axis) {
       if (label) parts.push(words(x, at - 17, withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value), "load"));
     }
   }
-  for (const [x, force] of state.axles) if (x >= 0 && x <= scale.end) parts.push(drawForce(scale, x, force, y(x, false), state.axles.length <= 6, "axle"));
+  state.axles.forEach(([x, force], i) => {
+    if (x >= 0 && x <= scale.end) parts.push(drawForce(scale, x, force, y(x, false), state.axles.length <= 6, "axle", 11 * (i % 2)));
+  });
   for (const [from, to, q] of state.bands) {
     const [left, right] = [from, to].map((x) => scale.x(Math.min(Math.max(x, 0), scale.end)));
     if (right > left) parts.push(path([[left, top], [left, top - (14 * q) / scale.uniform], [right, top - (14 * q) / scale.uniform], [right, top]], "band axle", true));
@@ -131,27 +148,28 @@ function drawLoads(state, scale, y, axis) {
   return parts.join("");
 }
 
-function drawForce(scale, x, force, at, label, name = "force") {
+function drawForce(scale, x, force, at, label, name = "force", higher = 0) {
   const length = 14 + 26 * (Math.abs(force) / scale.force), sign = Math.sign(force) || 1;
-  const text = label ? words(scale.x(x), at - 8 - length, withUnit("reaction", force), "load") : "";
+  const text = label ? words(scale.x(x), at - 8 - length - higher, withUnit("reaction", force), "load") : "";
   return arrow(scale.x(x), sign > 0 ? at - 4 : at - 4 - length, sign * length, name) + text;
 }
 
 /* Supports: filled where they act, hollow where they are open, with what they carry or how far they are open. */
 function drawSupports(state, scale, y, axis, changed) {
   const parts = [], supports = state.supports, across = supports.filter((one) => !one.axial).length;
-  const spacing = (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size);
-  const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24, high = axis - MODEL.lift - 34;
+  const spacing = spacingOf(supports);
+  const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24;
   supports.forEach((one, k) => {
-    const x = scale.x(one.x), at = y(one.x, false), open = state.words[k] === "open", above = one.side < 0;
+    const x = scale.x(one.x), at = y(one.x, false), above = one.side < 0, branch = /^branch (\d+)/.exec(state.words[k]);
+    const open = state.words[k] === "open", idle = open || (branch && Math.abs(state.reaction[k]) <= 1e-9 * scale.reaction);
     if (one.axial) {
       parts.push(`<rect x="${(x - 13).toFixed(1)}" y="${(at - 5).toFixed(1)}" width="7" height="10" class="support bilateral"/>`);
       return;
     }
-    const way = above ? -1 : 1;
+    const way = above ? -1 : 1, shares = above && supports.some((other, j) => j !== k && other.x === one.x && other.side >= 0 && state.words[j] !== "open");
     let tip = at + way * 3;
-    if (open) tip = way * Math.max(way * (axis + scale.lift * one.level) + 3, way * at + 7);
-    const kind = open ? "open" : one.side === 0 ? "bilateral" : "closed", branch = /^branch (\d+)/.exec(state.words[k]);
+    if (idle && one.side !== 0) tip = way * Math.max(way * (axis + scale.lift * one.level) + 3, way * at + 7);
+    const kind = idle ? "open" : one.side === 0 ? "bilateral" : "closed";
     parts.push(`<g class="support ${kind}${changed.has(k) ? " changed" : ""}" data-support="${k}" data-state="${state.words[k]}">`);
     if (one.turning === 2) parts.push(line(x, at - 12, x, at + 12, "wall"));
     parts.push(path([[x, tip], [x - size, tip + way * size * 1.6], [x + size, tip + way * size * 1.6]], "symbol", true));
@@ -161,30 +179,32 @@ function drawSupports(state, scale, y, axis, changed) {
     if (branch && Number(branch[1]) > 1) parts.push(words(x, tip + way * size * 1.2 + 3, branch[1], "branch"));
     parts.push("</g>");
     if (across > MOST_NAMED) return;
-    const value = state.reaction[k], text = open ? `\u2191${shown("opening", state.opening[k])}`.replace("\u2191", above ? "\u2193" : "\u2191") : shown("reaction", value);
-    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0;
-    const turned = spacing < 46;
+    const value = state.reaction[k], text = open ? `${above ? "\u2193" : "\u2191"}${shown("opening", state.opening[k])}` : shown("reaction", value);
+    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0, turned = spacing < TURNED;
     if (above) {
-      if (!open) parts.push(words(x, high - 8, text, "value", turned ? turnedAt(x, high - 8) : ""));
+      const right = x > WIDTH - 90, label = open && shares ? "" : text;
+      if (!turned) parts.push(`<text x="${(x + (right ? -1 : 1) * (size + 5)).toFixed(1)}" y="${(tip - size).toFixed(1)}" class="value beside ${open ? "opened" : ""}" style="text-anchor:${right ? "end" : "start"}">${escaped(label)}</text>`);
+      else if (!open) parts.push(words(x, tip - size * 1.6 - 8, text, "value"));
       return;
     }
-    if (!open && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
-    const name = `${one.name}`, foot = low + 34;
-    if (turned) parts.push(words(x, foot, `${name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x, foot)));
-    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(x, foot + 13, name.length > 9 ? `${name.slice(0, 8)}\u2026` : name, "name"));
+    if (!idle && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
+    const foot = low + 36;
+    if (turned) parts.push(words(x + 4, foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x + 4, foot - 8)));
+    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(x, foot + 13, one.name.length > 9 ? `${one.name.slice(0, 8)}\u2026` : one.name, "name"));
   });
+  if (across && across <= MOST_NAMED && spacing >= TURNED) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
   return parts.join("");
 }
 
-function turnedAt(x, y) { return `transform="rotate(-60 ${x.toFixed(1)} ${y.toFixed(1)})" text-anchor="end"`; }
+function turnedAt(x, y) { return `transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" style="text-anchor:end"`; }
 
 /* One field along the beam. */
 function drawPanel(state, scale, panel, top) {
-  const { name, words: title, down } = panel, [low, high] = scale.ranges[name], size = high - low || 1, height = PANEL - 2 * PAD;
-  const y = (value) => top + PAD + ((down ? value - low : high - value) / size) * height;
+  const { name, words: title, down } = panel, [low, high] = scale.ranges[name], size = high - low || 1, height = PANEL - TITLE - FOOT;
+  const y = (value) => top + TITLE + ((down ? value - low : high - value) / size) * height;
   const parts = [`<g class="panel" data-panel="${name}">`];
   const unit = DATA.units[name][0];
-  parts.push(words(LEFT - 54, top + 12, unit ? `${title} [${unit}]` : title, "title"));
+  parts.push(words(8, top + 10, unit ? `${title} [${unit}]` : title, "title"));
   const curve = scale.curves && scale.curves.fields[name];
   if (curve) {
     const x = Array.from(scale.curves.x), row = (values) => x.map((one, i) => [scale.x(one), y(values[i])]).filter(([, at]) => Number.isFinite(at));

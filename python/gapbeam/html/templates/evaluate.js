@@ -9,10 +9,15 @@ function unpack(text) {
   return new Float32Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer);
 }
 
-/* The columns of a state, each an array; moments left of joints stand beside those right of them. */
-function decoded(state) {
+/* The columns of a state of a way, each an array; moments left of joints stand beside those right of them. */
+function decoded(way, state) {
   if (state.columns) return state.columns;
   const columns = {};
+  if (way.packed) { // of all states, one after the other
+    way.numbers = way.numbers || unpack(way.packed);
+    let at = way.states.indexOf(state) * way.columns.reduce((sum, [, count]) => sum + count, 0);
+    for (const [name, count] of way.columns) columns[name] = way.numbers.subarray(at, (at += count));
+  }
   for (const [key, value] of Object.entries(state)) {
     if (key.endsWith("_packed")) columns[key.slice(0, -7)] = unpack(value);
     else if (Array.isArray(value) && key !== "zones" && key !== "free") columns[key] = value;
@@ -48,11 +53,11 @@ class State {
     const nodes = interval.nodes.map((k) => way.states[k]);
     const mixed = weights(nodes.length, share);
     this.exactNode = mixed.indexOf(1) >= 0 && mixed.filter((one) => one !== 0).length === 1 ? nodes[mixed.indexOf(1)] : null;
-    const columns = nodes.map(decoded);
+    const columns = nodes.map((one) => decoded(way, one));
     for (const key of new Set(columns.flatMap(Object.keys))) {
       const all = columns.map((one) => one[key]);
       const filled = all.find((one) => one);
-      this[key] = this.exactNode ? decoded(this.exactNode)[key] || filled.map(() => 0)
+      this[key] = this.exactNode ? decoded(way, this.exactNode)[key] || filled.map(() => 0)
         : Array.from(filled, (_, i) => all.reduce((sum, one, j) => sum + (one ? mixed[j] * one[i] : 0), 0));
     }
     const factors = nodes.map((one) => one.factor);
@@ -63,12 +68,21 @@ class State {
     this.free = near.free || [];
     this.axles = (way.axles || []).map(([offset, force]) => [at + offset, force]);
     this.bands = (way.uniform || []).map(([q, from, to]) => [at + from, at + to, q]);
-    this.words = interval.state.map((code) => DATA.words[code]);
+    this.words = Array.from(interval.state, (code) => DATA.words[parseInt(code, 36)]);
     if (!this.opening) this.fillSupports();
   }
 
-  /* While a train passes, openings and deflections follow from the beam. */
+  /* While a train passes, openings and deflections follow from the beam, reactions from the jumps of the shear. */
   fillSupports() {
+    const end = this.beam.x[this.beam.x.length - 1];
+    this.reaction = this.reaction || this.supports.map((one, k) => {
+      if (one.axial || this.words[k] === "open") return 0;
+      const near = (x) => Math.abs(x - one.x) <= 1e-12 * end, joint = this.beam.x.findIndex(near);
+      const [dead, live] = this.beam.forces[joint];
+      const force = dead + live + this.axles.reduce((sum, [x, value]) => sum + (near(x) ? value : 0), 0);
+      const left = joint > 0 ? this.value("shear", this.beam.x[joint], true) : 0;
+      return force - left + (joint < this.beam.x.length - 1 ? this.value("shear", this.beam.x[joint]) : 0);
+    });
     this.deflection = this.supports.map((one) => (one.axial ? 0 : this.value("deflection", one.x)));
     this.opening = this.supports.map((one, k) => (this.words[k] !== "open" ? 0
       : Math.max(0, one.side * (one.level - this.deflection[k]))));
@@ -115,7 +129,7 @@ class State {
     const c = (load[0] * square) / 2, d = ((load[1] - load[0]) * square) / 6;
     let bubble = c * t * (1 - t) + d * t * (1 - t * t);
     let shear = (m1 - m0) / length + (c * (1 - 2 * t) + d * (1 - 3 * t * t)) / length;
-    let w = this.w[k] * (1 - t) + this.w[k + 1] * t + (load[2] * square * t * (1 - t)) / 2 + square * flexible * (
+    let w = this.w[k] * (1 - t) + this.w[k + 1] * t - (load[2] * square * t * (1 - t)) / 2 + square * flexible * (
       (m0 * t * (1 - t) * (2 - t)) / 6 + (m1 * t * (1 - t * t)) / 6 + (c * t * (1 - 2 * t * t + t ** 3)) / 12
       + d * t * (7 / 60 - (t * t) / 6 + t ** 4 / 20));
     for (const [a, force] of this.forces(k, s)) {
@@ -168,6 +182,8 @@ class State {
 
   /* Largest and smallest value of a field along the beam with their places. */
   extremes(name, step) {
+    const exact = this.exactNode && this.exactNode.extremes && this.exactNode.extremes[name];
+    if (exact) return exact[0].map((value, i) => ({ value, x: exact[1][i] }));
     const rows = this.places(step).map(([x, left]) => [this.value(name, x, left), x, left]);
     return [1, -1].map((sign) => {
       let best = 0;
@@ -178,12 +194,12 @@ class State {
     });
   }
 
-  /* The top of a curve between its neighbours, by golden sections. */
+  /* The top of a curve beside its highest point, by golden sections; joints stand there twice. */
   refined(name, rows, best, sign, value, x) {
-    const part = (Math.sqrt(5) - 1) / 2;
-    for (const [i, j] of [[best - 1, best], [best, best + 1]]) {
-      if (i < 0 || j >= rows.length || rows[i][1] === rows[j][1]) continue;
-      let from = rows[i][1], to = rows[j][1];
+    const part = (Math.sqrt(5) - 1) / 2, top = x;
+    for (let i = Math.max(0, best - 2); i < Math.min(rows.length - 1, best + 2); i++) {
+      let from = rows[i][1], to = rows[i + 1][1];
+      if (from === to || (from !== top && to !== top)) continue;
       for (let n = 0; n < 60; n++) {
         const a = to - part * (to - from), b = from + part * (to - from);
         if (sign * this.value(name, a) > sign * this.value(name, b)) to = b;

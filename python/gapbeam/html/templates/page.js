@@ -65,7 +65,7 @@ function show() {
     svg.setAttribute("viewBox", `0 0 ${WIDTH} 220`);
     svg.innerHTML = drawMotion(way, share, 100);
     byId("now").textContent = way.motion.length ? "free motion" : "";
-    say(`${way.title ? `${way.title}. ` : ""}${way.reason}`);
+    say(`${way.title[0].toUpperCase()}${way.title.slice(1)}: ${way.reason}.`);
     slider.setAttribute("aria-valuetext", `free motion, ${Math.round(100 * share)} %`);
     byId("place-row").hidden = true;
     return;
@@ -162,7 +162,7 @@ function play() {
       else goTo(view.stop + (back ? -1 : 1));
     }, single ? 900 : 40);
   }
-  button.textContent = view.playing ? "\u23f8 Pause" : "\u25b6 Play";
+  button.textContent = view.playing ? "\u25a0 Stop" : "\u25b6 Play";
   button.setAttribute("aria-pressed", String(Boolean(view.playing)));
 }
 
@@ -217,4 +217,4 @@ document.addEventListener("click", (event) => {
 });
 document.documentElement.classList.add("scripted");
 view.place = 0.5;
-choose(0);
+choose(DATA.first.way, DATA.first.at === null ? null : Math.max(0, stopsOf(DATA.ways[DATA.first.way]).findIndex((one) => one.at === DATA.first.at)));

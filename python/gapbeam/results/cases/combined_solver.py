@@ -57,8 +57,9 @@ class OneByOne(Pickled):
         nan = np.full
         found = Combined(
             np.zeros(count, np.int32), np.zeros((count, beam.supports), np.int32),
-            nan((count, 4, beam.scene_supports), np.nan), nan((count, 7, 2), np.nan), nan((count, 7, 2), np.nan),
-            np.zeros((count, 0, 7)), np.zeros(count, np.int64),
+            nan((count, 4, beam.scene_supports), np.nan), nan((count, len(FIELDS), 2), np.nan),
+            nan((count, len(FIELDS), 2), np.nan),
+            np.zeros((count, 0, len(FIELDS))), np.zeros(count, np.int64),
         )  # fmt: skip
         found = _changeable(found)
         statuses = [self._take(found, k, note) for k in range(count)]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, overload
 import numpy as np
 
 from ...base.records import Record
+from ...engine.quantities import FIELDS
 from ...scene.names import names_of
 from ..views.extreme import Extreme, Extremes, Source
 from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
@@ -282,7 +283,7 @@ class Envelope(PartVerbs):
     def fields(self) -> Curves:
         """Largest and smallest values of every field along the beam."""
         x, parts = self._make()
-        shape = 2, len(x), 7
+        shape = 2, len(x), len(FIELDS)
         best, of = np.full(shape, np.nan), np.zeros(shape, dtype=np.int32)
         equal = np.broadcast_to(EQUAL * np.fmax.reduce(np.abs(self._values), axis=(0, 2)), shape[1:])
         for part, values in parts:

@@ -11,6 +11,7 @@ import numpy as np
 from ...base.errors import WITHOUT_ANSWER, EngineError, Status
 from ...engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
 from ...engine.ground import zone_changes
+from ...engine.quantities import FIELDS
 from ...engine.trains import NOT_UNIQUE
 from ...scene.columns import BY_X, DISTRIBUTED, FORCE
 from ..state.breakpoints import Piece, piece_of
@@ -25,7 +26,7 @@ from .traversals import NO_ANSWER
 if TYPE_CHECKING:
     from ...scene.trains import Course
 
-SHEAR = 3
+SHEAR = FIELDS.index("shear")
 """Row of the shear among the fields."""
 
 
@@ -140,7 +141,7 @@ class Placed:
         piece, distance = np.zeros(len(x), dtype=np.int32), np.zeros(len(x))
         for side in (False, True):
             piece[left == side], distance[left == side] = self.beam.find(x[left == side], side)
-        found = np.full((7, len(x)), np.nan)
+        found = np.full((len(FIELDS), len(x)), np.nan)
         values = self.step.solution.values(piece, distance)
         found[: len(values)] = values
         return found

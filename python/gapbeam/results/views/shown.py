@@ -36,7 +36,9 @@ MEANT = {
 class Display(Protocol):
     """Shows results: `gapbeam.show.display`, which stands above them."""
 
-    def plot(self, result: Any, kind: str | None, path: str | os.PathLike | None, ax: Axes | None) -> Figure:
+    def plot(
+        self, result: Any, kind: str | None, path: str | os.PathLike | None, ax: Axes | None, support: int | str | None
+    ) -> Figure:
         """Draw."""
 
     def report(self, result: Any) -> str:
@@ -122,19 +124,23 @@ the loads push it that way and no support resists
         raise NotImplementedError
 
     def plot(
-        self, kind: str | os.PathLike | None = None, ax: Axes | None = None, *, path: str | os.PathLike | None = None
-    ) -> Figure:
+        self, kind: str | os.PathLike | None = None, ax: Axes | None = None, *, path: str | os.PathLike | None = None,
+        support: int | str | None = None,
+    ) -> Figure:  # fmt: skip
         """Draw a picture.
 
         Parameters
         ----------
         kind : str, optional
-            None: the whole picture, with the beam and all diagrams. ``path``: reactions and openings over the load factor. The
-            name of a field, for example ``moment``: its diagram alone. A name with a suffix is taken for `path`.
+            None: the whole picture, with the beam and all diagrams. ``path``: reactions and openings over the load factor.
+            ``hysteresis``: the reaction of one support over its deflection, with the energy of every cycle. The name of a
+            field, for example ``moment``: its diagram alone. A name with a suffix is taken for `path`.
         ax : matplotlib.axes.Axes, optional
             Where to draw the diagram of one field.
         path : str or os.PathLike, optional
             File to write as well; the suffix decides on the format: .png, .pdf or .svg.
+        support : int or str, optional
+            Number or name of the support whose hysteresis is drawn; default the one that takes up most energy.
 
         Returns
         -------
@@ -143,7 +149,7 @@ the loads push it that way and no support resists
         is_file = isinstance(kind, os.PathLike) or (isinstance(kind, str) and os.path.splitext(kind)[1] and kind not in self._drawn)
         if path is None and is_file:
             kind, path = None, kind
-        return self._by.plot(self, kind, path, ax)
+        return self._by.plot(self, kind, path, ax, support)
 
     def report(self) -> str:
         """Write the report for people, the answer first.

@@ -130,7 +130,7 @@ def test_nothing_between_is_larger(family):
 
 def check_bounds(result, states, tolerance=1e-10):
     """No state goes beyond the extremes, and each extreme is that of the state it comes from, or is in the curves."""
-    found = result.history_extremes()
+    found = result.path_envelope()
     values = np.array([state.solution.extremes()[0] for state in states])
     curves = found.fields
     for name, column in result._beam.fields.items():
@@ -199,7 +199,7 @@ def test_steps_count_where_only_they_are_known():
     assert "history_extremes" not in one.to_dict()
     assert one.envelope().extremes["moment"]["max"].factor is None
     with pytest.raises(ValueError, match="not followed"):
-        one.history_extremes()
+        one.path_envelope()
 
 
 @pytest.mark.parametrize("made", [rail(follow="events"), {**yielding(), "analysis": {"follow": "events"}}])
@@ -236,7 +236,7 @@ def test_combinations_and_pickles_and_tables():
     made = arm()
     made["combinations"] = [{"name": "half", "factors": {"live": 0.5}}, {"name": "full", "factors": {"live": 1.0}}]
     result = gapbeam.solve(made)
-    found = result.history_extremes()
+    found = result.path_envelope()
     least = found.extremes["moment"]["min"]
     assert (least.value, least.source.combination) == (pytest.approx(-108.0), "full")
     assert least.factor == pytest.approx(0.7015)

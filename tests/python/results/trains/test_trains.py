@@ -9,7 +9,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.cli import main
-from gapbeam.plots.train_envelope import train_envelope_figure
+from gapbeam.plots import figure
 from gapbeam.report import report_text, to_csv, to_json
 from scenes import at, scene, uniform
 
@@ -260,7 +260,7 @@ def test_outputs():
     assert len(data["envelope"]["fields"]["x"]) == len(data["envelope"]["fields"]["moment"]["max"])
     assert "What governs" in report_text(result)
     assert ",shear_max,shear_min," in to_csv(result).splitlines()[0]
-    assert len(train_envelope_figure(result).axes) == 4
+    assert len(figure(result).axes) == 4
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.cli import main
-from gapbeam.plots.train_envelope import train_envelope_figure
+from gapbeam.plots import figure
 from gapbeam.report import report_text, to_csv, to_json
 from oracle import foundation
 
@@ -218,7 +218,7 @@ def test_outputs(tmp_path):
     assert "Free spans while trains pass" in text
     assert "ground ballast: " in text
     assert ",pressure_max,pressure_min," in to_csv(result).splitlines()[0]
-    assert len(train_envelope_figure(result).axes) == 5
+    assert len(figure(result).axes) == 5
     again = pickle.loads(pickle.dumps(result))
     assert again.trains["bogie"].events == result.trains["bogie"].events
     assert again.envelope().extremes == result.envelope().extremes

@@ -1,0 +1,1 @@
+"""Pages of HTML: what stands in them, and what they do in a browser."""

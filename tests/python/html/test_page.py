@@ -1,0 +1,176 @@
+"""What stands in a page: the digits of the JSON output, checks by hand, words, and nothing from elsewhere."""
+
+import hashlib
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.html.hand_check import sums_data
+from gapbeam.html.three_moments import three_moments_data
+
+from .pages import EVENTS, LOADS, combined, data_of, fifty, on_ground, scene, see_saw, train, without_seconds
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+
+
+def test_states_have_the_digits_of_the_json_output():
+    result = gapbeam.solve(scene())
+    given, data = result.to_dict(), data_of(result.to_html())
+    (way,) = data["ways"]
+    ends = [way["states"][one["nodes"][-1]] for one in way["intervals"]]
+    assert len(ends) == len(given["steps"]) > 2
+    for state, interval, step in zip(ends, way["intervals"], given["steps"], strict=True):
+        assert state["factor"] == step["factor"]
+        for name in ("reaction", "opening", "deflection"):
+            assert state[name] == [one[name] for one in step["supports"]]
+        assert [data["words"][int(code, 36)] for code in interval["state"]] == [one["state"] for one in step["supports"]]
+    assert [one["factor"] for one in way["events"]] == [one["factor"] for one in given["events"]]
+
+
+@pytest.mark.parametrize("make", [scene, combined, train, on_ground, see_saw])
+def test_the_result_is_that_of_the_json_output(make):
+    result = gapbeam.solve(make())
+    given, data = without_seconds(json.loads(result.to_json())), data_of(result.to_html())["result"]
+    for key in ("schema", "status", "reason", "motion", "events", "lifted", "extremes", "history_extremes", "system", "trains"):
+        assert data.get(key) == given.get(key)
+    for name, row in given.get("envelope", {}).get("extremes", {}).items():
+        for kind, one in row.items():
+            assert data["envelope"]["extremes"][name][kind][:2] == one[:2]
+    for one, other in zip(data.get("combinations", []), given.get("combinations", []), strict=True):
+        assert one["extremes"] == other["extremes"]
+
+
+@pytest.mark.parametrize("make", [scene, combined, train, on_ground, see_saw])
+def test_pages_are_the_same_when_made_again(make):
+    first = gapbeam.solve(make()).to_html()
+    assert first == gapbeam.solve(make()).to_html()
+    assert not re.search(r"(?:https?:)?//[a-z]", first.partition('id="gapbeam-data"')[0].replace("file://", ""))
+    assert "default-src 'none'" in first
+
+
+def test_fifty_supports_stay_small():
+    result = gapbeam.solve(fifty())
+    assert len(result.events) > 10
+    assert len(result.to_html().encode()) < 400_000
+
+
+@pytest.mark.parametrize("name", ["three_spans", "pipe_rack", "rubber_stops", "crane_runway", "snap_through", "shaft_clearance"])
+def test_sums_and_three_moments_close(name):
+    result = gapbeam.solve(EXAMPLES / f"{name}.toml")
+    step = result.steps[-1]
+    sums, three = sums_data(result, step), three_moments_data(result, step)
+    assert abs(sums["force"]) <= 1e-12 * sums["sizes"]["force"] > 0.0
+    assert abs(sums["moment"]) <= 1e-11 * sums["sizes"]["moment"]
+    if name != "shaft_clearance":
+        assert abs(three["sides"][0] - three["sides"][1]) <= 1e-9 * three["size"] > 0.0
+
+
+def test_sums_close_under_trains_combinations_and_on_the_ground():
+    result = gapbeam.solve(train())
+    state = result.trains["crane"].state(7.0)
+    three = three_moments_data(state.result, state)
+    assert three["shear"]
+    assert abs(three["sides"][0] - three["sides"][1]) <= 1e-9 * three["size"]
+    sums = sums_data(state.result, state)
+    assert abs(sums["moment"]) <= 1e-11 * sums["sizes"]["moment"]
+    one = gapbeam.solve(combined()).combinations["lift"]
+    assert abs(sums_data(one, one.steps[-1])["moment"]) <= 1e-11 * sums_data(one, one.steps[-1])["sizes"]["moment"]
+    ground = gapbeam.solve(on_ground())
+    sums = sums_data(ground, ground.steps[-1])
+    assert max(abs(sums["force"]), abs(sums["moment"])) <= 1e-9 * sums["sizes"]["moment"]
+    assert three_moments_data(ground, ground.steps[-1]) is None
+
+
+def test_a_wrong_reaction_does_not_close():
+    result = gapbeam.solve(scene())
+    step = result.steps[-1]
+
+    class Wrong:
+        factor, couple, runs, reaction = step.factor, step.couple, step.runs, step.reaction * np.array([1.0, 1.001, 1.0, 1.0])
+
+    sums = sums_data(result, Wrong)
+    assert abs(sums["force"]) > 1e-4 * sums["sizes"]["force"]
+    assert "e-04 of the sum" in sums["left"][0]
+
+
+def test_the_checker_reads_input_hash_signs_bounds_and_what_was_left_out():
+    result = gapbeam.solve(scene())
+    page, text = result.to_html(), result.scene.to_toml()
+    assert hashlib.sha256(text.encode()).hexdigest() in page
+    assert f"gapbeam {gapbeam.__version__}" in page
+    for field in ("Project", "Author", "Checker", "Date", "Signature"):
+        assert f">{field}</label>" in page
+    assert "No moment is wrong by more than" in page
+    assert "Shear deformation: no GA is given" in page
+    assert "Moments are positive sagging" in page
+    assert "Σ V = 36 + 160 \N{MINUS SIGN} 6 \N{MINUS SIGN} " in page
+    assert "Three-moment equation at support B" in page
+
+
+def test_names_are_no_markup():
+    names = ['</script><b id="x">', "<i>&amp;"]
+    supports = [gapbeam.Support(node=i, side="below", name=name) for i, name in enumerate(names)]
+    beam = gapbeam.Beam(spans=[6.0], EI=1e4)
+    given = scene(title="<script>alert(1)</script>", beam=beam, supports=supports, loads=LOADS[:2])
+    page = gapbeam.solve(given).to_html()
+    assert page.count("<script") == 2
+    assert page.count("</script>") == 2
+    assert '<b id="x">' not in page
+    assert data_of(page)["supports"][0][0]["name"] == names[0]
+
+
+def test_a_beam_that_cannot_stand_says_why_and_how_it_moves():
+    page = gapbeam.solve(see_saw()).to_html()
+    way = data_of(page)["ways"][0]
+    assert way["motion"] == [[0.0, -1.0], [4.0, 0.0], [6.0, 0.5]]
+    assert "tips about the support at x = 4" in way["reason"]
+    assert "tips about the support at x = 4" in page.partition("<h2")[2].partition("</section>")[0]
+
+
+def test_many_combinations_are_cut_to_those_that_govern():
+    gusts = {f"gust {i}": 1.0 + i for i in range(70)}
+    loads = [gapbeam.UniformLoad(q=2.0, case="dead"), *(gapbeam.ForceLoad(x=9.0, F=1.0, case=name) for name in gusts)]
+    listed = [gapbeam.Combination(name=name, factors={"dead": 1.0, name: factor}) for name, factor in gusts.items()]
+    page = gapbeam.solve(scene(loads=loads, combinations=listed, analysis=gapbeam.Analysis())).to_html()
+    ways = data_of(page)["ways"]
+    assert len(ways) == 60
+    assert {"gust 0", "gust 69"} <= {way["title"] for way in ways}
+    assert "10 combinations that do not govern" in page
+
+
+def test_trains_whose_polynomials_take_too_many_numbers_are_drawn_by_parabolas():
+    many = [gapbeam.Support(node=i, side="below", name=f"P{i}") for i in range(41)]
+    crane = gapbeam.Train(name="crane", axles=[(1.7 * i, 30.0) for i in range(8)])
+    given = scene(beam=gapbeam.Beam(spans=[6.0] * 40, EI=1e4), supports=many, trains=[crane], analysis=gapbeam.Analysis())
+    given.loads = [gapbeam.UniformLoad(q=20.0, case="dead")]
+    page = gapbeam.solve(given).to_html()
+    assert data_of(page)["ways"][0]["over"] == "close positions"
+    assert "The parabolas are right to" in page
+
+
+def run(*arguments, **more):
+    """Run the command."""
+    return subprocess.run([sys.executable, "-m", "gapbeam", *map(str, arguments)], capture_output=True, text=True, **more)
+
+
+def test_the_command_writes_the_page_with_the_file_as_it_is(tmp_path):
+    given, page = EXAMPLES / "three_spans.toml", tmp_path / "sheet.html"
+    assert run("run", given, "--quiet", "--html", page).returncode == 0
+    text = page.read_text()
+    assert hashlib.sha256(given.read_bytes()).hexdigest() in text
+    assert "# Three spans on bearings" in text
+    assert "three_spans.toml" in text
+    done = run("run", "-", "--html", "-", input=given.read_text())
+    assert done.stdout.startswith("<!DOCTYPE html>")
+    assert run("run", given, "--html", tmp_path / "sheet.pdf").returncode == 2
+
+
+def test_results_write_the_page(tmp_path):
+    result = gapbeam.solve(scene(analysis=EVENTS))
+    assert result.to_html(tmp_path / "page.html") == (tmp_path / "page.html").read_text()
+    assert result._repr_html_().startswith("<div><strong>Three spans</strong>")
