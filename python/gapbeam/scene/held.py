@@ -14,7 +14,7 @@ PLAIN = {"float", "int", "str", "bool", "None", "Positive", "NotNegative", "Node
 """Types of keys that hold nothing else."""
 NUMBERS = {float, int, str}
 """Types of numbers and words."""
-INSTEAD = 'replace gives another scene, which can be solved: gapbeam.replace(result.scene, "supports[1].gap", 0.5)'
+INSTEAD = 'use gapbeam.replace(result.scene, "supports[1].gap", 0.5), and solve that'
 
 _HELD: dict[type[Struct], type[Struct]] = {}
 _INNER: dict[type[Struct], tuple[str, ...]] = {}
@@ -22,7 +22,7 @@ _INNER: dict[type[Struct], tuple[str, ...]] = {}
 
 def _refuse_key(table: Struct, key: str, value: Any) -> NoReturn:
     """Refuse to be changed."""
-    raise AttributeError(f"{type(table).__name__}.{key}: the model of a result stays as it was solved; {INSTEAD}")
+    raise AttributeError(f"{type(table).__name__}.{key}: a result keeps its model; {INSTEAD}")
 
 
 def _free(table: Struct) -> tuple:
@@ -72,7 +72,7 @@ class HeldList(list):
     """A list that cannot be changed."""
 
     def _refuse(self, *_: Any, **__: Any) -> NoReturn:
-        raise TypeError(f"a list of the model of a result stays as it was solved; {INSTEAD}")
+        raise TypeError(f"a list: a result keeps its model; {INSTEAD}")
 
     append = extend = insert = pop = remove = clear = sort = reverse = _refuse
     __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
@@ -89,7 +89,7 @@ class HeldDict(dict):
     """A dict that cannot be changed."""
 
     def _refuse(self, *_: Any, **__: Any) -> NoReturn:
-        raise TypeError(f"a table of the model of a result stays as it was solved; {INSTEAD}")
+        raise TypeError(f"a table of a result keeps its model; {INSTEAD}")
 
     __setitem__ = __delitem__ = __ior__ = update = pop = popitem = clear = setdefault = _refuse
 
@@ -116,8 +116,7 @@ def hold(value: Any) -> Any:
     >>> hold(Support(node=0)).gap = 0.5
     Traceback (most recent call last):
     ...
-    AttributeError: Support.gap: the model of a result stays as it was solved; replace gives another scene, which can be solved: \
-gapbeam.replace(result.scene, "supports[1].gap", 0.5)
+    AttributeError: Support.gap: a result keeps its model; use gapbeam.replace(result.scene, "supports[1].gap", 0.5), and solve that
     """
     kind = type(value)
     if kind is list:

@@ -133,8 +133,8 @@ def test_only_what_is_wanted_is_made(kind):
         beam.solve(rows, want=("reaction", "shear"))
     with pytest.raises(ValueError, match=r"want: expected some of .*; got 3"):
         beam.solve(rows, want=3)
-    with pytest.raises(ValueError, match=r"settlements: expected a mapping, .*; got \[1\]"):
-        beam.solve(rows, settlements=[1])
+    with pytest.raises(ValueError, match=r"extra_settlement: expected a mapping, .*; got \[1\]"):
+        beam.solve(rows, extra_settlement=[1])
     with pytest.raises(ValueError, match=r"names: expected some of deflection, .*; got 'sheer'"):
         full._extremes_of(["sheer"])
     assert np.array_equal(beam.solve(rows, want="reaction").at(1.0).moment, full.at(1.0).moment, equal_nan=True)
