@@ -10,6 +10,7 @@ import numpy as np
 from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.answer import source_in_words
+from ..results.event_words import state_in_words
 from ..results.state.ground import joined
 from ..scene.names import label, labels
 
@@ -100,7 +101,7 @@ def _supports(result: Result) -> TableData:
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
         values = [Cell("", 0.0) if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
-        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else step.state[k]), *values])
+        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else state_in_words(step.state[k])), *values])
     return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
 
 
@@ -174,7 +175,7 @@ def _zones(result: Result) -> TableData:
     if step is not None and scene.foundation:
         for zone in joined(step.contact):
             ends = [_number(value) for value in (zone.from_, zone.to, zone.to - zone.from_)]
-            add(zone.state, zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
+            add(state_in_words(zone.state), zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
         for span in step.free_spans:
             ends = [_number(value) for value in (span.from_, span.to, span.to - span.from_)]
             add("free span", span.foundation, [*ends, Cell(""), _shown(result, "sag", span.sag)])

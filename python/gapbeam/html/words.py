@@ -1,4 +1,4 @@
-"""What a checker has to know beside the numbers, in sentences: what was left out, error bounds, how exact the pictures are."""
+"""Sentences that a checker has to know beside the numbers: what was left out, error bounds, how exact the pictures are."""
 
 from __future__ import annotations
 
