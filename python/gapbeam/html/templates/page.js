@@ -3,7 +3,7 @@
 const byId = (id) => document.getElementById(id);
 const view = { way: 0, stop: 0, place: 0, playing: null };
 const scale = DATA.ways.some((way) => way.intervals && way.intervals.length) ? new Scale() : null;
-const STOPS = 200;
+const STOPS = 200, NOISE = 1e-12; // parts of the slider; share of the largest value that is nothing but rounding
 
 /* The places of the slider: both ends of all intervals, so every event, and equal parts between. */
 function stopsOf(way) {
@@ -118,8 +118,8 @@ function fillSupports(state) {
         cell.textContent = `${state.words[k] === "open" ? "\u25cb" : state.words[k] === "bilateral" ? "\u25b2" : "\u25cf"} ${DATA.said[DATA.words.indexOf(state.words[k])]}`;
         cell.dataset.value = "";
       } else if (DATA.units[of] && of !== "x") {
-        const value = state[of] ? state[of][k] : 0;
-        cell.textContent = shown(of, Math.abs(value) <= 1e-12 * (scale.reaction || 1) && of === "reaction" ? 0 : value);
+        const value = state[of] ? state[of][k] : 0, largest = Math.max(0, ...(state[of] || []).map(Math.abs));
+        cell.textContent = shown(of, Math.abs(value) <= NOISE * largest ? 0 : value);
         cell.dataset.value = value;
       }
     });
