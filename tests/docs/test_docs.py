@@ -65,6 +65,12 @@ def test_pictures_are_what_is_drawn(name, draw, tmp_path):
     assert texts[0] == texts[1]
 
 
+def test_the_citation_has_the_version():
+    cited = (TOP / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {gapbeam.__version__}\n" in cited
+    assert f"(version {gapbeam.__version__})" in page("cite")
+
+
 def test_the_picture_of_hysteresis_is_what_is_drawn(tmp_path):
     pile = gapbeam.solve(TOP / "examples" / "pile_head.toml")
     pile.plot("hysteresis", support=2, path=tmp_path / "new.svg")

@@ -74,7 +74,7 @@ def envelope_figure(result: Result) -> Figure:
     """
     scene = result.scene
     envelope = _envelope(result)
-    sources = [] if envelope is None else getattr(envelope, "members", None) or envelope.sources
+    sources = [] if envelope is None else getattr(envelope, "_members", None) or envelope.sources
     names = [source_name(one) for one in sources]
     key = Key(len(set(names)))
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
@@ -113,11 +113,11 @@ def envelope_figure(result: Result) -> Figure:
 def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     """Make the envelope at so many places that its curves look smooth; where something jumps, on both sides."""
     scene = result.scene
-    points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result.beam), MOST_ON_GROUND))
+    points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result._beam), MOST_ON_GROUND))
     points = int(max(2, min(points, MOST_POINTS // len(scene.beam.spans))))
     if not scene.trains:
         return result.envelope(points) if "solved" in result.statuses else None
-    places, end = places_along(result.beam, points), float(scene.span_ends()[-1])
+    places, end = places_along(result._beam, points), float(scene.span_ends()[-1])
     jumps = [scene.positions(scene.supports), *_ends_of_ways(result), *([stretch(scene, item)] for item in scene.foundation)]
     jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
     jumps = jumps[(jumps > 0.0) & (jumps < end)]

@@ -1,4 +1,4 @@
-"""Reaction over deflection of one support along the way of the load, with the energy that it takes up in every cycle."""
+"""Reaction over deflection of one support along the loading history, with the energy that it takes up in every cycle."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
 
 
 def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> list[Cycle]:
-    """Cut the way of the load into cycles: two factors of its history each.
+    """Cut the loading history into cycles: two factors of its history each.
 
     Parameters
     ----------

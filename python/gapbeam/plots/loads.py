@@ -11,6 +11,7 @@ import numpy as np
 from ..base.characters import visible
 from ..results.formatting import count, number, stretch, unit
 from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.table import kind_of
 from .labels import LINE, Labels, spread, text_width
 from .sheet import is_upright
 
@@ -226,11 +227,11 @@ def _set_apart(arrows: list[Arrow], scale: float) -> None:
 
 def _arrows(scene: "Scene", factor: float) -> list[Arrow]:
     kinds = {ForceLoad: ("force", "force"), MomentLoad: ("moment", "moment"), AxialLoad: ("axial", "force")}
-    loads = [load for load in scene.loads if type(load) in kinds]
+    loads = [load for load in scene.loads if kind_of(load) in kinds]
     arrows = []
     cases = len({load.case for load in scene.loads})
     for load, x in zip(loads, scene.positions(loads), strict=True):
-        kind, quantity = kinds[type(load)]
+        kind, quantity = kinds[kind_of(load)]
         value = _share(load, factor) * (load.M if kind == "moment" else load.F)
         if not _share(load, factor):
             continue

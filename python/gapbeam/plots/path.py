@@ -187,7 +187,7 @@ def _states(result: Result, dots: bool) -> list[Step]:
         states.insert(0, result.state(0.0))
         # Where the beam turns it is in two places at one load factor
         between = {event.factor for event in result.events if event.event == "turns"}
-        if result.beam.smooth:
+        if result._beam.smooth:
             between |= set(np.linspace(0.0, states[-1].factor, CURVE)[1:].tolist()) - {step.factor for step in states}
         between -= {0.0, states[-1].factor}
         states = sorted([*states, *map(result.state, between)], key=lambda step: step.factor)
@@ -205,7 +205,7 @@ def _bends(result: Result) -> list[int]:
     """Find the steps at which lines may bend: with another contact state than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
-    every = last + 1 if result.beam.is_linear_between_events else max(1, last // CURVE)
+    every = last + 1 if result._beam.is_linear_between_events else max(1, last // CURVE)
     return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 

@@ -75,8 +75,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
     kinds, values, state = plain_kinds(states), None, None
     if stands:
         state = result.steps[step]
-        contact, states, kinds, values = state.contact, state.state, kinds_of(result.beam, state), StateValues(scene, state)
-        cells = cells_of(result, step, cells_a_span(scene, result.beam))
+        contact, states, kinds, values = state.contact, state.state, kinds_of(result._beam, state), StateValues(scene, state)
+        cells = cells_of(result, step, cells_a_span(scene, result._beam))
         panels = [panel for panel in PANELS if panel[0] in cells.values]
     elif not result.motion:
         panels = []
@@ -101,7 +101,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
         if quantity == "deflection":
             contacts = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
             contacts += near_surface(scene, cells, length)
-        marks = draw_field(panel, scene, cells, quantity, result.extremes(step)[quantity], contacts)
+        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts)
         if quantity == "moment":
             peaks = find_peaks(*cells.along("moment"), scene.span_ends(), lambda x: result.at(x, step))
             for value, x in peaks[:MOST_MARKS]:
