@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import source_in_words
+from ..results.contact import source_in_words
 from ..results.state.ground import joined
 from ..scene.names import label, labels
 
@@ -106,7 +106,7 @@ def _supports(result: Result) -> TableData:
 
 def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
     rows = []
-    for name, row in envelope.extremes.items():
+    for name, row in fmt.reported(envelope.extremes).items():
         for kind, one in row.items():
             if one is not None:
                 words = f"{WORDS[kind]} {_heading(result, name, name.replace('_', ' '))}"
