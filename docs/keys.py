@@ -34,8 +34,8 @@ def kind_of(entry):
     if entry.get("type") == "object":
         return f"table by name of {kind_of(entry['additionalProperties'])}"
     words = {"string": "text", "boolean": "`true` or `false`", "integer": "whole number"}.get(entry["type"], entry["type"])
-    more = [f"\N{NO-BREAK SPACE}{sign}\N{NO-BREAK SPACE}{entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
-    return words + "".join(more)
+    limits = [f" {sign} {entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
+    return words + "".join(limits).replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def link(reference):

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
@@ -58,7 +59,8 @@ def run_page(page):
             problems.append(f"{language} block\n{body}\n{type(error).__name__}: {error}")
         return f"```{language}\n{body}```"
 
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), warnings.catch_warnings():
+        warnings.filterwarnings("error", category=DeprecationWarning, module="__main__")   # pages use no old names
         for name in ("examples", "docs", "tests"):
             Path(name).symlink_to(TOP / name)
         new = BLOCK.sub(renewed, text)
