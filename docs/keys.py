@@ -8,9 +8,9 @@ import tomllib
 from pathlib import Path
 
 import gapbeam
+from gapbeam.scene.key_units import ONE
 
 REFERENCE = Path(__file__).parent / "reference"
-ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|rad|\([^)]*\)))*"
 UNIT = re.compile(rf"\s*\((no unit|{ONE}(?:, {ONE})*)(, from the left end(?: of the beam)?)?\)")
 """In a description: the unit of the value, or those of a pair."""
 
