@@ -96,6 +96,7 @@ def scene_page():
         "Units are those of the scene: any consistent set, such as kN and m. Signs: [modelling](../modelling.md#signs-and-units).",
         "A key that is not listed here is refused, and the message names the nearest one that is.",
         "The examples are parts of files. What they lack is a beam of two spans on three supports.", "",
+        "![Signs of loads, reactions and moments; sides, gaps and settlements of supports](../signs.svg)", "",
         "This page is made by `python docs/keys.py` from what `gapbeam schema` prints.", "",
     ]  # fmt: skip
     for name, told in SCENE.items():
