@@ -201,7 +201,7 @@ def _run(
     """Solve what is not done yet."""
     done = set(folder.done())
     if retry_failed:
-        done -= set(Batch(folder.path).failed_chunks())
+        done -= set(Batch(folder.path)._failed_chunks())
     left = [k for k in range(folder.manifest["chunks"]) if k not in done]
     cases = folder.manifest["cases"] - sum(stop - first for first, stop in map(folder.part, left))
     packed = pickle.dumps(job)

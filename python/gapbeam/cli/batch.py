@@ -157,7 +157,7 @@ def _summarize(arguments: argparse.Namespace) -> int:
     if "--json" in outputs:
         import json
 
-        contents["--json"] = [json.dumps(summary.asdict(), indent=1, allow_nan=False) + "\n"]
+        contents["--json"] = [json.dumps(summary.to_dict(), indent=1, allow_nan=False) + "\n"]
     if "--plot" in outputs:
         from ..plots.batch import summary_figure
         from ..plots.save import picture

@@ -6,9 +6,9 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.contact import NONE
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
+from ..results.envelopes.lifted import NONE
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..scene.names import labels
 from .ground import free_span_headings

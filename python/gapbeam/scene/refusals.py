@@ -13,6 +13,7 @@ from ..base.errors import SceneError
 from .columns import KINDS, SIDES
 from .ground_laws import PowerGround, varies
 from .structs import Scene
+from .table import kind_of
 from .wording import number, shown
 
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
@@ -127,7 +128,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
     if table == HINGES:
         return SceneError(path, "expected a number, got nan")
     if table == LOADS and key in ("value", "value_to"):
-        key = KINDS[type(item)][1]
+        key = KINDS[kind_of(item)][1]
     value = getattr(item, "from_" if key == "from" else key)
     expected = EXPECTED.get(key, "a finite number")
     if table == SECTIONS:

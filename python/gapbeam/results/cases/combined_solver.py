@@ -75,7 +75,7 @@ class OneByOne(Pickled):
             if error.status not in WITHOUT_ANSWER:
                 raise
             self._combinations.failed[k] = error.status
-            result.refuse_answer(error)
+            result._refuse_answer(error)
             values = at_full_load(result)
         note(k)
         found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
