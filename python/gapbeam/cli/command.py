@@ -209,7 +209,7 @@ def _parser() -> argparse.ArgumentParser:
                      "for Excel (.xlsx); needs xlsxwriter: pip install \"gapbeam[excel]\"")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
                      "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (of nonlinear supports deflections), with foundations zones "
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (nonlinear: deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
