@@ -209,18 +209,18 @@ def _parser() -> argparse.ArgumentParser:
                      "for Excel (.xlsx); needs xlsxwriter: pip install \"gapbeam[excel]\"")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
                      "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (nonlinear: deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
                      "(.html); - is standard output, without report")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
-    run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
-    run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
+    run.add_argument("--limits", action="store_true", help="exit with status 1 if a limit of [limits] is exceeded")
+    run.add_argument("--verbose", action="store_true", help="add equations, residuals and run time to the report")
     run.set_defaults(command=_run)
 
     check = commands.add_parser(
-        "check", help="validate a scene and tell what it holds", formatter_class=plain,
+        "check", help="check a scene and say what it holds", formatter_class=plain,
         description="Validate a scene without solving it; print one line on what it holds.",
         epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
