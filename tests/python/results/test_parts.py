@@ -191,6 +191,16 @@ def test_old_calls_say_what_to_write(things):
         assert things["summary"].asdict() == things["summary"].to_dict()
 
 
+def test_the_old_name_of_further_settlements():
+    prepared = gapbeam.prepare(scene())
+    with pytest.warns(DeprecationWarning, match="extra_settlement"):
+        old = prepared.solve([1.0, 1.0], settlements={"B": 0.01})
+    assert old == prepared.solve([1.0, 1.0], extra_settlement={"B": 0.01})
+    with pytest.warns(DeprecationWarning, match="extra_settlement"):
+        assert prepared.result([1.0, 1.0], settlements={"B": 0.01}).reactions["B"] == pytest.approx(old.reactions["B"])
+    assert repr(prepared).startswith("Prepared(Beam without a title: 3 spans, 4 supports, 2 loads)")
+
+
 def test_a_train_demands_a_position(things):
     train = things["train"]
     for wrong in (lambda: train.at(7.3), lambda: train.at(7.3, "right"), lambda: train.at()):
