@@ -263,6 +263,20 @@ def test_cases_are_arrays_by_case(things):
     assert pickle.loads(pickle.dumps(cases))[1].reactions["B"] == cases.reactions["B"][1]
 
 
+def test_a_page_is_of_one_result(things):
+    for name in ("cases", "batch", "summary"):
+        with pytest.raises(ValueError, match="a page shows one result"):
+            things[name].to_html()
+    assert things["envelope"].to_html().startswith("<!DOCTYPE html>")
+
+
+def test_keywords_of_others_are_refused_in_words(things):
+    with pytest.raises(ValueError, match="a result has no cases"):
+        things["result"].at(3.0, case=1)
+    with pytest.raises(ValueError, match="factor: every case is one state"):
+        things["cases"].at(3.0, factor=0.5)
+
+
 def test_cases_that_are_not_there(things):
     cases = things["cases"]
     for wrong in (3, -4):
@@ -331,7 +345,7 @@ def test_batches_and_their_summaries(things):
     assert summary.extremes["moment"]["max"].quantiles[0.5] == np.sort(batch.extremes["moment"]["max"].value)[1]
     assert summary.table()["result"] == [name for name, one in summary.columns.items() if one.count]
     assert batch.table("cases")["case"].tolist() == [0, 1, 2]
-    assert batch.plot("moment.max").axes[0].get_title() == "moment.max"
+    assert batch.plot("moment.max").axes[0].get_xlabel() == "largest moment [kN m]"
     with pytest.raises(ValueError, match="solve the case"):
         batch.extremes["moment"]["max"].concurrent  # noqa: B018
 
