@@ -174,7 +174,7 @@ class Cases(CaseVerbs):
                [4.5, 6. ]])
         """
         if others:
-            raise ValueError(f"{next(iter(others))}: every case is one state at its own load factors; leave it out, or give case = 0")
+            raise ValueError(f"{next(iter(others))}: every case is one state at its own factors; leave it out, or give case = 0")
         if case is not None:
             return self[whole("case", case)].at(x, side)
         places = np.array(numbers("x", x))
