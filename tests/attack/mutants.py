@@ -265,7 +265,7 @@ def check_command(arguments, data, verdict):
     errors = err.text()
     if status not in (0, 1, 2):
         verdict.wrong.append(f"{arguments[0]}: exit status {status}: {errors[:200]}")
-    if status == 2 and (errors.count("\n") != 1 or not errors.startswith("gapbeam: error: ")):
+    if status == 2 and not (errors and all(line.startswith("gapbeam: error: ") for line in errors.splitlines())):
         verdict.wrong.append(f"{arguments[0]}: exit status 2 with: {errors[:200]!r}")
     if status == 2 and out.text():
         verdict.wrong.append(f"{arguments[0]}: exit status 2 with {len(out.text())} characters on standard output")

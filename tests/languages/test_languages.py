@@ -4,11 +4,13 @@ The Fortran interface is what the other two marshal to; its own tests are test_a
 """
 
 import random
+import re
 
 import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import EngineError, SceneError
+from gapbeam.engine.quantities import FIELDS as QUANTITIES_OF_PYTHON
 from gapbeam.results.paths.branches import BranchPath
 from gapbeam.results.state.breakpoints import EVENTS
 from gapbeam.studies.meshes import gapped_spans
@@ -20,6 +22,7 @@ from scenes.law import FAMILIES, law_scene
 from scenes.tabled import random_tabled_scene
 
 from .clibrary import F77Beam
+from .installation import TOP
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 QUANTITIES = (*FIELDS, "pressure", "curvature")
@@ -102,6 +105,18 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
     assert np.flatnonzero(undecided).tolist() == list(step.undecided)
     of_f77, known, undecided_f77 = f77.certificate()
     assert [of_f77.tolist()[:size], known, undecided_f77.tolist()] == [numbers[:size], certificate.known, undecided.tolist()]
+
+
+def test_quantities_have_the_same_numbers_everywhere(library):
+    assert QUANTITIES == QUANTITIES_OF_PYTHON
+    header = (TOP / "fortran" / "face" / "gapbeam.h.in").read_text()
+    assert int(re.search(r"GAPBEAM_QUANTITIES = (\d+)", header)[1]) == len(QUANTITIES)
+    scene = {"beam": {"spans": [4.0], "EI": 1.0}, "supports": [{"node": 0}, {"node": 1}], "loads": [{"type": "uniform", "q": 1.0}]}
+    for beam in (library.prepare(scene)[0], F77Beam(library, scene)):
+        assert beam.solve(1.0) in (0, (0, ""))
+        np.testing.assert_array_equal(beam.quantities(range(len(QUANTITIES)), [2.0])[7], [2.0])
+        bad = -4 if isinstance(beam, F77Beam) else 11
+        beam.quantities([0, len(QUANTITIES)], [2.0], expect=bad)
 
 
 @pytest.mark.parametrize("first", range(0, 600, 100))

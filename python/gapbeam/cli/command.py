@@ -75,7 +75,7 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand, or a combination or a position of a train cannot or has no single answer: the
+  1    the structure is unstable, or a combination or a position of a train is, or has no unique answer: the
        report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        a line on standard error for every mistake says where and why, no file is written

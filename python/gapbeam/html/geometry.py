@@ -1,4 +1,4 @@
-"""Geometry that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+"""The parts that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ def beam_data(result: Result) -> dict[str, Any]:
     -------
     dict
         ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place
-        of every row of a state.
+        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, number of the piece and place of
+        every row of a state.
     """
     places = result._beam.places
     forces = np.zeros((len(places.point_x), 2))

@@ -16,6 +16,7 @@ from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope
 from ..results.envelopes.over_path import PathEnvelope
+from ..results.event_words import state_in_words
 from .geometry import foundations_data, panels_data, units_data
 from .hand_check import sums_data
 from .states import packed, stands
@@ -101,6 +102,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "panels": panels_data(result._beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
+        "said": list(map(state_in_words, collected.words)),
         "foundations": foundations_data(scene),
         "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
@@ -112,7 +114,8 @@ def html_page(result: Result, source: Source | None = None) -> str:
     return environment.get_template("page.html").render(
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
         source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
-        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
+        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
+        exactness=exactness(collected, bool(scene.foundation)),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),

@@ -82,8 +82,8 @@ def three_moments_data(result: Result, step: Step) -> dict[str, Any] | None:
     return {
         "support": fmt.support(result.scene, support), "x": list(map(_number, x.tolist())), "lines": list(map(with_signs, lines)),
         "sides": sides, "written": [with_signs(_number(value)) for value in sides], "left": leaves(sides[0] - sides[1], size),
-        "size": size, "EI": _number(one.EI), "ratio": _number(one.EI / other.EI), "load": LOAD in there, "curvature": CURVATURE in there,
-        "shear": SHEAR in there,
+        "size": size, "EI": _number(one.EI), "ratio": _number(one.EI / other.EI), "load": LOAD in there,
+        "curvature": CURVATURE in there, "shear": SHEAR in there,
     }  # fmt: skip
 
 

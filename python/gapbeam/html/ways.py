@@ -117,7 +117,7 @@ def _ways_of(
     found: Collected, of: str | None, result: Result, envelope: Envelope | TrainEnvelope | None,
     first: tuple[Of, float | None] | None, shared_by: int = 1,
 ) -> None:  # fmt: skip
-    """Add the ways of one load: that of the load, those of its trains, and how it moves where it cannot stand."""
+    """Add the ways of one load: that of the load, those of its trains, and how it moves where it is unstable."""
     name = visible(of or "")
     trains = result.trains.values() if result.scene.trains and result.has_answer else ()
     traversals = [(train, one) for train in trains for one in train.traversals]

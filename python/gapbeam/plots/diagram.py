@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 HEIGHT = 2.6
 """Inches of a picture of its own."""
+POINTS, POINTS_ALL = 20, 400
+"""Divisions of a span, and of a beam, at least: so many that no corners are seen."""
 
 
 def draw_diagram(result: "Result", quantity: str, axes: Axes | None = None) -> Figure:
@@ -39,7 +41,7 @@ def draw_diagram(result: "Result", quantity: str, axes: Axes | None = None) -> F
     """
     if result.combinations or result.scene.trains:
         return draw_table(result.scene, result.table("fields"), quantity, axes)
-    fields = result.fields()
+    fields = result.fields(points=max(POINTS, POINTS_ALL // len(result.scene.beam.spans)))
     return _draw(result.scene, quantity, fields.x, [getattr(fields, quantity)], axes)
 
 

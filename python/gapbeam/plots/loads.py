@@ -115,7 +115,8 @@ class LoadLanes:
         """Word between which values loads are that are too many for a label each."""
         blocks = [value for block in self.blocks if not block.curvature for value in (block.first, block.last)]
         kinds = [("distributed load", blocks, len(blocks) // 2, "uniform")] * (not self.labelled)
-        for kind, words, quantity in (("force", "force", "force"), ("moment", "couple", "couple"), ("axial", "axial load", "force")):
+        of_arrows = ("force", "force", "force"), ("moment", "couple", "couple"), ("axial", "axial load", "force")
+        for kind, words, quantity in of_arrows:
             values = [arrow.value for arrow in self.arrows if arrow.kind == kind]
             kinds += [(words, values, len(values), quantity)] * (len(self.arrows) > MOST_LABELS)
         return "; ".join(

@@ -14,6 +14,7 @@ from ..results.contact import short
 from ..results.envelopes.over_path import is_followed
 from ..results.equilibrium import balance_in_words
 from ..results.event_words import state_in_words
+from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import bound_in_words, write_combined
@@ -112,7 +113,7 @@ def _answer(say: "Writer", result: "Result") -> None:
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     for words in answer(result):
-        say.line(words, "red" if words.startswith("Check:") else "")
+        say.line(words, "red" if words.startswith(SIGN) or " EXCEEDED: " in words else "")
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)), "red")
 

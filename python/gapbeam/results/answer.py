@@ -17,7 +17,7 @@ from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .envelopes.tables import KINDS
 from .event_words import limits_of_load_in_words
-from .plausibility import doubts_of_scene
+from .plausibility import doubts_of_scene, doubts_of_signs
 from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
 
@@ -142,7 +142,9 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
         quantity = "stress" if name == "pressure" else name
         value, limit = (short(scene, quantity, abs(number)) for number in (one.value, one.limit))
         mark = "EXCEEDED" if one.ratio > 1.0 else "within"
-        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {_place(scene, one)}")
+        of = ", ".join(visible(str(one.source[key])) for key in ("combination", "train") if key in one.source)
+        where = f"{_place(scene, one)}{f' ({of})' if of else ''}"
+        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {where}")
     return lines
 
 
@@ -204,7 +206,7 @@ def answer(result: Result) -> list[str]:
     if not cheap:
         return [*lines, f"{NOT_FOLLOWED[0].upper()}{NOT_FOLLOWED[1:]}."]
     if envelope is None or not envelope.extremes:
-        return lines
+        return lines + doubts_of_signs(result)
     if not result.has_envelope:
         lines.append("Up to there:")
     lines += contact_in_words(result, lifted_supports(result, envelope))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..base.characters import visible
-from ..scene.names import label
+from ..scene.names import column_of, label
 from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
@@ -97,7 +97,7 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         Sentences; none where no support is one-sided.
     """
     supports = result.scene.supports
-    one_sided = {k for k, support in enumerate(supports) if support.side != "both"}
+    one_sided = {k for k, side in enumerate(column_of(supports, "side")) if side != "both"}
     if not one_sided:
         return []
     broken = {event.support for event in result.events if event.event == "breaks"} if not result.combinations else set()

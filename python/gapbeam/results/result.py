@@ -30,7 +30,7 @@ from .views.extreme import Extremes
 class Result(Verbs):
     """All load steps of a scene.
 
-    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    It can be pickled, for other processes, and continues there with the same digits; all its arrays are read-only. Two
     results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
 
     Attributes
@@ -51,10 +51,10 @@ class Result(Verbs):
     path : Path, BranchPath, GroundPath or None
         Following events, the schemes along the load; with supports whose state depends on it always.
     without_trains : str or None
-        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
+        Why the beam is unstable while no train is on it, which is not in the envelope and does not count for `status`; None
         where it can, and in scenes without trains.
     has_answer : bool
-        Whether there is a unique answer, be it that the beam cannot stand.
+        Whether there is a unique answer, be it that the beam is unstable.
     compression : Compression or None
         The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
         is left out. None where nothing is compressed.
@@ -202,7 +202,7 @@ class Result(Verbs):
         -------
         list of Hint
             The load is followed from event to event, so that nothing is missed between. None for beams on foundations or with
-            smooth laws, and where the state depends on the way of the load.
+            smooth laws, and where the state depends on the loading history.
         """
         return find_hints(self)
 

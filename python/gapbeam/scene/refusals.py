@@ -71,7 +71,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
         return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
     if reason == NO_PLACE:
-        return SceneError(path, "its place is missing; give node or x")
+        return SceneError(path, "its position is missing; give node or x")
     if reason == NO_STRETCH:
         stretch = f"from = {number(item.from_)} to = {number(end if item.to is None else item.to)}"
         return SceneError(path, f"the stretch {stretch} has no length; from must be less than to")
@@ -82,7 +82,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial"',
-        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is open which "
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear which "
         "side takes it; put it on one side of the hinge",
     }
     return SceneError(path, words[reason]())
@@ -147,7 +147,7 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
     if reason == NO_GAP:
         return SceneError(f"{path}.gap", 'only a support with side = "below" or "above" has a gap')
     if reason == AT_HINGE:
-        problem = "there is a hinge here, so it is open which side is held; move one aside"
+        problem = "there is a hinge here, so it is unclear which side is held; move one aside"
         return SceneError(f"{path}.rotation", problem)
     x = number(scene.positions([item])[0])
     if reason == TWICE and key == "law":

@@ -319,7 +319,7 @@ def test_cells_over_two_lines_are_refused(tmp_path):
     """They were two cases, each refused, and all later cases had other numbers."""
     for text, line in (('factors.wind,"factors.dead"\n1,"1"\n2,"1\n"\n', 3), ('"factors\n.wind"\n1\n', 1)):
         (tmp_path / "t.csv").write_text(text)
-        with pytest.raises(gapbeam.SceneError, match=f"line {line}: a quoted cell goes on in the next line; write"):
+        with pytest.raises(gapbeam.SceneError, match=f"line {line}: a quoted cell continues in the next line; write"):
             take_table(tmp_path / "t.csv")
 
 

@@ -311,7 +311,7 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid, or has combinations or trains; or the state of a support depends on the way of the load to it, or
+        The scene is not valid, or has combinations or trains; or the state of a support depends on the loading history to it, or
         its law is a curve, so that each case is more than one solve.
     """
     return Prepared(prepared_solver(source, rule))
@@ -342,6 +342,6 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
     if beam.beyond_one_search is not None:
-        what = {"path": "its state depends on the way of the load", "curve": "one of them is a curve"}[beam.beyond_one_search]
+        what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
     return solver_of(scene, beam, choose_rule(scene, rule))

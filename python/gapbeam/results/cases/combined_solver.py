@@ -19,7 +19,7 @@ from .combinations import Combinations
 
 
 class OneByOne(Pickled):
-    """Combinations solved one after the other, as the way of the load, or trains that pass, ask for.
+    """Combinations solved one after the other, as the loading history, or trains that pass, ask for.
 
     Parameters
     ----------

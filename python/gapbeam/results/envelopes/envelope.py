@@ -32,7 +32,7 @@ NEAR = 10.0
 
 
 class EnvelopeExtreme(Extreme):
-    """The largest or smallest value of a quantity over all combinations, or over the way of the load.
+    """The largest or smallest value of a quantity over all combinations, or over the loading history.
 
     Its attributes are those of `Extreme`.
     """
@@ -175,7 +175,7 @@ class SupportExtremes(Sequence):
         -------
         dict
             ``support`` (name or number), ``x``, and of every quantity ``reaction_max`` and ``reaction_min``, in a scene with
-            combinations each with the first one it comes from, ``reaction_max_combination``; over the way of the load with
+            combinations each with the first one it comes from, ``reaction_max_combination``; over the loading history with
             ``reaction_max_factor`` and ``reaction_max_leg``.
         """
         found = support_places(self._of.scene)
@@ -307,7 +307,7 @@ class Envelope(PartVerbs):
         -------
         dict
             ``x``, of every field its largest and smallest values (``moment_max``), and in a scene with combinations the one that
-            gives them (``moment_max_combination``); over the way of the load ``moment_max_factor`` and ``moment_max_leg``.
+            gives them (``moment_max_combination``); over the loading history ``moment_max_factor`` and ``moment_max_leg``.
         """
         return curves_with_sources(self.fields, self.sources, self._keys)
 

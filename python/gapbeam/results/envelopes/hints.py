@@ -79,7 +79,7 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
     -------
     list of Hint
         None for beams on foundations or with smooth laws, whose values are not linear between events, where the state depends
-        on the way of the load, and where there is no equilibrium.
+        on the loading history, and where there is no equilibrium.
     """
     states = _states(result)
     if not states:

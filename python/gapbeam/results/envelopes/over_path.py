@@ -42,7 +42,7 @@ def is_followed(result: Result) -> bool:
     Returns
     -------
     bool
-        True following events or a history, by load steps, and where the state depends on the way of the load.
+        True following events or a history, by load steps, and where the state depends on the loading history.
     """
     if result.scene.analysis.is_one_step and not result.depends_on_path:
         return False

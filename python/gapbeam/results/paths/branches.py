@@ -229,7 +229,7 @@ class BranchPath(Pickled):
         Returns
         -------
         list of Step
-            None where settlements or lacks of fit grow with them.
+            None where settlements or preloads grow with them.
         """
         found, h = [], self._history
         for factor, (_, leg, before, landing) in zip(h.limit_factors.tolist(), h.limits.tolist(), strict=True):

@@ -56,7 +56,7 @@ def compression_of(result: Result, step: Step, struts: Struts | None = None) -> 
 
 
 def check_compression(result: Result) -> None:
-    """Note the largest compression of all states on the way of the load, and refuse one that is beyond the Euler load.
+    """Note the largest compression of all states on the loading history, and refuse one that is beyond the Euler load.
 
     Parameters
     ----------

@@ -49,8 +49,8 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         check_compression(result)
         return
     if beam.depends_on_path:
-        what = "laws whose state depends on the way of the load cannot stand beside trains"
-        raise SceneError("supports", f"{what} in this version; use polylines that rise")
+        what = "supports whose state depends on the loading history cannot be combined with trains"
+        raise SceneError("supports", f"{what} in this version; use non-decreasing polylines")
     result.trains.pass_all()
     try:
         follow_scene(result, closed)
@@ -110,14 +110,15 @@ def _refuse_beyond_bounds(result: Result) -> None:
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation."""
     if beam.beyond_one_search is not None:
-        what = {"path": "whose state depends on the way of the load", "curve": "that are curves"}[beam.beyond_one_search]
-        raise SceneError("supports", f"laws {what} cannot stand beside a foundation in this version; use polylines that rise")
+        what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
+        problem = f"supports with laws {what} cannot be combined with a foundation in this version; use non-decreasing polylines"
+        raise SceneError("supports", problem)
     if scene.analysis.has_history:
-        raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
+        raise SceneError("analysis.history", "a beam on a foundation unloads along its path; leave it out")
 
 
 def _on_path(result: Result, _: np.ndarray) -> None:
-    """Solve a scene whose state depends on the way of the load."""
+    """Solve a scene whose state depends on the loading history."""
     analysis = result.scene.analysis
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":

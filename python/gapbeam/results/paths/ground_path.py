@@ -124,7 +124,7 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     Parameters
     ----------
     result : Result
-        Receives the reason where the beam cannot stand.
+        Receives the reason where the beam is unstable.
     rule : {"block", "single"}
         How schemes of the supports are found.
     closed : numpy.ndarray of int

@@ -208,7 +208,7 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     Parameters
     ----------
     result : Result
-        Receives the reason where the beam cannot stand.
+        Receives the reason where the beam is unstable.
     rule : {"block", "single"}
         How schemes are found.
     closed : numpy.ndarray of int

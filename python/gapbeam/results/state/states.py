@@ -96,7 +96,7 @@ class States(Pickled):
 
     @property
     def depends_on_path(self) -> bool:
-        """Whether states depend on the way of the load: by the laws of supports, or since it goes to several factors in turn."""
+        """Whether states depend on the loading history: by the laws of supports, or since it goes to several factors in turn."""
         return self._beam.depends_on_path or self.scene.analysis.has_history
 
     @property

@@ -46,7 +46,7 @@ def lost_positions(trains: Mapping[str, TrainResult]) -> tuple[str, str] | None:
     Returns
     -------
     status, reason : str
-        Of the first at which the beam cannot stand, else of the first without a unique answer; None where all are solved.
+        Of the first at which the beam is unstable, else of the first without a unique answer; None where all are solved.
     """
     lost = [(train, gap) for train in trains.values() for gap in train.unstable_positions if gap.status != "solved"]
     if not lost:

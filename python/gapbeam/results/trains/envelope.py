@@ -63,7 +63,7 @@ class TrainEnvelope(PartVerbs):
     supports : list of dict
         The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
     unstable_positions : list of (Member, UnstablePositions)
-        Positions that are not in it, as there the beam cannot stand.
+        Positions that are not in it, as the beam is unstable there.
     """
 
     def __init__(self, result: Result, members: Sequence[Member], x: np.ndarray | None = None, points: int = 20):

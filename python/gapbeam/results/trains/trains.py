@@ -151,7 +151,7 @@ class TrainResult(TrainVerbs):
 
     @property
     def unstable_positions(self) -> list[UnstablePositions]:
-        """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
+        """Positions at which the beam is unstable, is not held in one place, or has no unique answer."""
         return [one for traversal in self.traversals for one in traversal.unstable_positions]
 
     @property

@@ -66,7 +66,7 @@ class TrainEvent:
 
 @dataclass(frozen=True, slots=True)
 class UnstablePositions:
-    """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
+    """Positions at which the beam is unstable, is not held in one place, or has no unique answer.
 
     Attributes
     ----------

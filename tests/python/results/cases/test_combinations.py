@@ -306,7 +306,7 @@ def test_json_csv_and_report():
     largest = data["envelope"]["extremes"]["moment"]["max"]
     assert largest[0] == result.combinations["snow"].extremes["moment"]["max"].value
     assert largest[2]["combination"] == "snow"
-    assert set(largest[2]["concurrent"]) == {"deflection", "rotation", "shear"}
+    assert set(largest[2]["concurrent"]) == {"deflection", "rotation", "shear", "curvature"}
     assert data["envelope"]["supports"][0]["reaction"]["min"][1]["combination"] == "cold"
     assert len(data["envelope"]["fields"]["x"]) == len(data["envelope"]["fields"]["moment"]["max"])
     assert to_csv(result, points=1).splitlines()[0].startswith("x,deflection_max,deflection_min,")

@@ -14,7 +14,7 @@ from scenes import at, force, random_scene, scene, uniform
 from scenes.ground import rail, yielding
 from scenes.law import law_scene
 
-FIELDS = ("deflection", "rotation", "moment", "shear")
+FIELDS = ("deflection", "rotation", "moment", "shear", "curvature")
 ARM = {
     "units": {"force": "kN", "length": "m"},
     "beam": {"spans": [3.0, 2.0], "EI": 8.0e3},

@@ -293,7 +293,7 @@ def test_refusals(train, message):
     ("change", "message"),
     [
         ({"supports": [{"node": 0}, {"node": 1, "side": "below", "law": {"type": "plastic", "stiffness": 1.0, "limit": 1.0}}]},
-         "supports: laws whose state depends on the way of the load cannot stand beside trains"),
+         "supports: supports whose state depends on the loading history cannot be combined with trains"),
     ],
 )  # fmt: skip
 def test_what_trains_cannot_go_over(change, message):
