@@ -201,6 +201,18 @@ def test_the_old_name_of_further_settlements():
     assert repr(prepared).startswith("Prepared(Beam without a title: 3 spans, 4 supports, 2 loads)")
 
 
+@pytest.mark.filterwarnings("error::DeprecationWarning")
+@pytest.mark.parametrize("name", ["result", "combined", "over trains", "cases", "summary"])
+def test_the_package_itself_uses_no_old_names(things, name):
+    one = things[name]
+    assert repr(one)
+    assert one.report()
+    assert one.plot().axes
+    assert one.to_json()
+    if name in ("result", "combined", "over trains"):
+        assert one.to_html()
+
+
 def test_a_train_demands_a_position(things):
     train = things["train"]
     for wrong in (lambda: train.at(7.3), lambda: train.at(7.3, "right"), lambda: train.at()):
