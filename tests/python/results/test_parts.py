@@ -240,6 +240,16 @@ def test_a_train_that_tips_the_beam():
     assert "Positions" in repr(train) or "positions" in repr(train)
 
 
+def test_a_train_on_a_beam_that_is_free_to_move():
+    free = gapbeam.solve({
+        "beam": {"spans": [4.0], "EI": 1e4}, "supports": [{"x": 2.0}],
+        "trains": [{"name": "man", "axles": [[0.0, 1.0]], "from": 2.0, "to": 2.0}],
+    }).trains["man"]  # fmt: skip
+    assert free.ok
+    assert free.reason.startswith("positions 2 to 2: the beam can move freely")
+    assert "deflection" not in repr(free)
+
+
 def test_cases_are_arrays_by_case(things):
     cases, prepared = things["cases"], gapbeam.prepare(scene())
     assert len(cases) == 3
