@@ -131,7 +131,7 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     shown, supports = _rows_of(envelope, lifted), _columns_of(reaction, lifted)
     rows = []
     for k in shown:
-        name, one = visible(envelope.sources[k].combination or ""), envelope.result_of(k)
+        name, one = visible(envelope.sources[k].combination or ""), envelope._result_of(k)
         if one.status != "solved":
             rows.append([name, *["-"] * (len(supports) + 2)])
             continue
