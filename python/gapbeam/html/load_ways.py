@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..base.errors import EngineError
-from ..results import formatting as fmt
 from ..results.envelopes.over_path import is_exact
+from ..results.event_words import LIMITS, event_in_words
 from ..results.paths.branches import BranchPath
-from ..scene.names import label
 from .states import FIELD_OF, Recorder, stands
 
 if TYPE_CHECKING:
+    from ..results.paths.ground_path import GroundEvent
+    from ..results.paths.path import Event
     from ..results.result import Result
     from ..results.state.step import Step
+    from ..results.trains.traversals import TrainEvent
+    from ..scene.structs import Scene
 
 PIXEL = 1.0 / 160.0
 """Share of the height of a panel by which a drawn state may differ from the exact one, where values are curved."""
@@ -114,7 +117,7 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
         ``over`` says what the states are: ``path`` exact, ``states`` close to each other, ``steps`` load steps, ``one`` the only
         one.
     """
-    largest = {name: max(abs(pair[0]) for pair in row.values()) for name, row in result.extremes().items()}
+    largest = {name: max(abs(pair[0]) for pair in row.values()) for name, row in result._pairs_of_extremes().items()}
     way = Way(Recorder(result, words), largest)
     if result.path is None:
         for step in result.steps:
@@ -194,19 +197,30 @@ def _events(result: Result, way: Way) -> list[dict[str, Any]]:
     places = _places(result)
     if on_path:
         for one in result.limits:
-            words = "limit load" if one.kind != "bifurcation" else "bifurcation"
-            found.append({"at": _nearest(places, one.factor, 0.0), "factor": one.factor, "words": words})
+            found.append({"at": _nearest(places, one.factor, 0.0), "factor": one.factor, "words": LIMITS[one.kind].lower()})
     along = 0.0
     for event in result.events:
         along = _nearest(places, event.factor, along)
-        if getattr(event, "support", None) is not None:
-            what = {"support": event.support}
-            name = fmt.support(scene, event.support)
-        else:
-            what = {"foundation": event.foundation}
-            name = f"foundation {label(scene.foundation, event.foundation)}"
-        found.append({"at": along, "factor": event.factor, **what, "x": event.x, "words": f"{name} {event.event}"})
+        found.append({"at": along, "factor": event.factor, **of_event(scene, event)})
     return sorted(found, key=lambda one: one["at"])
+
+
+def of_event(scene: Scene, event: Event | GroundEvent | TrainEvent) -> dict[str, Any]:
+    """Give what an event is about, where it is, and what happens in words.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    event : Event, GroundEvent or TrainEvent
+        What happens.
+
+    Returns
+    -------
+    dict
+    """
+    what = {"foundation": event.foundation} if event.support is None else {"support": event.support}
+    return {**what, "x": event.x, "words": event_in_words(scene, event)}
 
 
 def _places(result: Result) -> list[tuple[float, float]]:

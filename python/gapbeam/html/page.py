@@ -16,6 +16,7 @@ from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope
 from ..results.envelopes.over_path import PathEnvelope
+from ..results.event_words import state_in_words
 from .geometry import foundations_data, panels_data, units_data
 from .hand_check import sums_data
 from .states import packed, stands
@@ -90,7 +91,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
     state = _state_to_check(result, envelope)
     first = None if state is None else ((state.combination, state.train, state.direction), state.position)
     collected = collect_ways(result, envelope, first)
-    sampled = scene.trains and not result.beam.is_linear_between_events
+    sampled = scene.trains and not result._beam.is_linear_between_events
     points = max(2, (FEWEST_POINTS if sampled else FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
     whole = _result_data(result, points)
     data = {
@@ -98,9 +99,10 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
         "result": whole,
-        "panels": panels_data(result.beam.fields),
+        "panels": panels_data(result._beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
+        "said": list(map(state_in_words, collected.words)),
         "foundations": foundations_data(scene),
         "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
@@ -112,7 +114,8 @@ def html_page(result: Result, source: Source | None = None) -> str:
     return environment.get_template("page.html").render(
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
         source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
-        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
+        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
+        exactness=exactness(collected, bool(scene.foundation)),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
@@ -151,7 +154,7 @@ def _curves(
     result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
 ) -> dict[str, Any] | None:  # fmt: skip
     """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
-    names = [one["name"] for one in panels_data(result.beam.fields)]
+    names = [one["name"] for one in panels_data(result._beam.fields)]
     if "envelope" in whole:
         columns = whole["envelope"].pop("fields")
         pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
@@ -203,7 +206,7 @@ def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -
     words = "with the largest moment" if name is None else f"with the largest moment: {visible(name)}"
     if train is not None:
         try:
-            state = one.trains[train].at(largest.position, largest.direction)
+            state = one.trains[train].state(largest.position, largest.direction)
         except (GapbeamError, ValueError):  # at the very position at which it can no longer stand
             return None
         words += f"{':' if name is None else ','} {visible(train)} at {fmt.number(largest.position)}"

@@ -11,10 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..engine.beam import SOLVED
-from ..results import formatting as fmt
 from ..results.trains.states import Placed, TrainLoads
-from ..scene.names import label
-from .load_ways import PIXEL, Way
+from .load_ways import PIXEL, Way, of_event
 from .states import Recorder, joined_moments, on_ground, packed
 
 if TYPE_CHECKING:
@@ -272,8 +270,8 @@ def way_of_train(
     -------
     dict
     """
-    course, beam = traversal.course, result.beam
-    loads = TrainLoads(beam, result.rule, course, traversal.near)
+    course, beam = traversal.course, result._beam
+    loads = TrainLoads(beam, result._rule, course, traversal.near)
     way = TrainWay(PlacedRecorder(result, words), largest, loads)
     lost = [one for one in train.unstable_positions if one.direction == course.direction]
     changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)} | {*also})
@@ -286,13 +284,7 @@ def way_of_train(
     for from_, to in pairwise(ends if exact else []):
         if to - from_ > 4 * traversal.near and not any(one.from_ <= from_ and to <= one.to for one in lost):
             way.run(from_, to, degree)
-    scene = result.scene
-    events = []
-    for one in traversal.events:
-        of_support = one.support is not None
-        name = fmt.support(scene, one.support) if of_support else f"foundation {label(scene.foundation, one.foundation)}"
-        what = {"support": one.support} if of_support else {"foundation": one.foundation}
-        events.append({"at": one.position, **what, "x": one.x, "words": f"{name} {one.event}"})
+    events = [{"at": one.position, **of_event(result.scene, one)} for one in traversal.events]
     return {
         "over": "positions" if exact else "close positions", "axis": "position", "states": way.states,
         **way.matrix(), "intervals": way.intervals,

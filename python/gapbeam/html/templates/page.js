@@ -3,7 +3,7 @@
 const byId = (id) => document.getElementById(id);
 const view = { way: 0, stop: 0, place: 0, playing: null };
 const scale = DATA.ways.some((way) => way.intervals && way.intervals.length) ? new Scale() : null;
-const STOPS = 200;
+const STOPS = 200, NOISE = 1e-12; // parts of the slider; share of the largest value that is nothing but rounding
 
 /* The places of the slider: both ends of all intervals, so every event, and equal parts between. */
 function stopsOf(way) {
@@ -30,14 +30,16 @@ function stateNow() {
   return stop.interval ? new State(way, stop.interval, stop.at) : null;
 }
 
+function capital(text) { return text.charAt(0).toUpperCase() + text.slice(1); }
+
 /* The state in words, for the caption and for who listens. */
 function inWords(state, events) {
   const way = DATA.ways[view.way], parts = [];
   if (way.title) parts.push(way.title);
   if (way.axis === "position") parts.push(`position ${withUnit("x", state.at)}`);
   else parts.push(`load factor ${number(state.factor)}${state.interval.leg === undefined ? "" : ` of leg ${state.interval.leg}`}`);
-  const text = [`${parts.join(", ")}.`];
-  if (events.length) text.push(`${events.map((one) => one.words).join("; ")}.`);
+  const text = [`${capital(parts.join(", "))}.`];
+  if (events.length) text.push(`${capital(events.map((one) => one.words).join("; "))}.`);
   const open = state.supports.map((one, k) => [one.name, k]).filter(([, k]) => state.words[k] === "open");
   const listed = open.slice(0, 8).map(([name, k]) => `${name} (${withUnit("opening", state.opening[k])})`).join(", ");
   if (state.supports.some((one) => one.side !== 0)) text.push(open.length ? `Without contact: ${listed}${open.length > 8 ? ` and ${open.length - 8} more` : ""}.` : "All supports are in contact.");
@@ -65,7 +67,7 @@ function show() {
     svg.setAttribute("viewBox", `0 0 ${WIDTH} 220`);
     svg.innerHTML = drawMotion(way, share, 100);
     byId("now").textContent = way.motion.length ? "free motion" : "";
-    say(`${way.title[0].toUpperCase()}${way.title.slice(1)}: ${way.reason}.`);
+    say(`${capital(way.title)}: ${way.reason}.`);
     slider.setAttribute("aria-valuetext", `free motion, ${Math.round(100 * share)} %`);
     byId("place-row").hidden = true;
     return;
@@ -113,11 +115,11 @@ function fillSupports(state) {
     heads.forEach((of, i) => {
       const cell = row.children[i];
       if (of === "state") {
-        cell.textContent = `${state.words[k] === "open" ? "\u25cb" : state.words[k] === "bilateral" ? "\u25b2" : "\u25cf"} ${state.words[k]}`;
+        cell.textContent = `${state.words[k] === "open" ? "\u25cb" : state.words[k] === "bilateral" ? "\u25b2" : "\u25cf"} ${DATA.said[DATA.words.indexOf(state.words[k])]}`;
         cell.dataset.value = "";
       } else if (DATA.units[of] && of !== "x") {
-        const value = state[of] ? state[of][k] : 0;
-        cell.textContent = shown(of, Math.abs(value) <= 1e-12 * (scale.reaction || 1) && of === "reaction" ? 0 : value);
+        const value = state[of] ? state[of][k] : 0, largest = Math.max(0, ...(state[of] || []).map(Math.abs));
+        cell.textContent = shown(of, Math.abs(value) <= NOISE * largest ? 0 : value);
         cell.dataset.value = value;
       }
     });
