@@ -5,6 +5,7 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -98,7 +99,9 @@ class Parser(argparse.ArgumentParser):
         message : str
             What is wrong.
         """
-        raise SceneError(f"{message} (see {self.prog} --help)")
+        scene = re.search(r"invalid choice: '([^']*\.(?:toml|json))'", message)
+        raise SceneError(f"a command is missing; did you mean: gapbeam run {scene[1]}" if scene else
+                         f"{message} (see {self.prog} --help)")  # fmt: skip
 
     def print_help(self, file: None = None) -> None:
         """Print the help.

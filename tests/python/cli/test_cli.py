@@ -281,3 +281,8 @@ def test_reader_that_leaves_early_costs_no_file(request, tmp_path, name, status)
         assert process.stderr.read() == b""
     assert process.returncode == status
     assert json.loads((tmp_path / "a.json").read_text())["status"] in ("solved", "no-equilibrium")
+
+
+def test_a_scene_without_a_command_is_answered(capsys):
+    assert main(["beam.toml"]) == 2
+    assert capsys.readouterr().err == "gapbeam: error: a command is missing; did you mean: gapbeam run beam.toml\n"
