@@ -28,8 +28,8 @@ DEEPEST = 6
 """Times that an interval is halved at most."""
 SAME = 1e-9
 """Share of the largest value by which states on both sides of an event differ by rounding."""
-MOST_INTERVALS = 400
-"""Intervals of a way that are drawn."""
+MOST_NUMBERS = 60_000
+"""Numbers that the states of one load may take on the page; where they take more, only some of its events are drawn."""
 
 
 class Way:
@@ -41,12 +41,18 @@ class Way:
         Of the beam.
     largest : dict
         Largest value of every field, by which differences are judged.
+
+    Attributes
+    ----------
+    left_out : int
+        Intervals that are not given, since they would take too many numbers.
     """
 
     def __init__(self, recorder: Recorder, largest: dict[str, float]) -> None:
         self.recorder = recorder
         self.states: list[dict[str, Any]] = []
         self.intervals: list[dict[str, Any]] = []
+        self.left_out = 0
         self._largest = largest
         self._last: dict[str, np.ndarray] = {}
 
@@ -128,13 +134,15 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
     exact = is_exact(result)
     events = _events(result, way)
     return {"over": "path" if exact else "states", "axis": "load factor", "states": way.states, "intervals": way.intervals,
-            "events": events}  # fmt: skip
+            "events": events, "left_out": way.left_out}  # fmt: skip
 
 
 def _follow(way: Way, result: Result) -> None:
     """Go along all segments of a path."""
     path, along = result.path, 0.0
-    for segment in result.segments[:MOST_INTERVALS]:
+    numbers = 2 * len(result.beam.places.point_x) + 3 * len(result.scene.supports)
+    every = -(-len(result.segments) * numbers // MOST_NUMBERS)
+    for k, segment in enumerate(result.segments):
         start, stop = segment.start, segment.stop
         leg = getattr(segment, "leg", 0)
         length = abs(stop - start)
@@ -145,7 +153,9 @@ def _follow(way: Way, result: Result) -> None:
                 return path.begin(segment)
             return path.step(segment, start + share * (stop - start) if share < 1.0 else stop)
 
-        if is_exact(result):
+        if (len(result.segments) - 1 - k) % every:
+            way.left_out += 1
+        elif is_exact(result):
             first, last = at(0.0), at(1.0)
             nodes = [way.add(first), way.add(last)]
             way.interval(along, along + length, nodes, last, **more)

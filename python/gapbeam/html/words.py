@@ -112,6 +112,9 @@ def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
         found.append("Along a beam on the ground values are given at many places, with straight lines between them.")
     elif kinds:
         found.append("Along the beam moments, shears and deflections are drawn from their polynomials, with all digits.")
+    left_out = sum(way.get("left_out", 0) for way in collected.ways)
+    if left_out:
+        found.append(f"The load has so many events that {left_out:,} stretches between two of them are not drawn.")
     if collected.left_out:
         found.append(f"{collected.left_out:,} combinations that do not govern are in the tables, not in the pictures.")
     return found
