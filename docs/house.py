@@ -6,6 +6,7 @@
 import ast
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
@@ -37,8 +38,8 @@ def files_of(room):
     return [path for path in there if path.suffix in (".f90", ".F90", ".c", ".py") and not path.stem.startswith("__")]
 
 
-def head_of(path):
-    """Give the first sentence of a source."""
+def head_of(path, ends=".:"):
+    """Give the first sentence of a source, by default no farther than to a colon."""
     text = path.read_text()
     if path.suffix == ".py":
         words = ast.get_docstring(ast.parse(text)) or ""
@@ -47,7 +48,7 @@ def head_of(path):
     else:
         words = "\n".join(line.lstrip("!>").strip() for line in re.match(r"(?:!.*\n)*", text)[0].splitlines())
     paragraph = " ".join(words.strip().partition("\n\n")[0].split())
-    return re.split(r"(?<=[.:])\s", paragraph)[0].rstrip(".:")
+    return re.split(rf"(?<=[{ends}])\s", paragraph)[0].rstrip(ends)
 
 
 def filled(words):
@@ -84,7 +85,7 @@ def main(arguments):
         if room not in ROOMS:
             sys.exit(f"no room {room}; the rooms are {', '.join(ROOMS)}")
         for path in files_of(room):
-            print(f"{path.stem:24} {head_of(path)}")
+            print(textwrap.fill(head_of(path, "."), WIDTH, initial_indent=f"{path.stem:24} ", subsequent_indent=" " * 25))
 
 
 if __name__ == "__main__":

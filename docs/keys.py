@@ -34,7 +34,7 @@ def kind_of(entry):
     if entry.get("type") == "object":
         return f"table by name of {kind_of(entry['additionalProperties'])}"
     words = {"string": "text", "boolean": "`true` or `false`", "integer": "whole number"}.get(entry["type"], entry["type"])
-    more = [f" {sign} {entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
+    more = [f"\N{NO-BREAK SPACE}{sign}\N{NO-BREAK SPACE}{entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
     return words + "".join(more)
 
 

@@ -17,6 +17,7 @@ from .results.state.fields import Fields
 from .results.state.step import Step
 from .results.state.system import System
 from .results.stepping import solve
+from .results.views.extreme import Extreme
 from .results.views.shown import Shown
 from .scene import (
     Analysis,
@@ -55,6 +56,7 @@ __all__ = [
     "CurvatureLoad",
     "EngineError",
     "Envelope",
+    "Extreme",
     "Fields",
     "ForceLoad",
     "Foundation",

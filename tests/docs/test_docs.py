@@ -63,3 +63,20 @@ def test_pictures_are_what_is_drawn(name, draw, tmp_path):
     ]
     assert len(texts[0]) > 15
     assert texts[0] == texts[1]
+
+
+def test_the_citation_has_the_version():
+    cited = (TOP / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {gapbeam.__version__}\n" in cited
+    assert f"(version {gapbeam.__version__})" in page("cite")
+
+
+def test_the_picture_of_hysteresis_is_what_is_drawn(tmp_path):
+    pile = gapbeam.solve(TOP / "examples" / "pile_head.toml")
+    pile.plot("hysteresis", support=2, path=tmp_path / "new.svg")
+    texts = [
+        re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
+        for path in (TOP / "docs" / "pile_head_hysteresis.svg", tmp_path / "new.svg")
+    ]
+    assert texts[0] == texts[1]
+    assert any("energy 1.403 kN m" in text for text in texts[0])

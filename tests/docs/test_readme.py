@@ -5,7 +5,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import gapbeam
 import pytest
 from gapbeam.cli import main
 from gapbeam.plots import plot
@@ -31,10 +30,13 @@ def test_report_is_what_is_printed(capsys):
 
 def test_picture_is_what_is_drawn(tmp_path):
     """Compare the texts in the picture; the rest depends on the version of matplotlib."""
-    plot(gapbeam.solve(SCENE), tmp_path / "new.svg")
+    names = {}
+    lines = [line[4:] for line in block("python").splitlines() if line.startswith((">>> ", "... "))]
+    exec("\n".join(lines), names)
+    plot(names["result"], tmp_path / "new.svg")
     texts = [
         re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
-        for path in (TOP / "docs" / "three_spans.svg", tmp_path / "new.svg")
+        for path in (TOP / "docs" / "readme.svg", tmp_path / "new.svg")
     ]
     assert len(texts[0]) > 20
     assert texts[0] == texts[1]
@@ -43,7 +45,7 @@ def test_picture_is_what_is_drawn(tmp_path):
 def test_python_lines(monkeypatch):
     monkeypatch.chdir(TOP)
     failures, tried = doctest.testfile(str(TOP / "README.md"), module_relative=False, verbose=False)
-    assert tried >= 5
+    assert tried >= 3
     assert failures == 0
 
 

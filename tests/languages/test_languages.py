@@ -4,11 +4,13 @@ The Fortran interface is what the other two marshal to; its own tests are test_a
 """
 
 import random
+import re
 
 import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import EngineError, SceneError
+from gapbeam.engine.quantities import FIELDS as QUANTITIES_OF_PYTHON
 from gapbeam.results.paths.branches import BranchPath
 from gapbeam.results.state.breakpoints import EVENTS
 from gapbeam.studies.meshes import gapped_spans
@@ -20,6 +22,7 @@ from scenes.law import FAMILIES, law_scene
 from scenes.tabled import random_tabled_scene
 
 from .clibrary import F77Beam
+from .installation import TOP
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
 QUANTITIES = (*FIELDS, "pressure", "curvature")
@@ -73,7 +76,7 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
     end = nodes_of(scene)[-1]
     x = [0.0, end, *(rng.uniform(0.0, end) for _ in range(3)), *nodes_of(scene)]
     for left in (False, True):
-        fields = result.at(np.clip(x, 0.0, result.beam.places.end), side="left" if left else "right")
+        fields = result.at(np.clip(x, 0.0, result._beam.places.end), side="left" if left else "right")
         for one in (beam, f77):
             for row, name in zip(one.fields(x, left), FIELDS, strict=True):
                 values = getattr(fields, name)
@@ -81,7 +84,7 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
             for row, k in zip(one.quantities((7, 2, 6), x, left), (7, 2, 6), strict=True):
                 values = getattr(fields, QUANTITIES[k])
                 np.testing.assert_array_equal(row, np.zeros(len(x)) if values is None else values)
-    extremes = result.extremes()
+    extremes = result._pairs_of_extremes()
     for one in (beam, f77):
         value, place = one.extremes()
         for k, name in enumerate(FIELDS):
@@ -102,6 +105,18 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
     assert np.flatnonzero(undecided).tolist() == list(step.undecided)
     of_f77, known, undecided_f77 = f77.certificate()
     assert [of_f77.tolist()[:size], known, undecided_f77.tolist()] == [numbers[:size], certificate.known, undecided.tolist()]
+
+
+def test_quantities_have_the_same_numbers_everywhere(library):
+    assert QUANTITIES == QUANTITIES_OF_PYTHON
+    header = (TOP / "fortran" / "face" / "gapbeam.h.in").read_text()
+    assert int(re.search(r"GAPBEAM_QUANTITIES = (\d+)", header)[1]) == len(QUANTITIES)
+    scene = {"beam": {"spans": [4.0], "EI": 1.0}, "supports": [{"node": 0}, {"node": 1}], "loads": [{"type": "uniform", "q": 1.0}]}
+    for beam in (library.prepare(scene)[0], F77Beam(library, scene)):
+        assert beam.solve(1.0) in (0, (0, ""))
+        np.testing.assert_array_equal(beam.quantities(range(len(QUANTITIES)), [2.0])[7], [2.0])
+        bad = -4 if isinstance(beam, F77Beam) else 11
+        beam.quantities([0, len(QUANTITIES)], [2.0], expect=bad)
 
 
 @pytest.mark.parametrize("first", range(0, 600, 100))
@@ -263,11 +278,11 @@ def test_laws_agree(library, family):
 
 def assert_same_ground(beam, f77, result, scene, rng):
     """Where the ground acts, and its pressure."""
-    step, end = result.steps[-1], result.beam.places.end
+    step, end = result.steps[-1], result._beam.places.end
     contact = [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in step.contact]
     free = [(f.foundation, f.from_, f.to, f.sag) for f in step.free_spans]
     x = np.clip([0.0, end, *(rng.uniform(0.0, end) for _ in range(4)), *nodes_of(scene)], 0.0, end)
-    top, bottom = (result.extremes()["pressure"][key] for key in ("max", "min"))
+    top, bottom = (result._pairs_of_extremes()["pressure"][key] for key in ("max", "min"))
     for one in (beam, f77):
         assert one.contact() == contact
         assert one.free_spans() == free

@@ -105,7 +105,7 @@ class Folder:
         try:
             write_lasting(self.file(chunk), data)
         except OSError as error:
-            remedy = "when that is mended, start the same batch again, and it goes on"
+            remedy = "when that is mended, start the same batch again, and it continues"
             raise OSError(error.errno, f"{error.strerror}; {remedy}", error.filename) from None
 
     def remove(self, chunk: int) -> None:

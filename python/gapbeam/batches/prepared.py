@@ -99,11 +99,11 @@ class PreparedCases(SceneCases):
             self._keep_simple(found, varied, solved, numbers)
         for kind, bound in (found.error_bounds() if ERRORS in self._want else {}).items():
             numbers[f"{ERRORS}.{kind}"][solved] = bound[solved]
-        states = found.states() if len(self._rest) > len(self._fields) else None
+        states = found._combined() if len(self._rest) > len(self._fields) else None
         for name in (name for name in self._rest if name in ROWS):
             for k, one in enumerate(self._supports):
                 numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
-        for name, extremes in (found.extremes_of(self._fields) if self._fields else {}).items():
+        for name, extremes in (found._extremes_of(self._fields) if self._fields else {}).items():
             for kind, (extreme, place) in extremes.items():
                 numbers[f"{name}.{kind}"][solved] = extreme[solved]
                 numbers[f"{name}.{kind}_x"][solved] = place[solved]

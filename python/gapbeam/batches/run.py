@@ -48,7 +48,7 @@ def batch(
 ) -> Batch:  # fmt: skip
     """Solve a scene for every row of a table, into a folder.
 
-    Whatever ends it, the same call goes on where it was, and the files are the same to the last byte as if nothing had
+    Whatever ends it, the same call continues where it was, and the files are the same to the last byte as if nothing had
     happened, whatever the number of workers.
 
     Parameters
@@ -87,9 +87,9 @@ def batch(
     SceneError
         The scene or the table is not valid, or the folder holds something else.
     LostWorkerError
-        A process is gone; started again the batch goes on.
+        A process is gone; started again the batch continues.
     OSError
-        The folder cannot be written; started again the batch goes on.
+        The folder cannot be written; started again the batch continues.
 
     Examples
     --------
@@ -201,7 +201,7 @@ def _run(
     """Solve what is not done yet."""
     done = set(folder.done())
     if retry_failed:
-        done -= set(Batch(folder.path).failed_chunks())
+        done -= set(Batch(folder.path)._failed_chunks())
     left = [k for k in range(folder.manifest["chunks"]) if k not in done]
     cases = folder.manifest["cases"] - sum(stop - first for first, stop in map(folder.part, left))
     packed = pickle.dumps(job)

@@ -130,7 +130,7 @@ class SceneCases:
         """Keep what is wanted of a state."""
         step, extremes = result.steps[-1], {}
         if set(self._want) - {"input", ERRORS, *AT_SUPPORTS}:
-            extremes = result.extremes()
+            extremes = result._pairs_of_extremes()
         if ERRORS in self._want:
             for kind, bound in step.error_bounds.items():
                 numbers[f"{ERRORS}.{kind}"][k] = np.nan if bound is None else bound

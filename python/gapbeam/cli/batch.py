@@ -29,7 +29,7 @@ A column of TABLE is a key path of the scene (supports.R-104.gap, loads[2].q, be
 Files of results can be read in one line, also while the batch runs: pandas.read_parquet("DIR"),
 polars.read_parquet("DIR/*.parquet"), duckdb: select * from 'DIR/*.parquet'. Without pyarrow they are .npy.
 
-Whatever ends a batch, the same command goes on where it was, and the files come out the same to the last byte.
+Whatever ends a batch, the same command continues where it was, and the files come out the same to the last byte.
 
 Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed (cases too, for lack of memory), 130 ended by Ctrl-C, 143 by
 SIGTERM.
@@ -157,7 +157,7 @@ def _summarize(arguments: argparse.Namespace) -> int:
     if "--json" in outputs:
         import json
 
-        contents["--json"] = [json.dumps(summary.asdict(), indent=1, allow_nan=False) + "\n"]
+        contents["--json"] = [json.dumps(summary.to_dict(), indent=1, allow_nan=False) + "\n"]
     if "--plot" in outputs:
         from ..plots.batch import summary_figure
         from ..plots.save import picture

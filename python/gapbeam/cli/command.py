@@ -9,6 +9,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from textwrap import shorten
 from traceback import extract_tb
 from typing import TYPE_CHECKING, NoReturn
@@ -74,7 +75,7 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand, or a combination or a position of a train cannot or has no single answer: the
+  1    the structure is unstable, or a combination or a position of a train is, or has no unique answer: the
        report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        a line on standard error for every mistake says where and why, no file is written
@@ -204,6 +205,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step, of combinations "
                      "and trains their envelope, as a table (.csv); - is standard output, without report")  # fmt: skip
+    run.add_argument("--xlsx", metavar="FILE", help="write the answer and the tables of supports, fields, combinations and events "
+                     "for Excel (.xlsx); needs xlsxwriter: pip install \"gapbeam[excel]\"")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
                      "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
     run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
@@ -255,9 +258,11 @@ class _Version(argparse.Action):
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path,
-             "--html": arguments.html}  # fmt: skip
+    names = {"--json": arguments.json, "--csv": arguments.csv, "--xlsx": arguments.xlsx, "--plot": arguments.plot,
+             "--path": arguments.path, "--html": arguments.html}  # fmt: skip
     outputs = Outputs(names, arguments.scene)
+    if "--xlsx" in outputs and find_spec("xlsxwriter") is None:
+        raise SceneError("--xlsx", 'needs xlsxwriter, which is not installed: pip install "gapbeam[excel]"')
     from ..results.stepping import solve
     from ..scene.reading import read_scene
 
@@ -278,6 +283,11 @@ def _run(arguments: argparse.Namespace) -> int:
         contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
     if "--csv" in outputs and result.has_envelope:
         contents["--csv"] = csv_parts(result)
+    if "--xlsx" in outputs and result.has_envelope:
+        from ..results.answer import answer, headline
+        from ..show.excel import excel_bytes, tables_of
+
+        contents["--xlsx"] = excel_bytes([headline(result), *answer(result)], tables_of(result))
     if "--plot" in outputs:
         from ..plots.result import figure
         from ..plots.save import picture
@@ -298,7 +308,7 @@ def _run(arguments: argparse.Namespace) -> int:
             print_report(result, verbose=arguments.verbose)
     elif not solved:
         say(NO_SOLUTION, result.reason)
-    for option in ("--csv", "--path"):
+    for option in ("--csv", "--xlsx", "--path"):
         if option in outputs and option not in contents:
             say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
     exceeded = [name for name, one in result.utilisations.items() if one.ratio > 1.0] if arguments.limits else []

@@ -67,9 +67,9 @@ def terms_of(result: Result, step: Step) -> list[Term]:
 
 def _ground(result: Result, step: Step) -> list[Term]:
     """Pressure of the ground, integrated along the beam by Gauss's rule."""
-    if not result.beam.ground_layers:
+    if not result._beam.ground_layers:
         return []
-    ends = np.unique(np.concatenate((result.beam.places.point_x, [x for run in step.runs for x in (run.from_, run.to)])))
+    ends = np.unique(np.concatenate((result._beam.places.point_x, [x for run in step.runs for x in (run.from_, run.to)])))
     ends = np.unique(np.concatenate([np.linspace(a, b, PARTS + 1) for a, b in pairwise(ends)]))
     nodes, weights = np.polynomial.legendre.leggauss(POINTS)
     half = np.diff(ends)[:, None] / 2
@@ -112,7 +112,7 @@ def sums_data(result: Result, step: Step) -> dict[str, Any]:
         "totals": ["0" if value == 0.0 else with_signs(f"{value:.1e}") for value in (force, moment)],
         "left": [leaves(value, sizes[name]) for name, value in (("force", force), ("moment", moment))],
         "written": [written(one.force for one in shown), written(one.moment for one in shown)],
-        "ground": bool(result.beam.ground_layers),
+        "ground": bool(result._beam.ground_layers),
     }  # fmt: skip
 
 

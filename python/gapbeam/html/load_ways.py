@@ -123,7 +123,7 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
         ``over`` says what the states are: ``path`` exact, ``states`` close to each other, ``steps`` load steps, ``one`` the only
         one.
     """
-    largest = {name: max(abs(pair[0]) for pair in row.values()) for name, row in result.extremes().items()}
+    largest = {name: max(abs(pair[0]) for pair in row.values()) for name, row in result._pairs_of_extremes().items()}
     way = Way(Recorder(result, words), largest)
     if result.path is None:
         for step in result.steps:

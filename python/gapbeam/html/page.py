@@ -91,7 +91,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
     state = _state_to_check(result, envelope)
     first = None if state is None else ((state.combination, state.train, state.direction), state.position)
     collected = collect_ways(result, envelope, first)
-    sampled = scene.trains and not result.beam.is_linear_between_events
+    sampled = scene.trains and not result._beam.is_linear_between_events
     points = max(2, (FEWEST_POINTS if sampled else FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
     whole = _result_data(result, points)
     data = {
@@ -99,7 +99,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
         "result": whole,
-        "panels": panels_data(result.beam.fields),
+        "panels": panels_data(result._beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "said": list(map(state_in_words, collected.words)),
@@ -154,7 +154,7 @@ def _curves(
     result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
 ) -> dict[str, Any] | None:  # fmt: skip
     """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
-    names = [one["name"] for one in panels_data(result.beam.fields)]
+    names = [one["name"] for one in panels_data(result._beam.fields)]
     if "envelope" in whole:
         columns = whole["envelope"].pop("fields")
         pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
@@ -206,7 +206,7 @@ def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -
     words = "with the largest moment" if name is None else f"with the largest moment: {visible(name)}"
     if train is not None:
         try:
-            state = one.trains[train].at(largest.position, largest.direction)
+            state = one.trains[train].state(largest.position, largest.direction)
         except (GapbeamError, ValueError):  # at the very position at which it can no longer stand
             return None
         words += f"{':' if name is None else ','} {visible(train)} at {fmt.number(largest.position)}"

@@ -56,9 +56,9 @@ class Recorder:
     """
 
     def __init__(self, result: Result, words: list[str]) -> None:
-        self._beam, self._words = result.beam, words
-        self.x = result.beam.places.point_x
-        self.grid = places_on_ground(result) if result.beam.ground_layers else None
+        self._beam, self._words = result._beam, words
+        self.x = result._beam.places.point_x
+        self.grid = places_on_ground(result) if result._beam.ground_layers else None
 
     def codes(self, states: tuple[str, ...]) -> str:
         """Number the states of the supports.

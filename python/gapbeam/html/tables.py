@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import source_in_words
+from ..results.contact import source_in_words
 from ..results.event_words import state_in_words
 from ..results.state.ground import joined
 from ..scene.names import label, labels

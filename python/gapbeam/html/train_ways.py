@@ -270,8 +270,8 @@ def way_of_train(
     -------
     dict
     """
-    course, beam = traversal.course, result.beam
-    loads = TrainLoads(beam, result.rule, course, traversal.near)
+    course, beam = traversal.course, result._beam
+    loads = TrainLoads(beam, result._rule, course, traversal.near)
     way = TrainWay(PlacedRecorder(result, words), largest, loads)
     lost = [one for one in train.unstable_positions if one.direction == course.direction]
     changes = sorted({one.position for one in traversal.events} | {end for one in lost for end in (one.from_, one.to)} | {*also})

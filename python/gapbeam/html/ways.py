@@ -56,7 +56,7 @@ class Collected:
         way : dict
             States, intervals, events; or a motion.
         """
-        supports = supports_data(result.scene, result.beam.places.levels)
+        supports = supports_data(result.scene, result._beam.places.levels)
         shared = {
             "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
             "loads": _number(self.loads, loads_data(result.scene)),
@@ -96,7 +96,7 @@ def collect_ways(
     names = list(result.combinations)
     chosen = set(_governing(envelope) if envelope is not None else names)
     chosen = [name for name in names if name in chosen] + [name for name in names if name not in chosen]
-    numbers = 2 * len(result.beam.places.point_x) + 3 * len(result.scene.supports)
+    numbers = 2 * len(result._beam.places.point_x) + 3 * len(result.scene.supports)
     most = max(1, min(MOST_WAYS, MOST_VALUES // numbers) // (1 + 4 * len(result.scene.trains)))
     chosen = sorted(chosen[:most], key=names.index)
     found.left_out = len(names) - len(chosen)
@@ -117,7 +117,7 @@ def _ways_of(
     found: Collected, of: str | None, result: Result, envelope: Envelope | TrainEnvelope | None,
     first: tuple[Of, float | None] | None, shared_by: int = 1,
 ) -> None:  # fmt: skip
-    """Add the ways of one load: that of the load, those of its trains, and how it moves where it cannot stand."""
+    """Add the ways of one load: that of the load, those of its trains, and how it moves where it is unstable."""
     name = visible(of or "")
     trains = result.trains.values() if result.scene.trains and result.has_answer else ()
     traversals = [(train, one) for train in trains for one in train.traversals]

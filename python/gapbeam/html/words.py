@@ -1,4 +1,4 @@
-"""Sentences that a checker has to know beside the numbers: what was left out, error bounds, how exact the pictures are."""
+"""Sentences for a checker, beside the numbers: what was left out, error bounds, how exact the pictures are."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
-from ..results.answer import short
+from ..results.contact import short
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -74,7 +74,7 @@ def bounds_in_words(result: Result, step: Step) -> list[str]:
     list of str
     """
     found, scene = [], result.scene
-    largest = {name: float(abs(step.solution.extremes()[0][:, k]).max()) for name, k in result.beam.fields.items()}
+    largest = {name: float(abs(step.solution.extremes()[0][:, k]).max()) for name, k in result._beam.fields.items()}
     largest["reaction"] = max(map(abs, step.reaction.tolist()), default=0.0)
     for name, bound in step.error_bounds.items():
         if name == "reaction" and not scene.supports:

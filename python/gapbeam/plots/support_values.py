@@ -1,4 +1,4 @@
-"""What pictures tell of supports in words: reactions, openings, and what they are; of one state, or of an envelope."""
+"""Words of supports in pictures: reactions, openings, contact states; of one state, or of an envelope."""
 
 from __future__ import annotations
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.contact import NONE
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
+from ..results.envelopes.lifted import NONE
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..scene.names import labels
 from .ground import free_span_headings
@@ -257,7 +257,7 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
     """Say where a factor between governs."""
     say.heading("Factors between")
     if not result.is_linear_between_events:
-        say.line("Not looked for: on foundations, with smooth laws and where the state depends on the way of the load, values are "
+        say.line("Not looked for: on foundations, with smooth laws and where the state depends on the loading history, values are "
                  "not linear between events.")  # fmt: skip
         return
     if len(result.names) > MOST_FOLLOWED:

@@ -1,12 +1,13 @@
 """Scenes, read and checked: TOML, JSON or Python."""
 
+from .analysis import Analysis
 from .edited import replace
 from .limits import Limits
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
 from .places import POSITION_TOLERANCE, same_place
 from .reading import read_scene
 from .schema import scene_schema
-from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",

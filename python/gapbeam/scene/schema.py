@@ -9,11 +9,12 @@ from typing import Any, get_args
 
 import msgspec
 
+from .analysis import Analysis
 from .ground_laws import GroundLawTable, LawAt
 from .laws import LawTable
 from .limits import Limits
 from .loads import Load
-from .structs import Analysis, Beam, Combination, Foundation, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 
 def scene_schema() -> dict[str, Any]:

@@ -33,13 +33,14 @@ import numpy as np
 from msgspec import field
 
 from ..base.files import write_files
+from .analysis import Analysis
 from .edited import to_data, to_toml
 from .ground_laws import GroundLaw
 from .ground_tables import Along
 from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
-from .table import Count, NotNegative, Point, Positive, Side, Spans, Stretch, Table
+from .table import NotNegative, Point, Positive, Side, Spans, Stretch, Table
 
 inf = math.inf
 
@@ -132,7 +133,7 @@ class Support(Point, kw_only=True, gc=False):
         Normal (default) is across the beam; axial holds it horizontally, only with axial loads.
     law : list of (float, float) or table, optional
         Instead of stiffness: points of a curve, displacement past the gap and force (length, force), from (0, 0) on, which is
-        left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope goes on. With side
+        left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope continues. With side
         both the curve is mirrored, and may have a gap. Or a table with a type, the name of a curve.
     unloading : {"elastic", "plastic", "broken"}
         Of a support with a curve: elastic (default) goes back along it. Plastic goes back parallel to its first segment and
@@ -168,7 +169,7 @@ class Foundation(Stretch, kw_only=True, gc=False):
         columns.
     law : list of (float, float) or table, optional
         Instead of k: points of a curve, displacement past the gap and force per length (length, force/length), from (0, 0) on,
-        which is left out. The force never falls, and no displacement stands there twice. The last slope goes on. With side both
+        which is left out. The force never falls, and no displacement stands there twice. The last slope continues. With side both
         the curve is mirrored. Or tables with x and points, as many at every position, linear in between. Or a table with a type,
         the name of a curve, whose parameters are numbers per length, (at from, at to), or points (x, value), linear in
         between: curves are solved to all digits.
@@ -252,46 +253,6 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     settlements: dict[int | str, float] = {}
     scheme_of: str | None = None
     expand: dict[str, Literal["signs", "spans"]] = {}
-
-
-class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
-    """How the load is followed.
-
-    Parameters
-    ----------
-    steps : int
-        Number of equal steps of the load factor up to 1; default 1.
-    follow : {"steps", "events"}
-        steps (default), or events: every change of the acting supports at its exact load factor.
-    rule : {"block", "single"}
-        How the acting supports are found: block (default) changes many at once and always ends, single (the
-        paper's rule) releases the one that pulls most and puts back all that are penetrated.
-    at_limit : {"stop", "jump", "follow"}
-        Where the load cannot grow any more, since supports soften or yield: stop (default); jump to the next stable state
-        at the same load factor; or follow the path on, with falling load (only with follow = "events").
-    history : list of float
-        Load factors (no unit) gone through in turn, from event to event; default [1.0].
-    first_order : bool
-        True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
-        false: such a scene is refused, since that effect is left out.
-    """
-
-    steps: Count = 1
-    follow: Literal["steps", "events"] = "steps"
-    rule: Literal["block", "single"] = "block"
-    at_limit: Literal["stop", "jump", "follow"] = "stop"
-    history: list[float] = field(default_factory=lambda: [1.0])
-    first_order: bool = False
-
-    @property
-    def has_history(self) -> bool:
-        """Whether other load factors are gone to than the full load alone."""
-        return self.history != [1.0]
-
-    @property
-    def is_one_step(self) -> bool:
-        """Whether the full load is put on at once."""
-        return self.follow == "steps" and self.steps == 1 and not self.has_history
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):

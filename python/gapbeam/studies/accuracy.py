@@ -15,7 +15,8 @@ from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.stepping import solve
 from ..scene.reading import read_scene
-from ..scene.structs import Analysis, Scene
+from ..scene.analysis import Analysis
+from ..scene.structs import Scene
 from .exact import Reference
 from .meshes import (
     MeshedBeam,

@@ -18,7 +18,7 @@ from .. import _yardsticks
 from ..base.errors import GapbeamError, Status, check_status
 from ..engine.calls import interruptible
 from ..results.stepping import solve
-from ..scene.structs import Analysis
+from ..scene.analysis import Analysis
 from .meshes import MeshedBeam
 from .truth import Truth, error
 

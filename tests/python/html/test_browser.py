@@ -140,7 +140,7 @@ def test_pointer_and_keys_read_values_along_the_beam(browser, look_at):
     assert read("shear") == pytest.approx(result.steps[-1].reaction[0], rel=1e-12)
     written = browser.find_elements(By.CSS_SELECTOR, '[data-panel="moment"] .peak')
     peaks = {one.get_attribute("textContent").partition(" ")[0] for one in written}
-    extremes = [gapbeam.results.formatting.number(value, 5) for value, _ in result.extremes()["moment"].values()]
+    extremes = [gapbeam.results.formatting.number(value, 5) for value, _ in result._pairs_of_extremes()["moment"].values()]
     assert peaks == {one.replace("-", "\N{MINUS SIGN}") for one in extremes}
 
 
@@ -234,7 +234,7 @@ def test_trains_are_drawn_by_their_polynomials(browser, look_at):
         course = result.trains["crane"].traversals[k].course
         for position in np.linspace(course.from_ + 0.013, course.to - 0.017, 23):
             found = browser.execute_script(VALUES, k, position, places.tolist())
-            state = result.trains["crane"].at(position, direction)
+            state = result.trains["crane"].state(position, direction)
             there = state.fields(places)
             for row, exact in zip(found["fields"], (there.deflection, there.moment, there.shear), strict=True):
                 np.testing.assert_allclose(row, exact, rtol=0, atol=3e-5 * np.abs(exact).max())

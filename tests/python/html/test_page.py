@@ -72,7 +72,7 @@ def test_sums_and_three_moments_close(name):
 
 def test_sums_close_under_trains_combinations_and_on_the_ground():
     result = gapbeam.solve(train())
-    state = result.trains["crane"].at(7.0)
+    state = result.trains["crane"].state(7.0)
     three = three_moments_data(state.result, state)
     assert three["shear"]
     assert abs(three["sides"][0] - three["sides"][1]) <= 1e-9 * three["size"]

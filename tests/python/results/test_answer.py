@@ -1,6 +1,7 @@
 """The answer in words: what lifts, the largest values, limits, plausibility."""
 
 import json
+from pathlib import Path
 
 import gapbeam
 import numpy as np
@@ -10,12 +11,18 @@ from gapbeam.cli import main
 from gapbeam.report import report_text, to_json
 from gapbeam.results.formatting import shown, shown_column
 
+EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples").glob("*.toml"))
 UNITS = {"force": "kN", "length": "m"}
 
 
 def spans(loads, **more):
     supports = [scenes.at(k, side="below") for k in range(4)]
     return {**scenes.scene([6.0, 6.0, 6.0], supports, loads, EI=1e4), "units": UNITS, **more}
+
+
+def simple(supports):
+    """One span."""
+    return scenes.scene([6.0], supports, [scenes.uniform(2.0)], EI=1e4)
 
 
 def test_what_lifts_is_said_first():
@@ -77,6 +84,33 @@ def test_a_pressure_per_area_needs_a_width():
     assert gapbeam.solve(made).utilisations["pressure"].value == pytest.approx(20.0, rel=1e-12)
     with pytest.raises(gapbeam.SceneError, match="no foundation"):
         gapbeam.solve(spans([scenes.uniform(2.0)], limits={"pressure": 1.0}))
+
+
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [
+        (spans([scenes.force(3.0, -1.0)]), "loads[0].F = -1 acts upward; loads are positive downward."),
+        (spans([scenes.uniform(0.0)]), "all values of loads are 0"),
+        (spans([scenes.uniform(2.0)], combinations=[{"name": "a", "factors": {"live": 1.0}, "settlements": {"1": 15.0}}]),
+         "combinations a.settlements.1 = 15 is 2.5 of the shortest span"),
+        (simple([scenes.at(0), scenes.at(1), scenes.at(0, side="below", gap=0.2)]),
+         "supports[2].gap = 0.2 is 0.033 of the shortest span"),
+        (simple([scenes.at(0), scenes.at(1, stiffness=5.0)]), "supports[1].stiffness = 5 "),
+        ({**simple([]), "foundation": [{"k": 3.0, "side": "below"}]}, "foundation[0].k = 3 "),
+        (simple([scenes.at(0), scenes.at(1), scenes.at(0, side="below", gap=0.004)]), None),
+        (simple([scenes.at(0), scenes.at(1, stiffness=5e3)]), None),
+        (spans([], trains=[{"name": "t", "axles": [[0.0, 1.0]]}]), None),
+    ],
+)  # fmt: skip
+def test_checks_name_key_and_value(made, words):
+    lines = [line for line in repr(gapbeam.solve(made)).splitlines() if line.startswith("Check: ")]
+    assert len(lines) == (words is not None)
+    assert words is None or words in lines[0]
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_no_example_is_doubted(path):
+    assert "Check:" not in repr(gapbeam.solve(path))
 
 
 @pytest.mark.parametrize(
