@@ -140,7 +140,7 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
 def _follow(way: Way, result: Result) -> None:
     """Go along all segments of a path."""
     path, along = result.path, 0.0
-    numbers = 2 * len(result.beam.places.point_x) + 3 * len(result.scene.supports)
+    numbers = 2 * len(result._beam.places.point_x) + 3 * len(result.scene.supports)
     every = -(-len(result.segments) * numbers // MOST_NUMBERS)
     for k, segment in enumerate(result.segments):
         start, stop = segment.start, segment.stop

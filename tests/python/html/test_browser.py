@@ -180,7 +180,8 @@ def test_everything_has_a_name_for_who_listens(browser, look_at):
     look_at(combined())
     unnamed = browser.execute_script(
         "return Array.from(document.querySelectorAll('button, input, select, svg'))"
-        ".filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || (one.labels && one.labels.length))).map((one) => one.outerHTML)"
+        ".filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || (one.labels && one.labels.length)))"
+        ".map((one) => one.outerHTML)"
     )
     ids = browser.execute_script("return Array.from(document.querySelectorAll('[id]'), (one) => one.id)")
     missing = browser.execute_script(
