@@ -224,8 +224,12 @@ class TrainWay(Way):
                 if one is not None:
                     heappush(queue, one)
         worst = -queue[0][0] / PIXEL if queue else 0.0
-        for _, from_, _, to in sorted(queue, key=lambda one: one[1]):
-            self.run(from_, to, 2)
+        for _, from_, middle, to in sorted(queue, key=lambda one: one[1]):
+            acts = self.loads.acting(middle)
+            first, inside, last = (self.at(position, acts)[1] for position in (from_, middle, to))
+            straight = {name: (first[name] + last[name]) / 2 for name in inside if name != "reaction"}
+            is_straight = self.difference(straight, {name: inside[name] for name in straight}) <= PIXEL
+            self.run(from_, to, 1 if is_straight else 2)
         return worst
 
     def _parabola(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
@@ -286,8 +290,9 @@ def way_of_train(
             way.run(from_, to, degree)
     events = [{"at": one.position, **of_event(result.scene, one)} for one in traversal.events]
     return {
-        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states,
-        **way.matrix(), "intervals": way.intervals,
+        "over": "positions" if exact else "close positions", "axis": "position",
+        "states": way.states if beam.ground_layers else len(way.states),
+        **way.matrix(), **way.to_dict(),
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
         "pixels": worst, "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],

@@ -111,7 +111,9 @@ def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
     if scene_has_ground:
         found.append("Along a beam on the ground values are given at many places, with straight lines between them.")
     elif kinds:
-        found.append("Along the beam moments, shears and deflections are drawn from their polynomials, with all digits.")
+        found.append("Along the beam moments, shears and deflections are drawn from their polynomials.")
+    if any(way.get("short") for way in collected.ways):
+        found.append("The data are so many that what is drawn has seven digits.")
     left_out = sum(way.get("left_out", 0) for way in collected.ways)
     if left_out:
         found.append(f"The load has so many events that {left_out:,} stretches between two of them are not drawn.")

@@ -102,7 +102,7 @@ def test_events_are_stops_that_one_clicks(browser, look_at):
     assert "Support D (x = 18) lifts off." in find(browser, "#caption").text
     time.sleep(0.5)
     assert find(browser, "#spoken").get_attribute("textContent") == find(browser, "#caption").text
-    browser.find_elements(By.CSS_SELECTOR, "#events .jump")[0].click()
+    browser.find_elements(By.CSS_SELECTOR, "#events [data-jump]")[0].click()
     assert float(find(browser, "#now").get_attribute("data-value")) == events[0].factor
     find(browser, "#next").click()
     assert float(find(browser, "#now").get_attribute("data-value")) == events[1].factor

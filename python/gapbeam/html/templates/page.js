@@ -116,7 +116,6 @@ function fillSupports(state) {
       const cell = row.children[i];
       if (of === "state") {
         cell.textContent = `${state.words[k] === "open" ? "\u25cb" : state.words[k] === "bilateral" ? "\u25b2" : "\u25cf"} ${DATA.said[DATA.words.indexOf(state.words[k])]}`;
-        cell.dataset.value = "";
       } else if (DATA.units[of] && of !== "x") {
         const value = state[of] ? state[of][k] : 0, largest = Math.max(0, ...(state[of] || []).map(Math.abs));
         cell.textContent = shown(of, Math.abs(value) <= NOISE * largest ? 0 : value);
