@@ -1,4 +1,4 @@
-"""Geometry that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+"""The parts that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
 
 from __future__ import annotations
 

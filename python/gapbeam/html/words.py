@@ -1,4 +1,4 @@
-"""Sentences for a checker, beside the numbers: what was left out, error bounds, how exact the pictures are."""
+"""Sentences that a checker has to know beside the numbers: what was left out, error bounds, how exact the pictures are."""
 
 from __future__ import annotations
 

@@ -10,8 +10,8 @@ from ..base.characters import visible
 from ..batches.batch import Batch
 from ..batches.summary import Summary, distribution
 from ..results import formatting as fmt
-from ..results.contact import short
 from ..results.cases.solved_cases import Cases
+from ..results.contact import short
 from ..results.envelopes.lifted import Lifted
 from ..scene.structs import Scene
 

@@ -14,8 +14,8 @@ from msgspec import structs
 from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.stepping import solve
-from ..scene.reading import read_scene
 from ..scene.analysis import Analysis
+from ..scene.reading import read_scene
 from ..scene.structs import Scene
 from .exact import Reference
 from .meshes import (
