@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..engine.quantities import QUANTITIES
-from ..results.data import SCHEMA
+from .data import SCHEMA
 
 WORDS = {
     "Schema": [SCHEMA],
