@@ -6,6 +6,7 @@ from .base.errors import EngineError, GapbeamError, SceneError, Status, Unsolved
 from .base.hints import missing
 from .batches import sample
 from .batches.batch import Batch
+from .batches.function import function
 from .batches.run import batch
 from .report.result_schema import result_schema
 from .results.cases.cases import Prepared, prepare
@@ -79,6 +80,7 @@ __all__ = [
     "UnsolvedError",
     "__version__",
     "batch",
+    "function",
     "prepare",
     "read_scene",
     "replace",

@@ -35,6 +35,8 @@ class Batch(BatchVerbs):
     ----------
     path : str or path
         The folder.
+    part : (int, int), optional
+        Only what this part has solved, as of `gapbeam.batch`.
 
     Attributes
     ----------
@@ -51,8 +53,8 @@ class Batch(BatchVerbs):
         There is no batch in that folder.
     """
 
-    def __init__(self, path: str | os.PathLike):
-        self._folder = open_folder(path)
+    def __init__(self, path: str | os.PathLike, part: tuple[int, int] | None = None):
+        self._folder = open_folder(path, part)
         manifest = self._folder.manifest
         self._chunks = self._folder.done()
         self.path = self._folder.path
