@@ -17,6 +17,7 @@ version = release = version_of("gapbeam")
 
 extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 exclude_patterns = ["_static"]
+suppress_warnings = ["misc.highlighting_failure", "ref.python"]   # JSON with ... in it; attributes of the same name
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
 myst_links_external_new_tab = False
@@ -34,11 +35,12 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_domain_indices = False
+html_sidebars = {"languages": []}   # it has no pages below it
 html_show_sphinx = False
 html_theme_options = {
     "logo": {"text": "gapbeam"},
     "navbar_align": "left",
-    "header_links_before_dropdown": 6,
+    "header_links_before_dropdown": 8,
     "show_prev_next": True,
     "secondary_sidebar_items": ["page-toc"],
     "footer_start": ["copyright"],

@@ -8,9 +8,9 @@ import tomllib
 from pathlib import Path
 
 import gapbeam
+from gapbeam.scene.key_units import ONE
 
 REFERENCE = Path(__file__).parent / "reference"
-ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|rad|\([^)]*\)))*"
 UNIT = re.compile(rf"\s*\((no unit|{ONE}(?:, {ONE})*)(, from the left end(?: of the beam)?)?\)")
 """In a description: the unit of the value, or those of a pair."""
 
@@ -34,8 +34,8 @@ def kind_of(entry):
     if entry.get("type") == "object":
         return f"table by name of {kind_of(entry['additionalProperties'])}"
     words = {"string": "text", "boolean": "`true` or `false`", "integer": "whole number"}.get(entry["type"], entry["type"])
-    more = [f" {sign} {entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
-    return words + "".join(more)
+    limits = [f" {sign} {entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
+    return words + "".join(limits).replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def link(reference):
@@ -96,6 +96,7 @@ def scene_page():
         "Units are those of the scene: any consistent set, such as kN and m. Signs: [modelling](../modelling.md#signs-and-units).",
         "A key that is not listed here is refused, and the message names the nearest one that is.",
         "The examples are parts of files. What they lack is a beam of two spans on three supports.", "",
+        "![Signs of loads, reactions and moments; sides, gaps and settlements of supports](../signs.svg)", "",
         "This page is made by `python docs/keys.py` from what `gapbeam schema` prints.", "",
     ]  # fmt: skip
     for name, told in SCENE.items():

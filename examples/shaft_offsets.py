@@ -37,7 +37,7 @@ def loads_of(beam: gapbeam.Prepared, offsets: np.ndarray) -> np.ndarray:
     for k, state in enumerate(STATES.values()):
         for name, by in state.items():
             moves[name][k * count : (k + 1) * count] += by
-    cases = beam.solve(np.ones((count * len(STATES), len(SHAFT["loads"]))), settlements=moves)
+    cases = beam.solve(np.ones((count * len(STATES), len(SHAFT["loads"]))), extra_settlement=moves)
     return cases.reaction.reshape(len(STATES), count, len(BEARINGS))
 
 

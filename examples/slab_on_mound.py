@@ -62,7 +62,7 @@ def main(folder: Path) -> None:
         EI = find_stiffness(permitted)
         result = with_stiffness(EI)
         zones = result.steps[-1].contact
-        least, _ = result.extremes()["moment"]["min"]
+        least = result.extremes["moment"]["min"].value
         thick = 1e3 * (12.0 * EI / CONCRETE) ** (1 / 3)
         print(f"{1e3 * permitted:5.1f} {EI:13.1f} {thick:10.0f} {zones[0].from_:15.4f} {zones[-1].to:11.4f} {least:16.3f}")
     folder.mkdir(parents=True, exist_ok=True)

@@ -39,9 +39,9 @@ fields = result.at([1.0, 3.0, 5.0])
 row("moment", fields.moment)
 row("shear", fields.shear)
 row("rotation", fields.rotation)
-extremes = result.extremes()["deflection"]
-row("largest", (extremes["max"][0], extremes["min"][0]))
-row("at", (extremes["max"][1], extremes["min"][1]))
+extremes = result.extremes["deflection"]
+row("largest", (extremes["max"].value, extremes["min"].value))
+row("at", (extremes["max"].x, extremes["min"].x))
 row("certificate", (step.residuals["equilibrium"], step.residuals["compatibility"], *step.bounds))
 scene.analysis = Analysis(follow="events")
 print(f"{'events':12}{len(gapbeam.solve(scene).events):4d}")

@@ -19,8 +19,8 @@ def slab(title: str, mound: list[tuple[float, float]]) -> gb.Scene:
 results = {name: gb.solve(slab(name, mound)) for name, mound in (("edge heave", EDGE), ("centre heave", CENTRE))}
 for name, result in results.items():
     print(result)
-    moment = result.extremes()["moment"]
-    print(f"{name}: M from {moment['min'][0]:.2f} to {moment['max'][0]:.2f} kN m per metre")
+    moment = result.extremes["moment"]
+    print(f"{name}: M from {moment['min'].value:.2f} to {moment['max'].value:.2f} kN m per metre")
     for span in result.steps[-1].free_spans:
         print(f"  free from x = {span.from_:.2f} to {span.to:.2f} m, up to {1e3 * span.sag:.1f} mm above the ground")
     result.plot(f"{name.replace(' ', '_')}.svg")

@@ -20,7 +20,7 @@ result = gb.solve(arm)
 print(result.report())                                   # the pin breaks, at which load and reaction; largest values on the way
 limit = result.limits[0]
 print(f"the pin breaks at {80.0 * limit.factor:.2f} kN; then the stop takes {limit.landing.reaction[2]:.2f} kN")
-worst = result.history_extremes().extremes["moment"]["min"]
+worst = result.history_extremes["moment"]["min"]
 print(f"worst moment {worst.value:.1f} kN m at {worst.factor:.2%} of the load, at its end {float(result.at(3.0).moment):.1f}")
 print(f"tip {1e3 * float(result.at(5.0).deflection):.1f} mm at the end")
 result.plot("path")

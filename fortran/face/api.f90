@@ -156,7 +156,7 @@ contains
     end function count_nodes
 
     !> Solve at one load factor. Where `result` holds an earlier result of this beam, the search starts from its scheme: that
-    !> changes the number of solves, not the answer. Beams whose state depends on the way of the load are refused: they have
+    !> changes the number of solves, not the answer. Beams whose state depends on the loading history are refused: they have
     !> support laws that fall, keep a set, or may let go of the beam; follow_history and solve_on_path are for these
     subroutine solve_beam(beam, factor, options, result, error)
         !> Prepared
@@ -166,7 +166,7 @@ contains
         type(options_type), intent(in) :: options
         !> The new state; result%status says whether there is equilibrium
         type(result_type), intent(inout) :: result
-        !> gapbeam_bad_input, also of beams whose state depends on the way of the load, gapbeam_indeterminate,
+        !> gapbeam_bad_input, also of beams whose state depends on the loading history, gapbeam_indeterminate,
         !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared or gapbeam_stopped; result%status
         !> is then -1
         type(error_type), allocatable, intent(out) :: error

@@ -37,7 +37,7 @@ contains
 
     !> Make ready for many cases of a beam: what every load does alone is worked out once
     subroutine prepare_cases(beam, cases, error)
-        !> Prepared, on no foundation, without laws that make the state depend on the way of the load
+        !> Prepared, on no foundation, without laws that make the state depend on the loading history
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases

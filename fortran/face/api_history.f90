@@ -55,7 +55,7 @@ module gapbeam_api_history
         integer :: leg, stretch, landing
     end type limit_type
 
-    !> The way of the load
+    !> The loading history
     type :: history_type
         !> Its stretches in their order
         type(stretch_type), allocatable :: stretches(:)
@@ -87,7 +87,7 @@ contains
         !> Where the load cannot go on: gapbeam_limit_stop: end there; gapbeam_limit_jump: go on from the landing;
         !> gapbeam_limit_follow: follow the path, also with falling load
         integer, intent(in) :: at_limit
-        !> The way of the load; that it does not come to the last factor is no error
+        !> The loading history; that it does not come to the last factor is no error
         type(history_type), intent(out) :: history
         !> gapbeam_bad_input; gapbeam_not_converged where the path has too many stretches, or too many supports change at once;
         !> gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared

@@ -69,7 +69,7 @@ contains
         end if
     end subroutine require_beam
 
-    !> Refuse a beam whose state depends on the way of the load
+    !> Refuse a beam whose state depends on the loading history
     subroutine require_no_path(beam, error)
         type(prepared_type), intent(in) :: beam
         type(error_type), allocatable, intent(out) :: error
@@ -79,7 +79,7 @@ contains
             call fatal_error(error, gapbeam_bad_input, "the law of a support falls, keeps a set, or may let go of the beam: "// &
                              "beside a foundation that is not available in this version; give laws that rise")
         else
-            call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the way of the load, since the law "// &
+            call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
                              "of a support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
         end if
     end subroutine require_no_path

@@ -87,7 +87,7 @@ contains
 
     !> Move a train over a beam: every change of the contact state at its exact position
     subroutine follow_train(beam, train, passing, error)
-        !> Prepared; without foundations and laws whose state depends on the way of the load
+        !> Prepared; without foundations and laws whose state depends on the loading history
         type(prepared_type), intent(in) :: beam
         type(moving_train_type), intent(in) :: train
         type(passing_type), intent(out) :: passing

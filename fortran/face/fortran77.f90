@@ -153,7 +153,7 @@ subroutine ghsolv(beam, factor, rule, start, state, info)
     integer, intent(in) :: rule, start
     ! The state
     integer(8), intent(in) :: state
-    ! -1, also of a beam whose state depends on the way of the load (GHHIST); -2, -3, -4; -5, also where START is 1 and nothing is
+    ! -1, also of a beam whose state depends on the loading history (GHHIST); -2, -3, -4; -5, also where START is 1 and nothing is
     ! solved there; 1, 12 to 15, 18
     integer, intent(out) :: info
     type(beam_handle), pointer :: prepared
@@ -195,7 +195,7 @@ subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
     ! piece of its law; 3: the beam has lost its hold and turns at constant load until this support holds it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(2, *)
-    ! -1, also of a beam on a foundation, or whose state depends on the way of the load (GHHIST); -2, -3, -4, -5; 1, 12 to 15, 18
+    ! -1, also of a beam on a foundation, or whose state depends on the loading history (GHHIST); -2, -3, -4, -5; 1, 12 to 15, 18
     integer, intent(out) :: info
     type(beam_handle), pointer :: prepared
     type(state_handle), pointer :: solved

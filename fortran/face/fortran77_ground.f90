@@ -71,7 +71,7 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     ! with the next, 23 splits; 24 an end reaches, 25 leaves that of the foundation or of the beam
     double precision, intent(inout) :: event(2, *)
     integer, intent(inout) :: ievent(4, *)
-    ! -1, also of a beam without foundations, or whose state depends on the way of the load; -2, -3, -4, -5; 1, 12 to 15, 18
+    ! -1, also of a beam without foundations, or whose state depends on the loading history; -2, -3, -4, -5; 1, 12 to 15, 18
     integer, intent(out) :: info
     type(beam_handle), pointer :: prepared
     type(state_handle), pointer :: solved

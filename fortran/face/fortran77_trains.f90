@@ -61,7 +61,7 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     integer(8), intent(out) :: pass
     ! Numbers of events and gaps; linear solves
     integer, intent(inout) :: number(3)
-    ! -1, also of a beam on a foundation, or whose state depends on the way of the load; -2, -3, -4, -5, -6; -7, also where there is
+    ! -1, also of a beam on a foundation, or whose state depends on the loading history; -2, -3, -4, -5, -6; -7, also where there is
     ! no position from FROM to TO; 12 to 15, 18
     integer, intent(out) :: info
     type(beam_handle), pointer :: prepared

@@ -15,7 +15,7 @@
 !>     call get_quantities(beam, result, [gapbeam_of_curvature], [3d0], values, error)
 !>
 !> A support may follow a law instead of a stiffness: a polyline of its force over the displacement, which may harden, yield,
-!> soften and break. Where a force falls, or a support keeps a set, the state depends on the way of the load to it:
+!> soften and break. Where a force falls, or a support keeps a set, the state depends on the loading history to it:
 !>
 !>     model%law = [law_point_type(2, 0.02d0, 40d0), law_point_type(2, 0.05d0, 10d0), law_point_type(2, 1d0, 10d0)]
 !>     call follow_history(beam, [1d0], gapbeam_limit_stop, history, error)      ! every event, and the limit of the load

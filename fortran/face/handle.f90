@@ -25,7 +25,7 @@ module gapbeam_handle
         type(assembled_type) :: lowered
         !> Its loads one by one, where they have been asked for
         type(case_loads_type), allocatable :: cases
-        !> The way of the load followed last
+        !> The loading history followed last
         type(history_type), allocatable :: history
         !> The same on the ground, until it is taken
         type(ground_path_type), allocatable :: ground_path

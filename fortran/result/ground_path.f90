@@ -18,7 +18,7 @@ module gapbeam_ground_path
     private
     public :: follow_on_ground
 
-    !> Parts into which the way of the load is cut before changes are looked for
+    !> Parts into which the loading history is cut before changes are looked for
     integer, parameter :: parts = 64
     !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
     !> that, powers of 2

@@ -70,7 +70,7 @@ module gapbeam_history
         integer :: landing = 0
     end type limit_type
 
-    !> The way of the load
+    !> The loading history
     type :: history_type
         !> The stretches, the first `number` entries
         type(stretch_type), allocatable :: stretches(:)

@@ -175,7 +175,7 @@ contains
                     call refuse_empty(of_loads, i, size(model%loads))
                 else if (model%loads(i)%kind == gapbeam_couple .and. assembled%hinged(assembled%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
-                                "the couple acts exactly at a hinge, so it is open which side takes it; put it on one side "// &
+                                "the couple acts exactly at a hinge, so it is unclear which side takes it; put it on one side "// &
                                 "of the hinge")
                 end if
                 if (allocated(error)) return

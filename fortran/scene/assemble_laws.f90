@@ -92,7 +92,7 @@ contains
 
     end subroutine check_rigid_pieces
 
-    !> Does a state depend on the way of the load to it: a force may fall, or a support unloads otherwise than along its law
+    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law
     function depends_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends

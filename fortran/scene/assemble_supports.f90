@@ -59,7 +59,7 @@ contains
             associate (s => assembled%model%supports(k))
                 if (s%rotation > 0.0_wp .and. assembled%hinged(point)) then
                     call refuse(error, of_supports, k, m, at_hinge, "rotation", &
-                                "there is a hinge here, so it is open which side is held; move one aside")
+                                "there is a hinge here, so it is unclear which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
                     call note(2, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then

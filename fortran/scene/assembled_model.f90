@@ -79,7 +79,7 @@ module gapbeam_assembled_model
         integer, allocatable :: beam_support(:)
         !> Which supports of the model have a law
         logical, allocatable :: with_law(:)
-        !> Does a state depend on the way of the load to it (gapbeam_assemble_laws)
+        !> Does a state depend on the loading history to it (gapbeam_assemble_laws)
         logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
         !> support of the model has in that of its node

@@ -256,7 +256,7 @@ contains
         else if (node /= gapbeam_by_x) then
             return
         else if (not_given(x)) then
-            call refuse_entry(error, here, "", no_place, "its place is missing; give node or x")
+            call refuse_entry(error, here, "", no_place, "its position is missing; give node or x")
         else
             call check_inside(x, "x", here, ends(n), error)
         end if

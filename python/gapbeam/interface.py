@@ -6,6 +6,7 @@ from .base.errors import EngineError, GapbeamError, SceneError, Status, Unsolved
 from .base.hints import missing
 from .batches import sample
 from .batches.batch import Batch
+from .batches.function import function
 from .batches.run import batch
 from .report.result_schema import result_schema
 from .results.cases.cases import Prepared, prepare
@@ -17,6 +18,7 @@ from .results.state.fields import Fields
 from .results.state.step import Step
 from .results.state.system import System
 from .results.stepping import solve
+from .results.views.extreme import Extreme
 from .results.views.shown import Shown
 from .scene import (
     Analysis,
@@ -55,6 +57,7 @@ __all__ = [
     "CurvatureLoad",
     "EngineError",
     "Envelope",
+    "Extreme",
     "Fields",
     "ForceLoad",
     "Foundation",
@@ -77,6 +80,7 @@ __all__ = [
     "UnsolvedError",
     "__version__",
     "batch",
+    "function",
     "prepare",
     "read_scene",
     "replace",

@@ -85,7 +85,7 @@ def compare(one, found, k):
         return faults
     if exact.status in ("solved", "loose"):
         right = np.array([float(force) for force in exact.reaction])
-        off = np.abs(found.reaction[k] - right[list(direct.beam.numbers)]).max(initial=0.0)
+        off = np.abs(found.reaction[k] - right[list(direct._beam.numbers)]).max(initial=0.0)
         if not off <= NEAR * max(size, np.abs(right).max(initial=0.0)) + 2 * step.bounds[1]:
             faults.append(f"reactions are off by {off:.3g} of {size:.3g}")
     elif exact.status == "no-equilibrium":

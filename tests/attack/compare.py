@@ -35,11 +35,11 @@ class Look:
     @property
     def nodes(self):
         """Places of the nodes."""
-        return self.result.beam.node_x.tolist()
+        return self.result._beam.node_x.tolist()
 
     def in_scene(self, deflection):
         """Deflections of the nodes, which the engine has in units of its own."""
-        return np.ldexp(deflection, self.result.beam.units.deflection).tolist()
+        return np.ldexp(deflection, self.result._beam.units.deflection).tolist()
 
 
 def compare_state(beam, step, look, verdict, where=""):

@@ -49,7 +49,7 @@ def by_events(made):
 
 def fields(made):
     result = gapbeam.solve(made)
-    return result.extremes(), result.fields().to_dict(), result.steps[-1].undecided
+    return result._pairs_of_extremes(), result.fields().to_dict(), result.steps[-1].undecided
 
 
 def cases(made):

@@ -77,7 +77,7 @@ def compare(made, train, envelope, position, direction, verdict):
     status, exact = exact_at(made, position, direction)
     where = f"train at {position!r} to the {direction}: "
     try:
-        state = train.at(position, direction)
+        state = train.state(position, direction)
     except (ValueError, gapbeam.EngineError) as error:
         if status == "solved":
             verdict.wrong.append(f"{where}{error}")

@@ -1,12 +1,9 @@
-"""The README shows what the program does: its scene, its report, its picture and its Python lines."""
+"""The README shows what the program does: its scene, its report and its picture; it is short (its blocks and links: test_pages)."""
 
-import doctest
 import re
 import tomllib
 from pathlib import Path
 
-import gapbeam
-import pytest
 from gapbeam.cli import main
 from gapbeam.plots import plot
 
@@ -31,25 +28,16 @@ def test_report_is_what_is_printed(capsys):
 
 def test_picture_is_what_is_drawn(tmp_path):
     """Compare the texts in the picture; the rest depends on the version of matplotlib."""
-    plot(gapbeam.solve(SCENE), tmp_path / "new.svg")
+    names = {}
+    lines = [line[4:] for line in block("python").splitlines() if line.startswith((">>> ", "... "))]
+    exec("\n".join(lines), names)
+    plot(names["result"], tmp_path / "new.svg")
     texts = [
         re.findall(r"<text[^>]*>([^<]+)</text>", path.read_text(encoding="utf-8"))
-        for path in (TOP / "docs" / "three_spans.svg", tmp_path / "new.svg")
+        for path in (TOP / "docs" / "readme.svg", tmp_path / "new.svg")
     ]
     assert len(texts[0]) > 20
     assert texts[0] == texts[1]
-
-
-def test_python_lines(monkeypatch):
-    monkeypatch.chdir(TOP)
-    failures, tried = doctest.testfile(str(TOP / "README.md"), module_relative=False, verbose=False)
-    assert tried >= 5
-    assert failures == 0
-
-
-@pytest.mark.parametrize("name", re.findall(r"\]\(([^)#:]+)\)", README))
-def test_links(name):
-    assert (TOP / name).exists()
 
 
 def test_a_screen_or_two():

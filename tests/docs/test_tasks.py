@@ -82,7 +82,7 @@ def test_crane_runway(tmp_path, monkeypatch, capsys):
     names, out = run("crane_runway", tmp_path, monkeypatch, capsys)
     result, seats = names["result"], {7.5 * k: 0.0 for k in range(7)}
     first = result.lifted[0]
-    state = result.trains[first.train].at(first.position)
+    state = result.trains[first.train].state(first.position)
     forces = {first.position: 180.0, first.position - 3.6: 180.0}
     deflection, reactions = by_displacements(list(seats), 2.1e5, 3.0, forces, held(state.state, seats, 1e11))
     assert first.opening == pytest.approx(-deflection[0.0], rel=1e-5)
@@ -91,7 +91,7 @@ def test_crane_runway(tmp_path, monkeypatch, capsys):
     assert f"C0 lifts off by {1e3 * first.opening:.2f} mm, crane 1 at {first.position:.2f} m" in out
     most = result.envelope().extremes["moment"]["max"]
     both = {most.position - d: F for d, F in ((0.0, 180.0), (3.6, 180.0), (5.5, 120.0), (8.7, 120.0))}
-    state = result.trains["both"].at(most.position)
+    state = result.trains["both"].state(most.position)
     _, reactions = by_displacements(list(seats), 2.1e5, 3.0, both, held(state.state, seats, 1e11))
     moment = sum(R * (most.x - x) for x, R in reactions.items() if x < most.x) - 1.5 * most.x**2
     moment -= sum(F * (most.x - x) for x, F in both.items() if x < most.x)
@@ -126,7 +126,7 @@ def test_bridge(tmp_path, monkeypatch, capsys):
     result, seats = names["result"], {0.0: 0.0, 18.0: 0.0, 63.0: 0.0, 81.0: 0.0}
     first = result.lifted[0]
     assert (first.support, first.combination) == (0, "heavy [udl 010]")
-    state = result.combinations[first.combination].trains["TS"].at(first.position)
+    state = result.combinations[first.combination].trains["TS"].state(first.position)
     assert state.state[0] == "open"
     forces = {first.position: 1.35 * 600.0, first.position - 1.2: 1.35 * 600.0}
 

@@ -372,7 +372,7 @@ def test_a_beam_tips_at_a_position():
     # What belongs to the state before has that one
     train = result.trains["t"]
     before, after = (scheme for scheme, _ in train.traversals[0].schemes(5.2))
-    assert [train.at(5.2, "right", scheme).opening[0] for scheme in (before, after)] == pytest.approx([0.0, 0.01], abs=1e-12)
+    assert [train.state(5.2, "right", scheme).opening[0] for scheme in (before, after)] == pytest.approx([0.0, 0.01], abs=1e-12)
     for row in result.envelope().supports:
         for quantity, kinds in row.items():
             for extreme in kinds.values():
@@ -403,7 +403,7 @@ def test_forces_where_the_beam_can_move_freely():
     made["beam"]["hinges"] = [4.21, 9.0]
     for position in (1.0, 9.5, 11.3):
         (train,) = gapbeam.solve(made).trains.values()
-        moment = train.at(position).extremes()["moment"]["max"][0] if position > 9.2 else None
+        moment = train.state(position).extremes["moment"]["max"].value if position > 9.2 else None
         assert moment is None or moment <= gapbeam.solve(made).envelope().extremes["moment"]["max"].value * (1 + 1e-12)
 
 
@@ -429,7 +429,7 @@ def test_a_zone_is_born_just_before_a_greatest_value():
     assert shear.position == pytest.approx(6.363583, abs=1e-5)
     born = next(event.position for event in train.events if event.event == "zone appears")
     for away in np.geomspace(1e-5, 0.3, 25).tolist():
-        assert train.at(born + away).extremes()["shear"]["max"][0] <= shear.value * (1 + 1e-12)
+        assert train.state(born + away).extremes["shear"]["max"].value <= shear.value * (1 + 1e-12)
 
 
 @pytest.mark.parametrize(("seed", "quantity"), [(39, "shear"), (172, "rotation")])
@@ -451,7 +451,7 @@ def test_greatest_values_beside_changes_of_zones(seed, quantity):
         for away in np.geomspace(1e-5, 0.2, 12).tolist():
             for position in (event.position - away, event.position + away):
                 if train.train.from_ <= position <= train.train.to:
-                    assert train.at(position).extremes()[quantity]["max"][0] <= largest.value * (1 + 1e-9)
+                    assert train.state(position).extremes[quantity]["max"].value <= largest.value * (1 + 1e-9)
 
 
 @pytest.mark.parametrize(("name", "zones"), [("C2_rough_curves_7001", 45), ("C3_cubic_gap", 2)])

@@ -76,7 +76,7 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
     end = nodes_of(scene)[-1]
     x = [0.0, end, *(rng.uniform(0.0, end) for _ in range(3)), *nodes_of(scene)]
     for left in (False, True):
-        fields = result.at(np.clip(x, 0.0, result.beam.places.end), side="left" if left else "right")
+        fields = result.at(np.clip(x, 0.0, result._beam.places.end), side="left" if left else "right")
         for one in (beam, f77):
             for row, name in zip(one.fields(x, left), FIELDS, strict=True):
                 values = getattr(fields, name)
@@ -84,7 +84,7 @@ def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
             for row, k in zip(one.quantities((7, 2, 6), x, left), (7, 2, 6), strict=True):
                 values = getattr(fields, QUANTITIES[k])
                 np.testing.assert_array_equal(row, np.zeros(len(x)) if values is None else values)
-    extremes = result.extremes()
+    extremes = result._pairs_of_extremes()
     for one in (beam, f77):
         value, place = one.extremes()
         for k, name in enumerate(FIELDS):
@@ -278,11 +278,11 @@ def test_laws_agree(library, family):
 
 def assert_same_ground(beam, f77, result, scene, rng):
     """Where the ground acts, and its pressure."""
-    step, end = result.steps[-1], result.beam.places.end
+    step, end = result.steps[-1], result._beam.places.end
     contact = [(z.foundation, z.from_, z.to, CONDITIONS[z.state], z.resultant) for z in step.contact]
     free = [(f.foundation, f.from_, f.to, f.sag) for f in step.free_spans]
     x = np.clip([0.0, end, *(rng.uniform(0.0, end) for _ in range(4)), *nodes_of(scene)], 0.0, end)
-    top, bottom = (result.extremes()["pressure"][key] for key in ("max", "min"))
+    top, bottom = (result._pairs_of_extremes()["pressure"][key] for key in ("max", "min"))
     for one in (beam, f77):
         assert one.contact() == contact
         assert one.free_spans() == free

@@ -93,6 +93,19 @@ IN_PYTHON = {
     "P.solve({'live': 1.0})": 'expected a list of 2 numbers, one for each load',
     "P.solve([[1, 1]], gap={'x': [0.1]})": "no support has a name; give its number",
     "P.solve([[1, 'a']])": "expected numbers",
+    "P.solve([1.0, 1.0]).moments": "use at(x).moment",
+    "P.solve([[1.0, 1.0]])[1]": "there is no case 1; their numbers go from 0 to 0",
+    "T.at(7.3)": "at: 7.3 is a place along the beam; give the position of the train too",
+    "T.history_extremes": "use extremes",
+    "R.envelope().steps": "use the steps of the result",
+    "gapbeam.batch(S, {'supports[1].gapp': [1.0]}, F)": 'did you mean "supports[1].gap"',
+    "gapbeam.batch(S, {'gap': [1.0]}, F)": 'such are "factors.live"',
+    "gapbeam.batch(S, {}, F)": "give one array at least",
+    "gapbeam.batch(S, {'factors.live': [1.0]}, F).at(3.0)": "use gapbeam.solve(batch.scene_of(case)).at(x)",
+    "gapbeam.sample.normal(10.0, -1.0)": "deviation: expected 0 or a positive number",
+    "R.extremes['M']": "did you mean 'moment'?",
+    "setattr(R.scene.supports[1], 'gap', 0.5)": 'gapbeam.replace(result.scene, "supports[1].gap", 0.5)',
+    "R.to_excel('a.xls')": "ends in .xlsx",
     "P.solve([1.0, 1.0], gaps=[0.0, 0.1, 0.0])": "did you mean gap?",
     "P.solve([1.0, 1.0], settlements=[0.0, 0.01, 0.0])": "is settlement = [...]",
     "gapbeam.solve(U).steps[-1]": "no equilibrium at load factor 1",
@@ -103,9 +116,11 @@ IN_PYTHON = {
 
 
 @pytest.fixture(scope="module")
-def names():
+def names(tmp_path_factory):
     return {
         "gapbeam": gapbeam, "R": gapbeam.solve(scene()), "P": gapbeam.prepare(scene()), "U": {"beam": BEAM, "loads": LOADS},
+        "S": scene(), "F": tmp_path_factory.mktemp("batch") / "b",
+        "T": gapbeam.solve(scene(trains=[{"name": "man", "axles": [[0.0, 1.0]]}])).trains["man"],
     }  # fmt: skip
 
 
@@ -113,6 +128,77 @@ def names():
 def test_in_python(call, names):
     with pytest.raises(Exception, match=re.escape(IN_PYTHON[call])):
         eval(call, names)
+
+
+BELOW = [{"node": node, "side": "below"} for node in range(3)]
+OUTCOMES = [
+    (scene(supports=[]), "moves down as a whole"),
+    (scene(supports=[{"node": 0}]), "tips about the support at x = 0"),
+    (scene(supports=BELOW, loads=[{"type": "force", "x": 3.0, "F": -10.0}]), "moves up as a whole"),
+]
+
+
+@pytest.mark.parametrize(("given", "said"), OUTCOMES, ids=[said for _, said in OUTCOMES])
+def test_outcomes_are_no_errors_and_say_why(given, said):
+    result = gapbeam.solve(given)
+    assert not result.ok
+    assert said in result.reason
+    assert said in repr(result)
+
+
+def test_a_gap_in_another_unit_is_doubted():
+    result = gapbeam.solve(scene(supports=[SUPPORTS[0], SUPPORTS[1] | {"gap": 2.0}, SUPPORTS[2]]))
+    assert "supports[1].gap = 2 is" in repr(result)
+    assert "is it in the unit of the spans?" in repr(result)
+
+
+def test_pandas_takes_fields_and_steps(names):
+    pandas = pytest.importorskip("pandas")
+    result = names["R"]
+    assert pandas.DataFrame(result.fields())["moment"].max() == result.fields().moment.max()
+    table = pandas.DataFrame(result.steps[-1])
+    assert table["reaction"].tolist() == list(result.reactions)
+    assert table["state"].tolist() == list(result.states)
+
+
+NUMBERS = {
+    "numpy scalars": lambda n, p: scene(supports=[{"node": n.int64(k)} for k in range(3)], beam={"spans": n.full(2, 6), "EI": 1}),
+    "whole floats": lambda n, p: scene(supports=[{"node": float(k)} for k in range(3)], analysis={"steps": 2.0}),
+    "ranges": lambda n, p: scene(beam={"spans": range(6, 8), "EI": 1e4}, supports={"node": range(3)}),
+    "nullable columns": lambda n, p: scene(supports=p.DataFrame({"node": [0, 1, 2], "gap": [0.0] * 3}).convert_dtypes()),
+    "whole floats in a table": lambda n, p: scene(supports=p.DataFrame({"node": [0.0, 1.0, 2.0]})),
+    "Float64": lambda n, p: scene(beam={"spans": p.Series([6.0, 6.0], dtype="Float64"), "EI": 1e4}),
+}
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_numbers_of_others_are_taken(name):
+    numpy, pandas = pytest.importorskip("numpy"), pytest.importorskip("pandas")
+    result = gapbeam.solve(NUMBERS[name](numpy, pandas))
+    assert len(result.reactions) == 3
+    prepared = gapbeam.prepare(result.scene)
+    expected = prepared.solve([1.0, 2.0]).reaction.tolist()
+    for factors in (range(1, 3), pandas.Series([1, 2], dtype="Int64"), pandas.Series([1.0, 2.0], dtype="Float64")):
+        assert prepared.solve(factors).reaction.tolist() == expected
+    x = pandas.Series([1, 2], dtype="Int64")
+    for places in (x, range(1, 3)):
+        assert result.at(places, step=-1.0).moment.tolist() == result.at([1.0, 2.0]).moment.tolist()
+
+
+MISSING = {
+    "gapbeam.solve(scene(beam={'spans': pandas.Series([6, None], dtype='Int64')}))": 'beam.spans[1]: expected a number, got',
+    "gapbeam.solve(scene(supports=pandas.DataFrame({'node': [0, None, 2]}).convert_dtypes()))": "supports[1].node: expected",
+    "P.solve(pandas.Series([1, None], dtype='Int64').astype(object))": "some of these are missing (pandas.NA)",
+    "P.solve([1.0, 1.0], gap={1: pandas.NA})": "gap: expected numbers, and some of these are missing",
+    "gapbeam.solve(scene(supports=[{'node': 0.5}]))": "supports[0].node: expected a whole number, got 0.5",
+}
+
+
+@pytest.mark.parametrize("call", MISSING)
+def test_missing_numbers_are_refused_in_words(call, names):
+    pandas = pytest.importorskip("pandas")
+    with pytest.raises(ValueError, match=re.escape(MISSING[call])):
+        eval(call, {**names, "pandas": pandas, "scene": scene})
 
 
 def test_what_was_missing_is_there(names):

@@ -108,6 +108,14 @@ class UnsolvedError(GapbeamError):
         return type(self), (self.status, self.reason)
 
 
+class NoStepError(UnsolvedError, IndexError):
+    """A load step of a result was asked for, and none stands; ``status`` and ``reason`` are those of the result."""
+
+    def __str__(self) -> str:
+        """Say that there is none, and why."""
+        return f"no load step stands; {self.reason}"
+
+
 class Status(IntEnum):
     """Status codes, the same as in Fortran, C and Fortran 77; above 10 they are errors."""
 

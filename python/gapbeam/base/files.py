@@ -49,7 +49,7 @@ def write_files(contents: Mapping[str | os.PathLike, bytes | Iterable[str]]) -> 
         remove_unfinished(beside.values())
 
 
-def write_lasting(path: str | os.PathLike, data: bytes) -> None:
+def write_lasting(path: str | os.PathLike, data: bytes, mark: str = "", *, is_first: bool = False) -> None:
     """Write a file that is there in whole or not at all, even where the machine loses its power meanwhile.
 
     It is written beside its place, under its name after a dot, down to the disk; then it is renamed, and the folder written. A link
@@ -61,6 +61,10 @@ def write_lasting(path: str | os.PathLike, data: bytes) -> None:
         The file; another one of this name is replaced.
     data : bytes
         What is to stand in it.
+    mark : str
+        Ends its name meanwhile, where several processes may write the same file.
+    is_first : bool
+        Leave a file of this name as it is.
 
     Raises
     ------
@@ -68,7 +72,7 @@ def write_lasting(path: str | os.PathLike, data: bytes) -> None:
         Names the file, and why it cannot be written.
     """
     folder, name = os.path.split(os.path.abspath(path))
-    beside = os.path.join(folder, f".{name}")
+    beside = os.path.join(folder, f".{name}{mark}")
     _UNFINISHED.add(beside)
     try:
         with _named(path):
@@ -78,7 +82,11 @@ def write_lasting(path: str | os.PathLike, data: bytes) -> None:
                 stream.write(data)
                 stream.flush()
                 os.fsync(stream.fileno())
-            os.replace(beside, path)
+            if is_first:
+                with suppress(FileExistsError):
+                    os.link(beside, path)
+            else:
+                os.replace(beside, path)
             _sync_folder(folder)
     finally:
         remove_unfinished([beside])

@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -20,18 +20,23 @@ from .chunks import TEXTS, count_statuses, read_columns
 from .folder import from_json, open_folder
 from .paths import find_paths, with_values
 from .summary import Summary, summarize
+from .verbs import BatchVerbs
 
 FAILED = {"refused", "no-answer", "failed"}
 """Outcomes that are no outcome of the structure."""
 
 
-class Batch:
+class Batch(BatchVerbs):
     """Results in the folder of a batch, also while it runs.
+
+    It has the verbs of results, with arrays that have an entry for every case that is done.
 
     Parameters
     ----------
     path : str or path
         The folder.
+    part : (int, int), optional
+        Only what this part has solved, as of `gapbeam.batch`.
 
     Attributes
     ----------
@@ -48,8 +53,8 @@ class Batch:
         There is no batch in that folder.
     """
 
-    def __init__(self, path: str | os.PathLike):
-        self._folder = open_folder(path)
+    def __init__(self, path: str | os.PathLike, part: tuple[int, int] | None = None):
+        self._folder = open_folder(path, part)
         manifest = self._folder.manifest
         self._chunks = self._folder.done()
         self.path = self._folder.path
@@ -58,9 +63,19 @@ class Batch:
         of_folder = () if manifest["data"] is not None else ("scene",)
         self.columns: tuple[str, ...] = ("case", *of_folder, "status", "reason", *manifest["columns"])
 
-    def __repr__(self) -> str:
-        """Say where it is and how far."""
-        return f"Batch({os.fspath(self.path)!r}): {self.done:,} of {self.cases:,} cases"
+    @property
+    def scene(self) -> Scene:
+        """The scene of the batch, its numbers as they are without the table.
+
+        Raises
+        ------
+        ValueError
+            Its cases are files.
+        """
+        data = self._folder.manifest["data"]
+        if data is None:
+            raise ValueError("scene: the cases of this batch are files; read the one that the column scene names")
+        return read_scene(from_json(data))
 
     @property
     def numbers(self) -> tuple[str, ...]:
@@ -186,7 +201,9 @@ class Batch:
                     found.setdefault(part["status"][k], part["reason"][k])
         return found
 
-    def failed_chunks(self) -> list[int]:
+    renamed: ClassVar = {"failed_chunks": "_failed_chunks"}
+
+    def _failed_chunks(self) -> list[int]:
         """Give the files with cases that were refused, have no answer or failed, by number.
 
         Returns

@@ -152,7 +152,7 @@ class CsvTable:
     def _refuse_broken_cell(self, number: int, line: bytes) -> None:
         with suppress(csv.Error):  # which is told where the line is read
             if line.count(b'"') % 2 and len(list(csv.reader([line.decode("utf-8-sig", "replace"), "next"]))) == 1:
-                problem = "a quoted cell goes on in the next line; write each case on one line"
+                problem = "a quoted cell continues in the next line; write each case on one line"
                 raise SceneError(f"{self._path}, line {number}", problem)
 
     def _count(self, place: int, block: bytes) -> tuple[int, bytes]:

@@ -10,7 +10,7 @@ import json
 import os
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,8 @@ KINDS = {
     list: ("a list of texts", ("inputs", "want", "columns", "supports")),
 }
 """What stands in a manifest, but the scene."""
+Share = tuple[int, int]
+"""Of a batch: the third of ten is (3, 10)."""
 PART = re.compile(r"part-(\d{6,18})\.(\w+)")
 
 
@@ -62,10 +64,19 @@ class Folder:
     manifest : dict
         ``gapbeam`` and ``writer`` (versions), ``format``, ``scene`` and ``table`` (hashes), ``data`` (the scene), ``want``,
         ``columns``, ``inputs``, ``cases``, ``chunk`` (cases a file) and ``chunks`` (files).
+    share : (int, int) or None
+        What of the batch is looked at; None: all.
     """
 
     path: Path
     manifest: dict[str, Any]
+    share: Share | None = None
+
+    def chunks(self) -> range:
+        """Give the chunks of the share."""
+        number, of = self.share or (1, 1)
+        count = self.manifest["chunks"]
+        return range((number - 1) * count // of, number * count // of)
 
     def file(self, chunk: int) -> Path:
         """Give the file of a chunk."""
@@ -79,7 +90,7 @@ class Folder:
     def done(self) -> list[int]:
         """Give the chunks that are done, in order."""
         numbers = (int(one[1]) for one in map(PART.fullmatch, os.listdir(self.path)) if one and one[2] == self.manifest["format"])
-        return sorted(k for k in set(numbers) if k < self.manifest["chunks"])
+        return sorted(set(numbers).intersection(self.chunks()))
 
     def expect_cases(self, chunk: int, count: int) -> None:
         """Refuse a file that has not as many cases as it should have.
@@ -103,9 +114,9 @@ class Folder:
             Names the file, and why it cannot be written; the batch can be started again.
         """
         try:
-            write_lasting(self.file(chunk), data)
+            write_lasting(self.file(chunk), data, _mark(self.share))
         except OSError as error:
-            remedy = "when that is mended, start the same batch again, and it goes on"
+            remedy = "when that is mended, start the same batch again, and it continues"
             raise OSError(error.errno, f"{error.strerror}; {remedy}", error.filename) from None
 
     def remove(self, chunk: int) -> None:
@@ -113,13 +124,20 @@ class Folder:
         self.file(chunk).unlink(missing_ok=True)
 
 
-def open_folder(path: str | os.PathLike) -> Folder:
+def _mark(share: Share | None) -> str:
+    """End of the names of files that only this share writes."""
+    return "" if share is None else ".{}-of-{}".format(*share)
+
+
+def open_folder(path: str | os.PathLike, share: Share | None = None) -> Folder:
     """Open a folder that a batch has begun.
 
     Parameters
     ----------
     path : str or path
         The folder.
+    share : (int, int), optional
+        What of the batch is looked at.
 
     Returns
     -------
@@ -140,7 +158,7 @@ def open_folder(path: str | os.PathLike) -> Folder:
         reason = error.strerror if isinstance(error, OSError) else error
         raise SceneError(str(path / MANIFEST), f"cannot be read ({reason}); {ELSE}") from None
     _check(str(path / MANIFEST), manifest)
-    return Folder(path, manifest)
+    return Folder(path, manifest, share)
 
 
 def _check(place: str, manifest: Any) -> None:
@@ -166,7 +184,7 @@ def _check(place: str, manifest: Any) -> None:
     expect("chunks", words, manifest["chunks"] == chunks)
 
 
-def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
+def begin_folder(path: Path, manifest: Mapping[str, Any], share: Share | None = None) -> Folder:
     """Begin a folder, or go on with it.
 
     Parameters
@@ -175,6 +193,8 @@ def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
         The folder, locked.
     manifest : mapping
         What is to be solved.
+    share : (int, int), optional
+        What of it is solved here, while others may solve the rest.
 
     Returns
     -------
@@ -188,23 +208,26 @@ def begin_folder(path: Path, manifest: Mapping[str, Any]) -> Folder:
         It cannot be written.
     """
     if not (path / MANIFEST).exists():
-        if any(not one.name.startswith(".") for one in os.scandir(path)):
+        if any(not one.name.startswith(".") for one in os.scandir(path)) and not (path / MANIFEST).exists():
             raise SceneError(str(path), "holds other files, and no batch; give --out a new folder")
-        write_lasting(path / MANIFEST, (json.dumps(manifest, indent=1) + "\n").encode())
-    folder = open_folder(path)
+        contents = (json.dumps(manifest, indent=1) + "\n").encode()
+        write_lasting(path / MANIFEST, contents, _mark(share), is_first=share is not None)
+    folder = open_folder(path, share)
     for key, words in CHANGES.items():
         before, now = folder.manifest[key], json.loads(json.dumps(manifest[key]))
         if before != now:
             told = [", ".join(one) if isinstance(one, list) else one for one in (before, now)]
             raise SceneError(str(path), f"{words.format(*told)}; {ELSE}")
     for one in os.scandir(path):
-        if one.name.startswith(".part-"):  # what was being written when the process ended
+        if share is None and one.name.startswith(f"{LOCK}."):  # of a part that was ended
+            os.unlink(one.path)
+        if one.name.startswith(".part-") and one.name.endswith(_mark(share)):  # being written when the process ended
             os.unlink(one.path)
     return folder
 
 
 @contextmanager
-def locked(path: Path) -> Iterator[None]:
+def locked(path: Path, share: Share | None = None) -> Iterator[None]:
     """Keep other batches out of a folder, which is made where it is not there.
 
     The lock is the system's, so it ends with the process, whatever ends that.
@@ -213,6 +236,8 @@ def locked(path: Path) -> Iterator[None]:
     ----------
     path : pathlib.Path
         The folder.
+    share : (int, int), optional
+        Keep out only who solves the same share, or all.
 
     Raises
     ------
@@ -225,27 +250,47 @@ def locked(path: Path) -> Iterator[None]:
         path.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
         raise SceneError(str(path), "is a file, and results go into a folder; give --out another name") from None
-    name = path / LOCK
+    another = "another batch writes into this folder; wait for its end, or give another one"
+    if share is None:
+        with _held(path / LOCK, another):
+            yield
+        return
+    own = path / f"{LOCK}{_mark(share)}"
+    with _held(path / LOCK, another, is_shared=True), _held(own, "the same part is at work in this folder; wait for its end"):
+        try:
+            yield
+        finally:
+            with suppress(OSError):
+                own.unlink()
+
+
+@contextmanager
+def _held(name: Path, refusal: str, is_shared: bool = False) -> Iterator[None]:
+    """Hold a lock."""
     descriptor = os.open(name, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
     try:
         try:
-            _lock(descriptor)
+            _lock(descriptor, is_shared)
+            is_there = os.path.samestat(os.fstat(descriptor), os.stat(name))  # not removed meanwhile by who had it
         except OSError:
-            raise SceneError(str(path), "another batch writes into this folder; wait for its end, or give another one") from None
+            is_there = False
+        if not is_there:
+            raise SceneError(str(name.parent), refusal)
         yield
     finally:
         os.close(descriptor)
 
 
-def _lock(descriptor: int) -> None:
+def _lock(descriptor: int, is_shared: bool) -> None:
     try:
         import fcntl
     except ImportError:  # Windows
         import msvcrt
 
-        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+        if not is_shared:  # it has no such locks
+            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
         return
-    fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    fcntl.flock(descriptor, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
 
 
 def as_json(value: Any) -> Any:

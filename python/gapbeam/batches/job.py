@@ -17,14 +17,12 @@ from ..base.errors import GapbeamError
 from ..results.state.step import BOUNDED
 from .paths import KeyPath, varies_by_case
 from .prepared import PreparedCases
-from .scene_cases import AT_SUPPORTS, ERRORS, KINDS, SOLVED, FolderCases, SceneCases
+from .scene_cases import AT_SUPPORTS, ERRORS, KINDS, LIMIT, SOLVED, FolderCases, SceneCases
 from .tables import Rows
 
 STATUS = "S20"
 LONGEST = 400
 """Characters of a reason."""
-WANTED = ("input", "reaction", "opening", "deflection", "moment")
-"""What is kept of every case where nothing else is said."""
 
 
 class StoppedError(Exception):
@@ -73,6 +71,10 @@ class Job:
                 found += [f"{name}.{one}{end}" for one in (KINDS if self.scene is None else self.supports) for end in self.ends]
             elif name == ERRORS:
                 found += [f"{name}.{kind}" for kind in BOUNDED]
+            elif name == LIMIT:
+                found.append(LIMIT)
+            elif "@" in name:
+                found += [f"{name}{end}" for end in self.ends]
             else:
                 found += [f"{name}.{kind}{end}" for kind in KINDS for end in ("", "_x")]
         return tuple(found)
@@ -82,7 +84,7 @@ class Job:
         """How the cases are solved: together on a prepared beam where that can be, else one by one."""
         if self.scene is None:
             return FolderCases(self)
-        is_one_state = not self.has_envelopes and self.scene["analysis"]["history"] == [1.0]
+        is_one_state = not self.has_envelopes and self.scene["analysis"]["history"] == [1.0] and LIMIT not in self.want
         if is_one_state and all(varies_by_case(self.scene, path) for path in self.paths):
             with suppress(GapbeamError):
                 return PreparedCases(self)

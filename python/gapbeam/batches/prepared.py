@@ -67,9 +67,10 @@ class PreparedCases(SceneCases):
             one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in scene["supports"]
         )
         done = ("input", ERRORS, *(("reaction", "opening") if self._is_simple else ()))
-        self._rest = [name for name in job.want if name not in done]
+        self._rest = [name for name in job.want if name not in done and "@" not in name]
         self._fields = [name for name in self._rest if name not in ROWS]
-        self._names = wanted_names(("reaction", "deflection", *(["moment"] if self._fields or ERRORS in job.want else [])))
+        has_fields = self._fields or self._places or ERRORS in job.want
+        self._names = wanted_names(("reaction", "deflection", *(["moment"] if has_fields else [])))
 
     def seconds(self, nodes: int, states: int) -> float:
         """Tell roughly how long a case takes; arguments as of `SceneCases.seconds`."""
@@ -77,7 +78,7 @@ class PreparedCases(SceneCases):
         if self._scene["foundation"]:
             return 2e-2 * steps
         known = KNOWN if any(path.parts[0] == "beam" for path in self._paths) else {*KNOWN, ERRORS}
-        is_known = self._is_simple and set(self._want) <= known
+        is_known = self._is_simple and set(self._want) - set(self._places) <= known
         return steps * (3e-6 + 4e-7 * nodes if is_known else 2e-5 + 3e-6 * nodes)
 
     def solve_together(self, values: np.ndarray, numbers: dict[str, np.ndarray]) -> Sequence[int]:
@@ -99,14 +100,18 @@ class PreparedCases(SceneCases):
             self._keep_simple(found, varied, solved, numbers)
         for kind, bound in (found.error_bounds() if ERRORS in self._want else {}).items():
             numbers[f"{ERRORS}.{kind}"][solved] = bound[solved]
-        states = found.states() if len(self._rest) > len(self._fields) else None
+        states = found._combined() if len(self._rest) > len(self._fields) else None
         for name in (name for name in self._rest if name in ROWS):
             for k, one in enumerate(self._supports):
                 numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]
-        for name, extremes in (found.extremes_of(self._fields) if self._fields else {}).items():
+        for name, extremes in (found._extremes_of(self._fields) if self._fields else {}).items():
             for kind, (extreme, place) in extremes.items():
                 numbers[f"{name}.{kind}"][solved] = extreme[solved]
                 numbers[f"{name}.{kind}_x"][solved] = place[solved]
+        if self._places:
+            there = found.at(self._x)
+            for k, name in enumerate(self._places):
+                numbers[name][solved] = getattr(there, name.partition("@")[0])[solved, k] + 0.0
         return np.flatnonzero(~solved).tolist()
 
     def _keep_simple(self, found: Cases, varied: Varied, solved: np.ndarray, numbers: dict[str, np.ndarray]) -> None:

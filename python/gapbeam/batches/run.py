@@ -16,27 +16,19 @@ import msgspec
 from ..base.errors import SceneError
 from ..engine.quantities import BENDING
 from ..results.state.arguments import whole
-from ..scene.combinations import plan_combinations
-from ..scene.names import labels
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
-from ..scene.wording import choice, shown
+from ..scene.wording import shown
 from .batch import Batch
 from .chunks import FORMATS, best_format, writer
-from .folder import Folder, as_json, begin_folder, locked, open_folder
-from .job import WANTED, Job
-from .paths import find_paths, scene_data
-from .scene_cases import AT_SUPPORTS, ERRORS
+from .folder import Folder, Share, as_json, begin_folder, locked, open_folder
+from .job import Job
+from .scene_cases import ERRORS
 from .tables import SceneFolder, Table, take_table
+from .wanted import WANTED, cases_a_chunk, check_wanted, job_of
 from .workers import cores, in_turn, processes, threads, work
 
-SECONDS = 0.5
-"""A chunk takes about so long on one core."""
-NUMBERS = 4_000_000
-"""Numbers in a chunk, at most."""
 SCENES_A_FILE = 100
-A_TRAIN = 30
-"""States that a train counts for."""
 CHUNKS_A_WORKER = 2
 """Chunks that are given to an executor for each of its workers, so that none waits."""
 
@@ -44,11 +36,11 @@ CHUNKS_A_WORKER = 2
 def batch(
     scene: Scene | Mapping[str, Any] | str | os.PathLike, table: Any = None, out: str | os.PathLike = "", *,
     want: str | Iterable[str] | None = None, jobs: int | None = None, executor: Executor | None = None, retry_failed: bool = False,
-    chunk: int | None = None, progress: Callable[[int, int], None] | None = None,
+    chunk: int | None = None, part: tuple[int, int] | None = None, progress: Callable[[int, int], None] | None = None,
 ) -> Batch:  # fmt: skip
     """Solve a scene for every row of a table, into a folder.
 
-    Whatever ends it, the same call goes on where it was, and the files are the same to the last byte as if nothing had
+    Whatever ends it, the same call continues where it was, and the files are the same to the last byte as if nothing had
     happened, whatever the number of workers.
 
     Parameters
@@ -64,8 +56,9 @@ def batch(
     want : str or iterable of str, optional
         What is kept of every case: ``input`` (the row of the table), ``reaction``, ``opening``, ``couple`` (of every support), and
         the largest and smallest value of fields with their places: ``deflection``, ``rotation``, ``moment``, ``shear``,
-        ``axial_force``, ``axial_displacement``, ``pressure``; and ``error_bound``, the largest errors of reactions and fields,
-        where a case is one state. Default: input, reaction, opening, deflection, moment.
+        ``axial_force``, ``axial_displacement``, ``pressure``; fields at a place, ``moment@1.5``; and where a case is one state
+        ``error_bound``, the largest errors of reactions and fields, and ``limit.factor``, at which a load that is followed
+        cannot go on. Default: input, reaction, opening, deflection, moment.
     jobs : int, optional
         Threads, default one for every core. Of an executor how many workers it has.
     executor : concurrent.futures.Executor, optional
@@ -74,22 +67,24 @@ def batch(
         Solve those files again that hold cases that were refused, have no answer or failed.
     chunk : int, optional
         Cases a file; default as many as take half a second or so.
+    part : (int, int), optional
+        Solve only a part, (3, 10) the third of ten, while others solve the rest into the same folder, as on other machines.
     progress : callable, optional
         Called with the number of cases that are done and that of all, from time to time.
 
     Returns
     -------
     Batch
-        What is in the folder.
+        What is in the folder; of a part its own cases.
 
     Raises
     ------
     SceneError
         The scene or the table is not valid, or the folder holds something else.
     LostWorkerError
-        A process is gone; started again the batch goes on.
+        A process is gone; started again the batch continues.
     OSError
-        The folder cannot be written; started again the batch goes on.
+        The folder cannot be written; started again the batch continues.
 
     Examples
     --------
@@ -100,18 +95,19 @@ def batch(
     >>> done.read(["reaction.pier"])["reaction.pier"].round(3)
     array([37.5  , 42.222, 24.722])
     """
-    return run_batch(scene, table, out, want, jobs, executor, retry_failed, chunk, progress, by_processes=False)
+    return run_batch(scene, table, out, want, jobs, executor, retry_failed, chunk, part, progress, by_processes=False)
 
 
 def run_batch(
     scene: Any, table: Any, out: str | os.PathLike, want: str | Iterable[str] | None, jobs: int | None, executor: Executor | None,
-    retry_failed: bool, chunk: int | None, progress: Callable[[int, int], None] | None, *, by_processes: bool,
+    retry_failed: bool, chunk: int | None, part: tuple[int, int] | None, progress: Callable[[int, int], None] | None, *,
+    by_processes: bool,
 ) -> Batch:  # fmt: skip
     """Run a batch from a program that can be started anew for other processes.
 
     Parameters
     ----------
-    scene, table, out, want, jobs, executor, retry_failed, chunk, progress
+    scene, table, out, want, jobs, executor, retry_failed, chunk, part, progress
         As for `batch`.
     by_processes : bool
         Whether processes work instead of threads where cases are solved one by one, mostly in Python.
@@ -130,10 +126,34 @@ def run_batch(
     jobs = whole("jobs", jobs, least=1) if jobs is not None else getattr(executor, "_max_workers", None) or cores()
     if chunk is not None:
         size = whole("chunk", chunk, least=1)
-    with locked(path):
-        folder = _begin(path, rows, job, scene_digest, size, chunk is None)
+    share = None if part is None else checked_part(part)
+    with locked(path, share):
+        folder = _begin(path, rows, job, scene_digest, size, chunk is None, share)
         _run(folder, rows, job, jobs, executor, retry_failed, progress, by_processes)
-    return Batch(path)
+    return Batch(path, share)
+
+
+def checked_part(part: Any) -> tuple[int, int]:
+    """Check which part is to be solved.
+
+    Parameters
+    ----------
+    part : (int, int)
+        Number, from 1, and how many there are.
+
+    Returns
+    -------
+    (int, int)
+
+    Raises
+    ------
+    SceneError
+        There is no such part.
+    """
+    is_pair = isinstance(part, Sequence) and not isinstance(part, str) and len(part) == 2
+    if not is_pair or any(type(one) is not int for one in part) or not 1 <= part[0] <= part[1]:
+        raise SceneError("part", f"expected a number and how many parts there are, as (3, 10), the third of ten; got {shown(part)}")
+    return part[0], part[1]
 
 
 def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, Job, str, int]:
@@ -142,7 +162,7 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
         if table is not None:
             raise SceneError(str(scene), "is a folder, whose scenes are the cases; leave the table out")
         rows: Table = SceneFolder(Path(scene))
-        job = Job(None, (), _wanted(want, ("reaction", "opening", *BENDING, ERRORS), WANTED[1:]), ())
+        job = Job(None, (), check_wanted(want, ("reaction", "opening", *BENDING, ERRORS), WANTED[1:]), ())
         return rows, job, "", SCENES_A_FILE
     if table is None:
         raise SceneError("table", "give a table, or a folder of scenes in place of the scene")
@@ -150,38 +170,12 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
     rows = take_table(table)
     if not rows.cases:
         raise SceneError("table", "has no row; give a case at least")
-    data = scene_data(checked)
-    known = ("input", *AT_SUPPORTS, *beam.fields, ERRORS)
-    states = 1
-    if checked.combinations or checked.trains:
-        known = ("input", "reaction", "opening", *BENDING)
-        states = (len(plan_combinations(checked)) if checked.combinations else 1) * (1 + A_TRAIN * len(checked.trains))
-    job = Job(data, find_paths(checked, rows.names), _wanted(want, known, WANTED), tuple(labels(checked.supports)))
-    digest = hashlib.sha256(msgspec.msgpack.encode(data)).hexdigest()
-    return rows, job, digest, _cases_a_file(job, beam.links + 1, len(rows.names), states)
+    job = job_of(checked, beam, rows.names, want)
+    digest = hashlib.sha256(msgspec.msgpack.encode(job.scene)).hexdigest()
+    return rows, job, digest, cases_a_chunk(job, checked, beam)
 
 
-def _wanted(want: tuple[str, ...] | None, known: Sequence[str], default: tuple[str, ...]) -> tuple[str, ...]:
-    if want is None:
-        return default
-    for name in want:
-        if name not in known:
-            raise SceneError("want", f"expected some of {choice(known, 'and')}, got {shown(name)}")
-    if not want:
-        raise SceneError("want", f"is empty; give some of {choice(known, 'and')}")
-    return tuple(dict.fromkeys(want))
-
-
-def _cases_a_file(job: Job, nodes: int, columns: int, states: int) -> int:
-    """Cases that take about half a second, by their number of nodes alone: files must not depend on how fast a machine is."""
-    seconds = job.cases.seconds(nodes, states)
-    numbers = columns + len(job.columns) + len(job.scene["loads"]) + 4 * len(job.supports) + 14
-    most = max(min(SECONDS / seconds, NUMBERS / numbers), 1.0)
-    power = 10 ** (len(str(int(most))) - 1)
-    return int(most / power) * power
-
-
-def _begin(path: Path, rows: Table, job: Job, scene: str, size: int, may_differ: bool) -> Folder:
+def _begin(path: Path, rows: Table, job: Job, scene: str, size: int, may_differ: bool, share: Share | None) -> Folder:
     kind = best_format()
     if (path / "_manifest.json").exists():
         before = open_folder(path).manifest
@@ -191,7 +185,7 @@ def _begin(path: Path, rows: Table, job: Job, scene: str, size: int, may_differ:
         "gapbeam": version("gapbeam"), "format": kind, "writer": writer(kind), "scene": scene, "table": rows.digest,
         "inputs": [one.text for one in job.paths], "want": list(job.want), "columns": list(job.columns), "cases": rows.cases,
         "chunk": size, "chunks": -(-rows.cases // size), "supports": list(job.supports), "data": as_json(job.scene),
-    })  # fmt: skip
+    }, share)  # fmt: skip
 
 
 def _run(
@@ -201,9 +195,10 @@ def _run(
     """Solve what is not done yet."""
     done = set(folder.done())
     if retry_failed:
-        done -= set(Batch(folder.path).failed_chunks())
-    left = [k for k in range(folder.manifest["chunks"]) if k not in done]
-    cases = folder.manifest["cases"] - sum(stop - first for first, stop in map(folder.part, left))
+        done -= set(Batch(folder.path, folder.share)._failed_chunks())
+    left = [k for k in folder.chunks() if k not in done]
+    total, open_ = (sum(stop - first for first, stop in map(folder.part, which)) for which in (folder.chunks(), left))
+    cases = total - open_
     packed = pickle.dumps(job)
     key, kind = hashlib.sha256(packed).hexdigest(), folder.manifest["format"]
 
@@ -215,13 +210,13 @@ def _run(
         nonlocal cases
         tasks = ((k, lambda k=k: arguments(k)) for k in left)
         if progress is not None:
-            progress(cases, folder.manifest["cases"])
+            progress(cases, total)
         for k, data in in_turn(executor, tasks, call, CHUNKS_A_WORKER * jobs):
             folder.write(k, data)
             first, stop = folder.part(k)
             cases += stop - first
             if progress is not None:
-                progress(cases, folder.manifest["cases"])
+                progress(cases, total)
 
     if executor is not None:
         each(executor, work)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,33 @@ no-answer (the engine gives none) and failed (a fault of the program or its memo
 AT_SUPPORTS = ("reaction", "opening", "couple")
 ERRORS = "error_bound"
 """Bounds of the errors of one state."""
+LIMIT = "limit.factor"
+"""Load factor at which the load cannot go on, where it is followed; there is none where it reaches its end."""
 KINDS = ("max", "min")
+
+
+def place_of(name: str) -> float:
+    """Read the place of a value along the beam.
+
+    Parameters
+    ----------
+    name : str
+        Of the value.
+
+    Returns
+    -------
+    float
+        Not-a-number where that is none.
+
+    Examples
+    --------
+    >>> place_of("moment@15.0")
+    15.0
+    """
+    try:
+        return float(name.partition("@")[2])
+    except ValueError:
+        return float("nan")
 
 
 class SceneCases:
@@ -42,6 +68,8 @@ class SceneCases:
 
     def __init__(self, job: Job):
         self._scene, self._paths, self._want, self._supports, self._ends = job.scene, job.paths, job.want, job.supports, job.ends
+        self._places = [name for name in job.want if "@" in name]
+        self._x = [place_of(name) for name in self._places]
 
     def seconds(self, nodes: int, states: int) -> float:
         """Tell roughly how long a case takes.
@@ -95,6 +123,8 @@ class SceneCases:
         """
         try:
             result = self._result(rows, values[:, k].tolist(), k)
+            if LIMIT in self._want:
+                numbers[LIMIT][k] = _limit_factor(result)
             if result.status != SOLVED:
                 return result.status, result.reason or ""
             if result.combinations or result.scene.trains:
@@ -129,12 +159,13 @@ class SceneCases:
     def _keep_state(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> None:
         """Keep what is wanted of a state."""
         step, extremes = result.steps[-1], {}
-        if set(self._want) - {"input", ERRORS, *AT_SUPPORTS}:
-            extremes = result.extremes()
+        if set(self._want) - {"input", ERRORS, LIMIT, *AT_SUPPORTS, *self._places}:
+            extremes = result._pairs_of_extremes()
         if ERRORS in self._want:
             for kind, bound in step.error_bounds.items():
                 numbers[f"{ERRORS}.{kind}"][k] = np.nan if bound is None else bound
         self._keep(result.scene, {name: (getattr(step, name),) for name in AT_SUPPORTS}, extremes, k, numbers)
+        self._keep_at_places(result, lambda x: (result.at(x).columns(),), k, numbers)
 
     def _keep_envelope(self, result: Result, k: int, numbers: dict[str, np.ndarray]) -> None:
         """Keep what is wanted of an envelope; the beam can stand everywhere in it."""
@@ -147,6 +178,27 @@ class SceneCases:
         extremes = {name: {kind: (one[kind].value, one[kind].x) for kind in KINDS} for name, one in envelope.extremes.items()}
         self._keep(result.scene, at_supports, extremes, k, numbers)
 
+        def at(x: list[float]) -> tuple[dict[str, np.ndarray], ...]:
+            curves = result.envelope(x=x).fields
+            return curves.largest, curves.smallest
+
+        self._keep_at_places(result, at, k, numbers)
+
+    def _keep_at_places(
+        self, result: Result, at: Callable[[list[float]], tuple[Mapping[str, np.ndarray], ...]], k: int,
+        numbers: dict[str, np.ndarray],
+    ) -> None:  # fmt: skip
+        """Keep values at places along the beam, or their largest and smallest ones; `at` gives fields there."""
+        if not self._places:
+            return
+        length = float(result.scene.span_ends()[-1])
+        for name, x in zip(self._places, self._x, strict=True):
+            if x > length:
+                raise SceneError(name, f"the beam of this case ends at {length:g}; take a place on it")
+        for end, fields in zip(self._ends, at(self._x), strict=True):
+            for row, name in enumerate(self._places):
+                numbers[f"{name}{end}"][k] = fields[name.partition("@")[0]][row] + 0.0
+
     def _keep(
         self, scene: Scene, at_supports: dict[str, tuple[np.ndarray, ...]], extremes: dict[str, dict[str, tuple[float, float]]],
         k: int, numbers: dict[str, np.ndarray],
@@ -155,7 +207,7 @@ class SceneCases:
         for name in self._want:
             if name in AT_SUPPORTS:
                 self._keep_at_supports(name, scene, at_supports[name], k, numbers)
-            elif name not in ("input", ERRORS):
+            elif name not in ("input", ERRORS, LIMIT) and "@" not in name:
                 for kind in KINDS:
                     numbers[f"{name}.{kind}"][k], numbers[f"{name}.{kind}_x"][k] = extremes[name][kind]
 
@@ -166,6 +218,14 @@ class SceneCases:
         for end, values in zip(self._ends, of_kinds, strict=True):
             for one, value in zip(self._supports, values, strict=True):
                 numbers[f"{name}.{one}{end}"][k] = value + 0.0  # there is one zero
+
+
+def _limit_factor(result: Result) -> float:
+    """Load factor at which the load cannot go on; not-a-number where it is not known to have one."""
+    if result.limits:
+        return result.limits[0].factor
+    is_end = result.status == "no-equilibrium" and result.path is not None and len(result.steps)
+    return result.steps[-1].factor if is_end else np.nan
 
 
 class FolderCases(SceneCases):

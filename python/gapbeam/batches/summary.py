@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..base.errors import SceneError
 from ..base.records import Record
 from ..results.state.arguments import finite, numbers, whole
 from ..scene.wording import shown
+from .verbs import SummaryVerbs
 
 if TYPE_CHECKING:
     from .batch import Batch
@@ -61,9 +62,9 @@ class Distribution(Record):
     positive: int = 0
 
 
-@dataclass(frozen=True)
-class Summary:
-    """What a batch has found so far.
+@dataclass(frozen=True, repr=False)
+class Summary(SummaryVerbs):
+    """What a batch has found so far; it has the verbs of results, with distributions.
 
     Attributes
     ----------
@@ -86,7 +87,9 @@ class Summary:
     columns: dict[str, Distribution]
     units: dict[str, tuple[str, float]] = field(default_factory=dict)
 
-    def asdict(self) -> dict[str, Any]:
+    renamed: ClassVar = {"asdict": "to_dict"}
+
+    def to_dict(self) -> dict[str, Any]:
         """As plain data.
 
         Returns
@@ -166,6 +169,29 @@ def summarize(
     columns = {name: counter.found() for name, counter in counters.items()}
     units = {name: found for name in columns if (found := batch.unit(name)) is not None}
     return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, units)
+
+
+def distribution(values: np.ndarray, shares: Sequence[float] = SHARES, bins: int = 40) -> Distribution:
+    """Tell how numbers are distributed; what is not a number does not count.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        The numbers.
+    shares, bins
+        As for `summarize`.
+
+    Returns
+    -------
+    Distribution
+    """
+    counter = _Counter([], list(shares), bins)
+    counter.range(values)
+    counter.divide()
+    for digit in range(64 // DIGIT):
+        counter.count_digit(values, digit)
+        counter.choose_digit()
+    return counter.found()
 
 
 class _Counter:

@@ -174,7 +174,7 @@ def _telling_of_lost_workers() -> Iterator[None]:
             raise
         raise LostWorkerError(
             f"a worker is gone ({type(error).__name__}): it was ended, or there was not enough memory; start the same batch again, "
-            "and it goes on, with fewer jobs if memory was short"
+            "and it continues, with fewer jobs if memory was short"
         ) from None
 
 

@@ -29,7 +29,7 @@ def main(argv: "Sequence[str] | None" = None) -> int:
     Returns
     -------
     int
-        Exit status: 0 solved or valid, 1 the structure cannot stand, 2 refused, 3 failed, 130 ended by Ctrl-C, 143 by SIGTERM.
+        Exit status: 0 solved or valid, 1 the structure is unstable, 2 refused, 3 failed, 130 ended by Ctrl-C, 143 by SIGTERM.
     """
     try:
         if argv is None:

@@ -29,7 +29,7 @@ A column of TABLE is a key path of the scene (supports.R-104.gap, loads[2].q, be
 Files of results can be read in one line, also while the batch runs: pandas.read_parquet("DIR"),
 polars.read_parquet("DIR/*.parquet"), duckdb: select * from 'DIR/*.parquet'. Without pyarrow they are .npy.
 
-Whatever ends a batch, the same command goes on where it was, and the files come out the same to the last byte.
+After any interruption the same command resumes the batch, and the files are the same to the last byte.
 
 Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed (cases too, for lack of memory), 130 ended by Ctrl-C, 143 by
 SIGTERM.
@@ -52,11 +52,13 @@ def add_batch(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("table", metavar="TABLE", nargs="?", help="a .csv or .parquet file; none with a folder of scenes")
     parser.add_argument("--out", metavar="DIR", help="the folder for the results")
     parser.add_argument("--want", metavar="NAMES", help="what is kept of every case, separated by commas: input, reaction, "
-                        "opening, couple, error_bound, fields such as moment (default input,reaction,opening,deflection,"
-                        "moment)")  # fmt: skip
-    parser.add_argument("--jobs", metavar="N", type=int, help="how many cores work (default all)")
-    parser.add_argument("--dask", metavar="ADDRESS", help="let the workers of a Dask scheduler work instead, such as "
+                        "opening, couple, error_bound, fields such as moment, or moment@1.5 at a place, limit.factor (default "
+                        "input,reaction,opening,deflection,moment)")  # fmt: skip
+    parser.add_argument("--jobs", metavar="N", type=int, help="number of cores (default all)")
+    parser.add_argument("--dask", metavar="ADDRESS", help="use the workers of a Dask scheduler instead, such as "
                         "tcp://host:8786")  # fmt: skip
+    parser.add_argument("--part", metavar="I/N", help="solve only part I of N, while other commands solve the others into the same "
+                        "folder, as of a job array: 1/64 to 64/64")  # fmt: skip
     parser.add_argument("--retry-failed", action="store_true", help="solve those files again that hold cases which were refused, "
                         "have no answer or failed")  # fmt: skip
     parser.add_argument("--summary", metavar="DIR", help="print how the results in a folder are distributed, also while its batch "
@@ -81,15 +83,24 @@ def _batch(arguments: argparse.Namespace) -> int:
 
     if arguments.jobs is not None and arguments.jobs < 1:
         raise SceneError("--jobs", f"expected a positive number, got {arguments.jobs}")
+    part = None if arguments.part is None else _part(arguments.part)
     want = None if arguments.want is None else [name.strip() for name in arguments.want.split(",")]
     scene = arguments.scene if os.path.isdir(arguments.scene) else source(arguments.scene)
     with _executor(arguments) as executor, _progress(not arguments.quiet) as progress:
         clock = _Clock(progress)
         done = run_batch(
-            scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, clock,
+            scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, part, clock,
             by_processes=True,
         )
-    return _tell(done, arguments.quiet, clock)
+    return _tell(done, arguments.quiet, clock, "" if part is None else f", part {arguments.part}")
+
+
+def _part(text: str) -> tuple[int, int]:
+    """Read which part of a batch is to be solved."""
+    number, slash, of = text.partition("/")
+    if not (slash and number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of)):
+        raise SceneError("--part", f'expected a number and how many parts there are, 1/64 to 64/64, got "{text}"')
+    return int(number), int(of)
 
 
 @contextmanager
@@ -157,7 +168,7 @@ def _summarize(arguments: argparse.Namespace) -> int:
     if "--json" in outputs:
         import json
 
-        contents["--json"] = [json.dumps(summary.asdict(), indent=1, allow_nan=False) + "\n"]
+        contents["--json"] = [json.dumps(summary.to_dict(), indent=1, allow_nan=False) + "\n"]
     if "--plot" in outputs:
         from ..plots.batch import summary_figure
         from ..plots.save import picture
@@ -192,7 +203,7 @@ class _Clock:
         return self.cases / self.seconds
 
 
-def _tell(done: Batch, quiet: bool, clock: _Clock) -> int:
+def _tell(done: Batch, quiet: bool, clock: _Clock, part: str) -> int:
     """Say how many cases there are by their outcome."""
     statuses = done.statuses()
     counts = ", ".join(f"{count:,} {status}" for status, count in statuses.items())
@@ -200,7 +211,7 @@ def _tell(done: Batch, quiet: bool, clock: _Clock) -> int:
         counts += f"; {clock.cases:,} of them in {clock.seconds:.3g} s, {clock.rate:,.0f} a second"
     if not quiet:
         with until_closed():
-            print(f"{done.path}: {done.done:,} of {done.cases:,} cases: {counts}")
+            print(f"{done.path}{part}: {done.done:,} of {done.cases:,} cases: {counts}")
     if "failed" in statuses:
         return say(FAILED, f"error: {statuses['failed']:,} cases failed: {done.reasons()['failed']}")
     return SOLVED if set(statuses) <= {"solved"} else NO_SOLUTION

@@ -5,10 +5,12 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from textwrap import shorten
 from traceback import extract_tb
 from typing import TYPE_CHECKING, NoReturn
@@ -74,7 +76,7 @@ Units: any consistent set. The scene's labels go into the report and change no n
 STATUSES = """\
 Exit status:
   0    solved, or the scene is valid
-  1    the structure cannot stand, or a combination or a position of a train cannot or has no single answer: the
+  1    the structure is unstable, or a combination or a position of a train is, or has no unique answer: the
        report says why
   2    refused: bad input, a file that cannot be read or written, or a scene without one single answer;
        a line on standard error for every mistake says where and why, no file is written
@@ -97,7 +99,9 @@ class Parser(argparse.ArgumentParser):
         message : str
             What is wrong.
         """
-        raise SceneError(f"{message} (see {self.prog} --help)")
+        scene = re.search(r"invalid choice: '([^']*\.(?:toml|json))'", message)
+        raise SceneError(f"a command is missing; did you mean: gapbeam run {scene[1]}" if scene else
+                         f"{message} (see {self.prog} --help)")  # fmt: skip
 
     def print_help(self, file: None = None) -> None:
         """Print the help.
@@ -204,20 +208,22 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--json", metavar="FILE", help="write everything as JSON (.json); - is standard output, without report")
     run.add_argument("--csv", metavar="FILE", help="write the fields along the beam at the last load step, of combinations "
                      "and trains their envelope, as a table (.csv); - is standard output, without report")  # fmt: skip
+    run.add_argument("--xlsx", metavar="FILE", help="write the answer and the tables of supports, fields, combinations and events "
+                     "for Excel (.xlsx); needs xlsxwriter: pip install \"gapbeam[excel]\"")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
                      "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (nonlinear: deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
                      "(.html); - is standard output, without report")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
-    run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
-    run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
+    run.add_argument("--limits", action="store_true", help="exit with status 1 if a limit of [limits] is exceeded")
+    run.add_argument("--verbose", action="store_true", help="add equations, residuals and run time to the report")
     run.set_defaults(command=_run)
 
     check = commands.add_parser(
-        "check", help="validate a scene and tell what it holds", formatter_class=plain,
+        "check", help="check a scene and say what it holds", formatter_class=plain,
         description="Validate a scene without solving it; print one line on what it holds.",
         epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip
@@ -255,9 +261,11 @@ class _Version(argparse.Action):
 
 
 def _run(arguments: argparse.Namespace) -> int:
-    names = {"--json": arguments.json, "--csv": arguments.csv, "--plot": arguments.plot, "--path": arguments.path,
-             "--html": arguments.html}  # fmt: skip
+    names = {"--json": arguments.json, "--csv": arguments.csv, "--xlsx": arguments.xlsx, "--plot": arguments.plot,
+             "--path": arguments.path, "--html": arguments.html}  # fmt: skip
     outputs = Outputs(names, arguments.scene)
+    if "--xlsx" in outputs and find_spec("xlsxwriter") is None:
+        raise SceneError("--xlsx", 'needs xlsxwriter, which is not installed: pip install "gapbeam[excel]"')
     from ..results.stepping import solve
     from ..scene.reading import read_scene
 
@@ -278,6 +286,11 @@ def _run(arguments: argparse.Namespace) -> int:
         contents["--json"] = [to_json(result)] if outputs["--json"] == "-" else json_parts(result)
     if "--csv" in outputs and result.has_envelope:
         contents["--csv"] = csv_parts(result)
+    if "--xlsx" in outputs and result.has_envelope:
+        from ..results.answer import answer, headline
+        from ..show.excel import excel_bytes, tables_of
+
+        contents["--xlsx"] = excel_bytes([headline(result), *answer(result)], tables_of(result))
     if "--plot" in outputs:
         from ..plots.result import figure
         from ..plots.save import picture
@@ -298,7 +311,7 @@ def _run(arguments: argparse.Namespace) -> int:
             print_report(result, verbose=arguments.verbose)
     elif not solved:
         say(NO_SOLUTION, result.reason)
-    for option in ("--csv", "--path"):
+    for option in ("--csv", "--xlsx", "--path"):
         if option in outputs and option not in contents:
             say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
     exceeded = [name for name, one in result.utilisations.items() if one.ratio > 1.0] if arguments.limits else []

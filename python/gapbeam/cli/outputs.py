@@ -14,8 +14,8 @@ from ..base.files import write_files
 
 PICTURES = (".png", ".pdf", ".svg")
 SUFFIXES = {
-    "--json": (".json",), "--csv": (".csv",), "--markdown": (".md",), "--output": (".json",), "--plot": PICTURES,
-    "--path": PICTURES, "--html": (".html", ".htm"),
+    "--json": (".json",), "--csv": (".csv",), "--xlsx": (".xlsx",), "--markdown": (".md",), "--output": (".json",),
+    "--plot": PICTURES, "--path": PICTURES, "--html": (".html", ".htm"),
 }  # fmt: skip
 """Suffixes of the files that an option takes; only pictures need one."""
 
@@ -73,7 +73,7 @@ class Outputs:
     def __init__(self, names: Mapping[str, str | None], scene: str | None = None) -> None:
         self._names = {option: name for option, name in names.items() if name is not None}
         for option, name in self._names.items():
-            if name == "-" and SUFFIXES[option] is not PICTURES:
+            if name == "-" and SUFFIXES[option] not in (PICTURES, SUFFIXES["--xlsx"]):
                 if sys.stdout is None:
                     raise SceneError(option, "standard output is closed; give the name of a file")
                 continue
@@ -127,7 +127,7 @@ class Outputs:
 
 def _check_suffix(option: str, name: str) -> None:
     suffix, right = Path(name).suffix.lower(), SUFFIXES[option]
-    if suffix not in right and (suffix or right is PICTURES):
+    if suffix not in right and (suffix or right in (PICTURES, SUFFIXES["--xlsx"])):
         *head, last = right
         raise SceneError(option, f'expected a file that ends in {", ".join(head)}{" or " if head else ""}{last}, got "{name}"')
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -112,6 +113,8 @@ class OneCase:
         With some loads, which are split, and so few nodes that a call is short.
     rule : {"block", "single"}
         How contact states are found.
+    scene : object
+        What the beam is made of, for who asks.
 
     Attributes
     ----------
@@ -121,7 +124,8 @@ class OneCase:
         Numbers of a block.
     """
 
-    def __init__(self, beam: Beam, rule: str):
+    def __init__(self, beam: Beam, rule: str, scene: Any = None):
+        self.scene = scene
         n, m, loads = beam.links + 1, beam.supports, beam.columns.load.shape[1] - 1
         self.beam, self.rule, self.shape = beam, rule, (loads,)
         ends = np.cumsum([1, 1, n, n, n, m, m, loads]).tolist()

@@ -1,4 +1,4 @@
-"""Geometry that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
+"""The parts that all states of a beam share on a page: joints, pieces and their loads, supports, foundations, units."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
         Distance from its left end.
     """
     most = FEWER_PLACES if result.scene.trains else MOST_PLACES
-    return result.places_along(max(1, most // len(result.scene.beam.spans)))
+    return result._places_along(max(1, most // len(result.scene.beam.spans)))
 
 
 def beam_data(result: Result) -> dict[str, Any]:
@@ -50,10 +50,10 @@ def beam_data(result: Result) -> dict[str, Any]:
     -------
     dict
         ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, the number of the piece and the place
-        of every row of a state.
+        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, number of the piece and place of
+        every row of a state.
     """
-    places = result.beam.places
+    places = result._beam.places
     forces = np.zeros((len(places.point_x), 2))
     forces[places.node_points] = places.force
     with np.errstate(divide="ignore"):
@@ -66,7 +66,7 @@ def beam_data(result: Result) -> dict[str, Any]:
         "forces": forces.tolist(),
         "hinges": [float(x) for x in result.scene.beam.hinges],
     }
-    if result.beam.ground_layers:
+    if result._beam.ground_layers:
         piece, distance = places_on_ground(result)
         found["grid"] = {"piece": piece.tolist(), "x": (places.point_x[piece] + distance).tolist()}
     return found

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..results import formatting as fmt
-from ..scene.names import DEAD, label
+from ..results.equilibrium import resultants_of_loads
+from ..scene.names import label
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -49,20 +50,10 @@ def terms_of(result: Result, step: Step) -> list[Term]:
         Loads, reactions, ground.
     """
     scene, found = result.scene, []
-    nodes = scene.span_ends()
-    for k, load in enumerate(scene.loads):
-        kind = load.__struct_config__.tag
-        factor = 1.0 if load.case == DEAD else step.factor
-        name = f"{kind} {label(scene.loads, k)}"
-        if kind in ("force", "moment"):
-            x = float(nodes[load.node]) if load.node is not None else load.x
-            of_force = kind == "force"
-            found.append(Term(name, factor * load.F, x, factor * load.F * x) if of_force else Term(name, 0.0, None, factor * load.M))
-        elif kind in ("uniform", "linear"):
-            (a, b), (qa, qb) = fmt.stretch(scene, load), load.q if kind == "linear" else (load.q, load.q)
-            force = factor * (qa + qb) / 2 * (b - a)
-            first = force * a + factor * (qa + 2 * qb) / 6 * (b - a) ** 2
-            found.append(Term(name, force, first / force if force else (a + b) / 2, first))
+    for k, one in enumerate(resultants_of_loads(scene, step.factor)):
+        if one.force or one.moment:
+            name = f"{scene.loads[k].__struct_config__.tag} {label(scene.loads, k)}"
+            found.append(Term(name, one.force, one.moment / one.force if one.force else None, one.moment))
     for k, x in enumerate(scene.positions(scene.supports).tolist()):
         name, reaction, couple = f"reaction {label(scene.supports, k)}", float(step.reaction[k]), float(step.couple[k])
         if scene.supports[k].direction == "axial":
@@ -76,9 +67,9 @@ def terms_of(result: Result, step: Step) -> list[Term]:
 
 def _ground(result: Result, step: Step) -> list[Term]:
     """Pressure of the ground, integrated along the beam by Gauss's rule."""
-    if not result.beam.ground_layers:
+    if not result._beam.ground_layers:
         return []
-    ends = np.unique(np.concatenate((result.beam.places.point_x, [x for run in step.runs for x in (run.from_, run.to)])))
+    ends = np.unique(np.concatenate((result._beam.places.point_x, [x for run in step.runs for x in (run.from_, run.to)])))
     ends = np.unique(np.concatenate([np.linspace(a, b, PARTS + 1) for a, b in pairwise(ends)]))
     nodes, weights = np.polynomial.legendre.leggauss(POINTS)
     half = np.diff(ends)[:, None] / 2
@@ -121,7 +112,7 @@ def sums_data(result: Result, step: Step) -> dict[str, Any]:
         "totals": ["0" if value == 0.0 else with_signs(f"{value:.1e}") for value in (force, moment)],
         "left": [leaves(value, sizes[name]) for name, value in (("force", force), ("moment", moment))],
         "written": [written(one.force for one in shown), written(one.moment for one in shown)],
-        "ground": bool(result.beam.ground_layers),
+        "ground": bool(result._beam.ground_layers),
     }  # fmt: skip
 
 
@@ -177,4 +168,6 @@ def leaves(value: float, size: float) -> str:
     -------
     str
     """
-    return "exactly 0" if value == 0.0 else f"{with_signs(f'{value:.1e}')}, which is {abs(value) / size:.0e} of the sum of all sizes"
+    if value == 0.0:
+        return "exactly 0"
+    return f"{with_signs(f'{value:.1e}')}, which is {abs(value) / size:.0e} of the sum of all sizes"

@@ -16,6 +16,7 @@ from ..base.errors import GapbeamError
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope
 from ..results.envelopes.over_path import PathEnvelope
+from ..results.event_words import state_in_words
 from .geometry import foundations_data, panels_data, units_data
 from .hand_check import sums_data
 from .states import packed, stands
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parent / "templates"
 MOST_POINTS, FEWER_POINTS, FEWEST_POINTS = 400, 160, 60
 """Places along the beam at which an envelope is drawn, about; fewer while trains pass, fewest while they do so on the ground."""
-SECONDS = "seconds"
-"""What differs from run to run, and is left out."""
+LEFT_OUT = ("seconds", "supports", "contact", "free_spans", "certificate")
+"""Keys of states that are left out of the result: run times differ from run to run, all others stand elsewhere on the page."""
 
 
 class Source(NamedTuple):
@@ -90,7 +91,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
     state = _state_to_check(result, envelope)
     first = None if state is None else ((state.combination, state.train, state.direction), state.position)
     collected = collect_ways(result, envelope, first)
-    sampled = scene.trains and not result.beam.is_linear_between_events
+    sampled = scene.trains and not result._beam.is_linear_between_events
     points = max(2, (FEWEST_POINTS if sampled else FEWER_POINTS if scene.trains else MOST_POINTS) // len(scene.beam.spans))
     whole = _result_data(result, points)
     data = {
@@ -98,9 +99,10 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
         "result": whole,
-        "panels": panels_data(result.beam.fields),
+        "panels": panels_data(result._beam.fields),
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
+        "said": list(map(state_in_words, collected.words)),
         "foundations": foundations_data(scene),
         "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
@@ -112,7 +114,8 @@ def html_page(result: Result, source: Source | None = None) -> str:
     return environment.get_template("page.html").render(
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
         source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
-        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, exactness=exactness(collected, bool(scene.foundation)), remarks=result.remarks,
+        tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
+        exactness=exactness(collected, bool(scene.foundation)),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
@@ -124,6 +127,8 @@ def _result_data(result: Result, points: int) -> dict[str, Any]:
     """As the JSON output, without the seconds and without what is given state by state."""
     data = result.to_data(points, steps=_short_steps)
     data.pop("fields", None)
+    for train in data.get("trains", []):
+        del train["events"]  # the ways have them
     if "envelope" in data:
         data["envelope"] = {key: _without_ties(value) for key, value in data["envelope"].items()}
     return data
@@ -137,10 +142,10 @@ def _without_ties(value: Any) -> Any:
 
 
 def _short_steps(steps: Any) -> list[dict[str, Any]]:
-    """Steps or combinations without their supports, which the ways have, and without run times."""
+    """Steps or combinations without what is left out."""
     found = []
     for step in steps:
-        one = {key: value for key, value in step.items() if key not in (SECONDS, "supports", "contact", "free_spans")}
+        one = {key: value for key, value in step.items() if key not in LEFT_OUT}
         if "steps" in one:
             one["steps"] = _short_steps(one["steps"])
         found.append(one)
@@ -151,7 +156,7 @@ def _curves(
     result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
 ) -> dict[str, Any] | None:  # fmt: skip
     """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
-    names = [one["name"] for one in panels_data(result.beam.fields)]
+    names = [one["name"] for one in panels_data(result._beam.fields)]
     if "envelope" in whole:
         columns = whole["envelope"].pop("fields")
         pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
@@ -203,7 +208,7 @@ def _state_to_check(result: Result, envelope: Envelope | TrainEnvelope | None) -
     words = "with the largest moment" if name is None else f"with the largest moment: {visible(name)}"
     if train is not None:
         try:
-            state = one.trains[train].at(largest.position, largest.direction)
+            state = one.trains[train].state(largest.position, largest.direction)
         except (GapbeamError, ValueError):  # at the very position at which it can no longer stand
             return None
         words += f"{':' if name is None else ','} {visible(train)} at {fmt.number(largest.position)}"

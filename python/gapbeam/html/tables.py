@@ -9,7 +9,8 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import source_in_words
+from ..results.contact import source_in_words
+from ..results.event_words import state_in_words
 from ..results.state.ground import joined
 from ..scene.names import label, labels
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from ..results.trains.envelope import TrainEnvelope
 
 WORDS = {"max": "largest", "min": "smallest"}
-MOST_ROWS = 400
+MOST_ROWS = 200
 """Rows of a table; all are in the JSON output."""
 
 
@@ -96,11 +97,11 @@ def _supports(result: Result) -> TableData:
     if step is not None and step.couple.any():
         quantities.append("couple")
     head = ["support", _heading(result, "x", "x"), "side", "state", *(_heading(result, name, name) for name in quantities)]
-    table = []
+    table, quiet = [], {} if step is None else {of: fmt.without_noise(getattr(step, of)) for of in quantities}
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
-        values = [Cell("", 0.0) if step is None else _shown(result, of, getattr(step, of)[k]) for of in quantities]
-        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else step.state[k]), *values])
+        values = [Cell("", 0.0) if step is None else _shown(result, of, quiet[of][k]) for of in quantities]
+        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else state_in_words(step.state[k])), *values])
     return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
 
 
@@ -123,12 +124,13 @@ def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> Tab
     names, rows = labels(result.scene.supports), []
     one_sided = any(support.side != "both" for support in result.scene.supports)
     chosen = [("reaction", "max"), ("reaction", "min"), *([("opening", "max")] if one_sided else [])]
-    for name, support in zip(names, envelope.supports, strict=True):
+    found = [[support[quantity][kind] for quantity, kind in chosen] for support in envelope.supports]
+    quiet = [fmt.without_noise(np.nan if one is None else one.value for one in column) for column in zip(*found, strict=True)]
+    for k, name in enumerate(names):
         row = [Cell(name)]
-        for quantity, kind in chosen:
-            one = support[quantity][kind]
-            row.append(Cell("") if one is None else _shown(result, quantity, one.value))
-            row.append(Cell("" if one is None or one.value == 0.0 else source_in_words(one, result.scene)))
+        for i, (quantity, _) in enumerate(chosen):
+            row.append(_shown(result, quantity, quiet[i][k]))
+            row.append(Cell(source_in_words(found[k][i], result.scene) if found[k][i] is not None and quiet[i][k] else ""))
         rows.append(row)
     head = ["support"]
     for quantity, kind in chosen:
@@ -174,7 +176,7 @@ def _zones(result: Result) -> TableData:
     if step is not None and scene.foundation:
         for zone in joined(step.contact):
             ends = [_number(value) for value in (zone.from_, zone.to, zone.to - zone.from_)]
-            add(zone.state, zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
+            add(state_in_words(zone.state), zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
         for span in step.free_spans:
             ends = [_number(value) for value in (span.from_, span.to, span.to - span.from_)]
             add("free span", span.foundation, [*ends, Cell(""), _shown(result, "sag", span.sag)])

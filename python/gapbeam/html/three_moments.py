@@ -61,7 +61,7 @@ def three_moments_data(result: Result, step: Step) -> dict[str, Any] | None:
         Lines of the equation, its two sides and what they differ by; None on the ground, and where no inner support is in contact
         about which both pieces can bend.
     """
-    chosen = None if result.beam.ground_layers else _choose(result, step)
+    chosen = None if result._beam.ground_layers else _choose(result, step)
     if chosen is None:
         return None
     support, point = chosen
@@ -82,8 +82,8 @@ def three_moments_data(result: Result, step: Step) -> dict[str, Any] | None:
     return {
         "support": fmt.support(result.scene, support), "x": list(map(_number, x.tolist())), "lines": list(map(with_signs, lines)),
         "sides": sides, "written": [with_signs(_number(value)) for value in sides], "left": leaves(sides[0] - sides[1], size),
-        "size": size, "EI": _number(one.EI), "ratio": _number(one.EI / other.EI), "load": LOAD in there, "curvature": CURVATURE in there,
-        "shear": SHEAR in there,
+        "size": size, "EI": _number(one.EI), "ratio": _number(one.EI / other.EI), "load": LOAD in there,
+        "curvature": CURVATURE in there, "shear": SHEAR in there,
     }  # fmt: skip
 
 

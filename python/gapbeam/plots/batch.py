@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, PercentFormatter
+from matplotlib.ticker import FuncFormatter
 
 from ..results import formatting as fmt
 from .key import MINUS
@@ -20,6 +20,8 @@ ACROSS = 3
 SHADE, LIMIT = "#9CC3E0", "#B84A00"
 """Colours of the histograms, and of limits."""
 WHICH = {"max": "largest", "min": "smallest"}
+CUT = 5.0
+"""How many times higher than the next a bar is that is cut."""
 CHARACTERS = 110
 """Of a line of a note."""
 
@@ -64,9 +66,13 @@ def _draw(axes: Axes, summary: "Summary", name: str, one: "Distribution") -> Non
     axes.tick_params(labelsize=7)
     axes.locator_params(axis="both", nbins=4)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: fmt.number(factor * value, 4).replace("-", MINUS)))
-    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _percent(value)))
     axes.spines[["top", "right"]].set_visible(False)
     words = []
+    shares = sorted((one.counts / one.count).tolist())
+    if len(shares) > 1 and shares[-1] > CUT * shares[-2] > 0.0:  # nearly all in one bar: what else there is would not be seen
+        axes.set_ylim(0.0, 1.4 * shares[-2])
+        words.append(f"one bar is cut, {_percent(shares[-1])} high")
     if 0.5 in one.quantiles:
         axes.axvline(one.quantiles[0.5], color="black", linewidth=0.9)
     if name.startswith("opening.") and one.positive:
@@ -89,7 +95,7 @@ def _notes(summary: "Summary", drawn: "dict[str, Distribution]", alike: list[str
         for name in alike[:MOST]:
             unit, factor = summary.units.get(name, ("", 1.0))
             value = fmt.number(factor * summary.columns[name].least, 4).replace("-", MINUS)
-            values.append(f"{_words(name)} {value} {unit}".rstrip())
+            values.append(f"{_words(name)} = {value} {unit}".rstrip())
         words.append(f"the same in every case: {', '.join(values)}{', ...' * (len(alike) > MOST)}")
     return textwrap.wrap("; ".join(words), CHARACTERS)
 

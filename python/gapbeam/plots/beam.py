@@ -22,6 +22,7 @@ from .support_labels import SupportTexts
 from .turned import Turned, is_turned, shifted
 
 if TYPE_CHECKING:
+    from ..results.state.step import Step
     from ..scene.structs import Scene, Support
     from .support_values import SupportValues
 
@@ -143,8 +144,10 @@ def draw_beam(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lane
                       ha="right", va="top", annotation_clip=False)  # fmt: skip
 
 
-def draw_contacts(axes: Axes | Turned, scene: "Scene", lanes: SupportLanes, largest: float) -> list[tuple[float, float]]:
-    """Mark in the panel of the deflection where one-sided supports meet the beam: gap and opening to scale.
+def draw_contacts(
+    axes: Axes | Turned, scene: "Scene", lanes: SupportLanes, step: "Step", largest: float
+) -> list[tuple[float, float]]:
+    """Mark in the panel of the deflection where one-sided supports meet the beam, and how far it is off open ones: to scale.
 
     Parameters
     ----------
@@ -154,6 +157,8 @@ def draw_contacts(axes: Axes | Turned, scene: "Scene", lanes: SupportLanes, larg
         The scene.
     lanes : SupportLanes
         What each support does.
+    step : Step
+        The state.
     largest : float
         Largest deflection; supports much farther off are left out.
 
@@ -164,13 +169,17 @@ def draw_contacts(axes: Axes | Turned, scene: "Scene", lanes: SupportLanes, larg
     """
     if len(scene.supports) > 2 * MOST_SYMBOLS:
         return []
-    groups = defaultdict(list)
-    for support, state, x in zip(scene.supports, lanes.kinds, lanes.x, strict=True):
+    groups, opened = defaultdict(list), []
+    for k, (support, state, x) in enumerate(zip(scene.supports, lanes.kinds, lanes.x, strict=True)):
         if (support.side != "both" or support.settlement) and support.direction == "normal":
             sign = -1.0 if support.side == "above" else 1.0
             y = support.settlement + sign * support.gap
             if abs(y) <= 1.5 * largest:
                 groups[state, sign].append((float(x), y))
+                if state == "open" and step.opening[k] > 0.02 * largest:
+                    opened += [(x, y), (x, step.deflection[k]), (np.nan, np.nan)]
+    if opened:
+        axes.plot(*np.transpose(opened), color=VERMILION, linewidth=0.9, marker="_", markersize=4, zorder=3.5, label="openings")
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
         symbol = SYMBOLS[state]

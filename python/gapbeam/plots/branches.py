@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -150,7 +151,9 @@ def _limits(path: BranchPath, spans: list[tuple[int, int]]) -> list[Mark]:
     return found
 
 
-def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict, arrows: bool) -> None:
+def draw_trace(
+    axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict, arrows: bool, alike: Sequence[int] = ()
+) -> None:
     """Draw the line of a support and its marks.
 
     Parameters
@@ -167,6 +170,8 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
         Of its line.
     arrows : bool
         Whether to show the direction of the path.
+    alike : sequence of int
+        Supports whose line it is too.
     """
     named = False
     for way, points in trace.runs():
@@ -195,7 +200,7 @@ def draw_trace(axes: Axes, trace: Trace, k: int, values: np.ndarray, style: dict
     for point, support, what in trace.marks:
         if what == "limit":
             axes.plot(trace.factors[point], values[point], "^", color="black", markersize=6.5, clip_on=False)
-        elif support == k:
+        elif support == k or support in alike:
             marker, face = MARKERS.get(what, KINK)
             axes.plot(trace.factors[point], values[point], marker, color="black", markerfacecolor=face,
                       markersize=5 if marker == "o" else 4.2, clip_on=False)  # fmt: skip

@@ -77,7 +77,7 @@ def draw_field(
         vertices = np.column_stack(coarse(*ends, np.ptp(values) / (5.0 * PANEL * 72)))
         codes = [2] * len(vertices)
     _fill(axes, vertices, codes)
-    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1], avoid, cells.along(quantity))
+    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1], avoid, [cells.along(quantity)])
     for value, place in shown.values():
         marks.extreme(value, place)
     return marks

@@ -29,7 +29,7 @@ from .loads import LoadLanes
 from .marks import Marks
 from .panels import MOST_POINTS, PANELS, counts, cut_text
 from .save import literal
-from .sheet import Sheet, along
+from .sheet import Sheet, along, heading_height
 from .states import legend_handles, plain_states
 from .support_values import EnvelopeValues
 from .thin import outline
@@ -49,7 +49,7 @@ MOST_CURVED = 1_000
 """Points of a curve up to which it is rounded between them."""
 MOST_STRIPS = 500
 """Changes of what governs that are drawn along a beam."""
-POINTS, POINTS_ALL, MOST_ON_GROUND = 40, 80, 80
+POINTS, POINTS_ALL, MOST_ON_GROUND = 40, 80, 70
 """Divisions of a span, and of a beam, at least."""
 BESIDE = 1e-9
 """How far beside a place a curve is looked at where it may jump, as a share of the beam."""
@@ -74,7 +74,7 @@ def envelope_figure(result: Result) -> Figure:
     """
     scene = result.scene
     envelope = _envelope(result)
-    sources = [] if envelope is None else getattr(envelope, "members", None) or envelope.sources
+    sources = [] if envelope is None else getattr(envelope, "_members", None) or envelope.sources
     names = [source_name(one) for one in sources]
     key = Key(len(set(names)))
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
@@ -93,12 +93,13 @@ def envelope_figure(result: Result) -> Figure:
     lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
     foot = LINE * len(lines) + 0.08
     text = _headline(result, sources)
-    sheet = Sheet(scene, 0.6 + 0.15 * text.count("\n"), supports.bottom, top, len(panels), foot)
+    handles = legend_handles(states) * (not supports.rows)
+    sheet = Sheet(scene, heading_height(text, handles), supports.bottom, top, len(panels), foot)
     draw_ground(sheet.sketch, ground, ())
     draw_beam(sheet.sketch, scene, states, supports)
     if loads is not None:
         draw_loads(sheet.sketch, loads)
-    sheet.write_heading(text, legend_handles(states) * (not supports.rows), low=False)
+    sheet.write_heading(text, handles)
     for quantity, words, downward in panels:
         panel = sheet.panel(quantity, words, downward)
         _range(panel, scene, envelope.fields, quantity, extremes[quantity], bool(drawn[quantity]))
@@ -112,15 +113,15 @@ def envelope_figure(result: Result) -> Figure:
 def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     """Make the envelope at so many places that its curves look smooth; where something jumps, on both sides."""
     scene = result.scene
-    points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result.beam), MOST_ON_GROUND))
+    points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result._beam), MOST_ON_GROUND))
     points = int(max(2, min(points, MOST_POINTS // len(scene.beam.spans))))
     if not scene.trains:
         return result.envelope(points) if "solved" in result.statuses else None
-    places, end = places_along(result.beam, points), float(scene.span_ends()[-1])
+    places, end = places_along(result._beam, points), float(scene.span_ends()[-1])
     jumps = [scene.positions(scene.supports), *_ends_of_ways(result), *([stretch(scene, item)] for item in scene.foundation)]
     jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
     jumps = jumps[(jumps > 0.0) & (jumps < end)]
-    beside = np.concatenate((places, jumps - BESIDE * end, jumps + BESIDE * end))
+    beside = np.concatenate((np.setdiff1d(places, jumps), jumps - BESIDE * end, jumps + BESIDE * end))
     return result.envelope(x=np.unique(beside))
 
 
@@ -130,7 +131,8 @@ def _ends_of_ways(result: Result) -> list[np.ndarray]:
     for train in result.scene.trains:
         ends = [place for place in (train.from_, train.to) if place is not None]
         offsets = np.array([distance for distance, _ in train.axles], dtype=float)
-        found += [place + sign * offsets for place in ends for sign in (1.0, -1.0)]
+        found += [place - offsets for place in ends]
+        found += [place + offsets for place in ends] if train.both_directions else []
     return found
 
 
@@ -157,7 +159,8 @@ def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
             state = getattr(most.state, "result", None)
             unit, factor = fmt.shown_unit(scene, name)
             value = f"{fmt.number(factor * most.value, 4)} {unit}".rstrip().replace("-", "\N{MINUS SIGN}")
-            words = f"Drawn: {source_name(most)} at {fmt.number(most.position, 4)}, where the largest {name} is, {value}."
+            place = f"{fmt.number(most.position, 4)} {fmt.unit(scene, 'x')}".strip().replace("-", "\N{MINUS SIGN}")
+            words = f"Drawn: {source_name(most)} at position {place}, from which the largest {name} comes: {value}."
             if state is None:
                 return None, ""
             first = len(scene.loads)
@@ -194,7 +197,9 @@ def _range(
     if len(curves.x) <= MOST_POINTS_FILLED:
         axes.fill_between(curves.x, curves.smallest[quantity], curves.largest[quantity], color="0.9", linewidth=0, zorder=1)
     limit_values(axes, [value for value, *_ in extremes], 0.24 + 0.12 * strips)
-    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1])
+    finite = np.isfinite(curves.largest[quantity])
+    drawn = [(curves.x[finite], values[quantity][finite]) for values in (curves.largest, curves.smallest)]
+    marks = Marks(axes, fmt.shown_unit(scene, quantity)[1], (), drawn)
     for value, x, more in extremes:
         marks.extreme(value, x, more)
 

@@ -34,10 +34,13 @@ SWING = 9.0
 MOST_NAMES, MOST_UNNAMED = 12, 4
 """Foundations up to which they are named, and numbered where none has a name."""
 HATCHES = {"below": "/////", "above": "/////", "both": "xxxxx"}
+WORDS = {"closed": "in contact", "bilateral": "bilateral ground", TOUCHING: "touching"}
 TOUCHED = "|"
 """Mark of a place at which the beam only touches the ground."""
 PER_LENGTH, CELLS_PER_LENGTH = 20, 4
 """Points of a polyline, and cells of a curve, in every length of (4 EI/k)^(1/4), within which it bends."""
+FINE = 100
+"""Points on the height of a panel by which labels keep clear of the surface of the ground."""
 CELLS, MANY, MOST_CELLS = 4, 200, 25_000
 """Cells of a span without ground; spans from which on half as many do; cells of a beam at most."""
 
@@ -193,16 +196,15 @@ def draw_ground(axes: Axes | Turned, lanes: GroundLanes, contact: tuple[Contact,
 
 def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
     """Make the entries of the legend for the zones of contact; what branches of laws are is said in words."""
-    states = sorted({zone.state for zone in contact})
-    names = {"closed": "in contact", "bilateral": "bilateral ground", TOUCHING: "touching"}
-    names |= {state: _branch(scene, {zone.foundation for zone in contact if zone.state == state}, state) for state in states
-              if state not in names}  # fmt: skip
+    words: dict[tuple[str, bool], list[str]] = {}  # by colour, and whether it only touches
+    for state in sorted({zone.state for zone in contact}):
+        name = WORDS.get(state) or _branch(scene, {zone.foundation for zone in contact if zone.state == state}, state)
+        words.setdefault((_shade("closed" if state == TOUCHING else state), state == TOUCHING), []).append(name)
     return [
-        Line2D([], [], linestyle="none", marker=TOUCHED, markersize=5, markeredgewidth=1.2, color=_shade("closed"),
-               label=names[state])
-        if state == TOUCHING else
-        Line2D([], [], linestyle="none", marker="_", markersize=8, markeredgewidth=2.6, color=_shade(state), label=names[state])
-        for state in states
+        Line2D([], [], linestyle="none", marker=TOUCHED if touches else "_", markersize=5 if touches else 8,
+               markeredgewidth=1.2 if touches else 2.6, color=colour,
+               label=names[0] if len(names) == 1 else f"{names[0]} and beyond")
+        for (colour, touches), names in words.items()
     ]  # fmt: skip
 
 
@@ -210,9 +212,9 @@ def _branch(scene: Scene, foundations: set[int], state: str) -> str:
     """Name a branch of a law of the ground: elastic, then plastic where that is all there is."""
     number = int(state.rpartition(" ")[2])
     plastic = all(isinstance(scene.foundation[k].law, PlasticGround) for k in foundations)
-    if number == 1:
-        return "ground, elastic"
-    return "ground, at its strength" if plastic else f"ground, branch {number} of its law"
+    if plastic and number < 3:
+        return ("elastic ground", "ground at its strength")[number - 1]
+    return f"branch {number} of the ground's law"
 
 
 def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float, float]]:
@@ -236,11 +238,14 @@ def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float,
     for item in scene.foundation:
         x, gap = surface(scene, item)
         at = np.linspace(x[0], x[-1], max(2, int(length * (x[-1] - x[0]) / float(scene.span_ends()[-1]))))
-        size = 1.5 * float(np.ptp(cells.values["deflection"]))
+        size = 3.0 * float(np.ptp(np.append(cells.values["deflection"], 0.0)))
         for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
             y = sign * np.interp(at, x, gap)
+            parts = np.maximum(1, np.ceil(np.abs(np.diff(y)) / (size or 1.0) * FINE)).astype(int)  # more where it is steep
+            index = np.concatenate([k + np.arange(count) / count for k, count in enumerate(parts.clip(max=FINE).tolist())])
+            fine_x, fine_y = (np.interp(index, np.arange(len(at)), values) for values in (at, y))
             for off in (0.0, sign * 0.04 * size) if item.side != "both" or gap.any() else ():
-                found += [(float(a), float(b) + off) for a, b in zip(at, y, strict=True) if abs(b) < size]
+                found += [(float(a), float(b) + off) for a, b in zip(fine_x, fine_y, strict=True) if abs(b) < size]
     return found
 
 

@@ -1,4 +1,4 @@
-"""Reaction over deflection of one support along the way of the load: its law as it was gone through, and the energy of every cycle."""
+"""Reaction over deflection of one support along the loading history, with the energy that it takes up in every cycle."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from ..scene.names import labels
 from ..scene.wording import shown
 from .branches import KINK, MARKERS, Trace
 from .key import MINUS
+from .panels import cut_text
 from .save import literal
+from .sheet import positive
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -25,8 +27,8 @@ SIZE = (5.6, 4.2)
 """Inches."""
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000")
 """Of cycles in turn; of Okabe and Ito, their greys differ."""
-MOST_CYCLES = 6
-"""Cycles whose energy is written each; of more the first ones, and the sum."""
+MOST_CYCLES = 12
+"""Cycles whose energy is written each; of more the sum."""
 FINE = 200
 """States about along a path that is not kept as segments."""
 
@@ -91,7 +93,7 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     for number, cycle in enumerate(cycles):
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(factor * movement[cycle.points], force[cycle.points], color=colour, linewidth=1.5, zorder=3,
-                  label=_words(result, cycle, number))  # fmt: skip
+                  label=_words(result, cycle, number) if len(cycles) <= MOST_CYCLES else None)  # fmt: skip
         _arrows(axes, factor * movement[cycle.points], force[cycle.points], colour)
     for point, k, what in marks:
         if k == chosen:
@@ -101,16 +103,19 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     axes.axvline(0.0, color="black", linewidth=0.7)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_xlabel("deflection, downward positive" + (f" [{unit}]" if unit else ""), fontsize=9)
-    axes.set_ylabel(fmt.with_unit(scene, "reaction", "reaction, upward positive"), fontsize=9)
+    axes.set_xlabel(f"deflection, {positive(scene, 'deflection')}" + (f" [{unit}]" if unit else ""), fontsize=9)
+    axes.set_ylabel(fmt.with_unit(scene, "reaction", f"reaction, {positive(scene, 'reaction')}"), fontsize=9)
     axes.tick_params(labelsize=8)
-    axes.set_title(f"{fmt.title(scene)}\n{fmt.support(scene, chosen)}", fontsize=10, loc="left")
+    axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
+    if len(cycles) > MOST_CYCLES:
+        unit, total = fmt.unit(scene, "moment"), fmt.number(sum(cycle.energy for cycle in cycles), 4).replace("-", MINUS)
+        axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} {unit} in all".replace("  ", " "))
     picture.legend(loc="outside lower center", ncols=1 if len(cycles) < 3 else 2, fontsize=8, frameon=False)
     return literal(picture)
 
 
 def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> list[Cycle]:
-    """Cut the way of the load into cycles: two factors of its history each.
+    """Cut the loading history into cycles: two factors of its history each.
 
     Parameters
     ----------
@@ -180,8 +185,10 @@ def _words(result: Result, cycle: Cycle, number: int) -> str:
     energy = f"{fmt.number(cycle.energy, 4)} {unit}".rstrip().replace("-", MINUS)
     if not history:
         return f"to load factor {fmt.number(result.steps[-1].factor, 4)}: energy {energy}"
-    way = " to ".join(fmt.number(history[leg], 4) for leg in cycle.legs if 0 <= leg < len(history)).replace("-", MINUS)
-    return f"{'cycle' if cycle.closed else 'then'} {number + 1}, load factor to {way}: energy {energy}"
+    legs = [leg for leg in cycle.legs if 0 <= leg < len(history)]
+    begin = history[legs[0] - 1] if legs and legs[0] else 0.0
+    way = " to ".join(fmt.number(factor, 4) for factor in (begin, *(history[leg] for leg in legs))).replace("-", MINUS)
+    return f"{'cycle' if cycle.closed else 'part'} {number + 1} (load factor {way}): energy {energy}"
 
 
 def _arrows(axes: Any, x: np.ndarray, y: np.ndarray, colour: str) -> None:
@@ -190,5 +197,5 @@ def _arrows(axes: Any, x: np.ndarray, y: np.ndarray, colour: str) -> None:
     for k in np.argsort(-size)[:3].tolist():
         if size[k] > 0.15 or (len(size) > 20 and size[k] > 0.0):
             start, stop = ((x[k] + share * (x[k + 1] - x[k]), y[k] + share * (y[k + 1] - y[k])) for share in (0.5, 0.53))
-            axes.annotate("", stop, start, arrowprops={"arrowstyle": "-|>", "linewidth": 0.0, "color": colour, "mutation_scale": 12.0,
-                                                       "shrinkA": 0.0, "shrinkB": 0.0}, zorder=4)  # fmt: skip
+            look = {"arrowstyle": "-|>", "linewidth": 0.0, "color": colour, "mutation_scale": 12.0, "shrinkA": 0.0, "shrinkB": 0.0}
+            axes.annotate("", stop, start, arrowprops=look, zorder=4)

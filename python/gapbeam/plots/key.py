@@ -60,7 +60,7 @@ class Key:
         ends = {name.rpartition(", ")[1:] for name in self._letters}
         alike = "".join(ends.pop()) if len(ends) == 1 and len(self._letters) > 1 else ""  # the same train in all
         entries = [f"{letter} = {name.removesuffix(alike)}".replace(" ", FIXED) for name, letter in self._letters.items()]
-        return textwrap.wrap("   ".join(entries), CHARACTERS, break_on_hyphens=False)
+        return textwrap.wrap("; ".join(entries), CHARACTERS, break_on_hyphens=False)
 
     def write(self, picture: Figure, lines: list[str], left: float) -> None:
         """Write lines at the foot of a picture, which has room for them."""

@@ -28,12 +28,25 @@ def draw_loads(axes: Axes | Turned, lanes: LoadLanes) -> None:
     _draw_couples(axes, lanes)
     if lanes.note:
         axes.text(lanes.end / 2, lanes.top - LINE - 1.0, lanes.note, fontsize=6.8, ha="center", va="bottom", zorder=7)
+    _lead(axes, lanes)
     for arrow in lanes.arrows:
         if arrow.kind == "axial":
             _draw_axial(axes, arrow, lanes)
         if arrow.label:
             axes.annotate(arrow.text, (arrow.x, arrow.label[1]), (arrow.label[0], 0.0), textcoords="offset points",
                           fontsize=6.8, ha="center", va="bottom", zorder=7)  # fmt: skip
+
+
+def _lead(axes: Axes | Turned, lanes: LoadLanes) -> None:
+    """Lead from labels that are off to their arrows."""
+    lines = []
+    for arrow, length in zip(lanes.arrows, lanes.lengths, strict=True):
+        if arrow.kind == "force" and arrow.label:
+            tip, off = lanes.tip(arrow, length), arrow.label[0] - arrow.aside
+            if arrow.label[1] - tip > LINE or (lanes.upright and abs(off) > LINE / 2):
+                x = arrow.x + arrow.aside / lanes.scale
+                lines.append([(x, tip), (x + off * lanes.upright / lanes.scale, arrow.label[1])])
+    axes.add_collection(LineCollection(lines, colors="0.6", linewidths=0.4, zorder=5, label="leaders"))
 
 
 def _draw_blocks(axes: Axes | Turned, lanes: LoadLanes) -> None:

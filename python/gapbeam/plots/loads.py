@@ -11,6 +11,7 @@ import numpy as np
 from ..base.characters import visible
 from ..results.formatting import count, number, stretch, unit
 from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.table import kind_of
 from .labels import LINE, Labels, spread, text_width
 from .sheet import is_upright
 
@@ -114,7 +115,8 @@ class LoadLanes:
         """Word between which values loads are that are too many for a label each."""
         blocks = [value for block in self.blocks if not block.curvature for value in (block.first, block.last)]
         kinds = [("distributed load", blocks, len(blocks) // 2, "uniform")] * (not self.labelled)
-        for kind, words, quantity in (("force", "force", "force"), ("moment", "couple", "couple"), ("axial", "axial load", "force")):
+        of_arrows = ("force", "force", "force"), ("moment", "couple", "couple"), ("axial", "axial load", "force")
+        for kind, words, quantity in of_arrows:
             values = [arrow.value for arrow in self.arrows if arrow.kind == kind]
             kinds += [(words, values, len(values), quantity)] * (len(self.arrows) > MOST_LABELS)
         return "; ".join(
@@ -225,11 +227,11 @@ def _set_apart(arrows: list[Arrow], scale: float) -> None:
 
 def _arrows(scene: "Scene", factor: float) -> list[Arrow]:
     kinds = {ForceLoad: ("force", "force"), MomentLoad: ("moment", "moment"), AxialLoad: ("axial", "force")}
-    loads = [load for load in scene.loads if type(load) in kinds]
+    loads = [load for load in scene.loads if kind_of(load) in kinds]
     arrows = []
     cases = len({load.case for load in scene.loads})
     for load, x in zip(loads, scene.positions(loads), strict=True):
-        kind, quantity = kinds[type(load)]
+        kind, quantity = kinds[kind_of(load)]
         value = _share(load, factor) * (load.M if kind == "moment" else load.F)
         if not _share(load, factor):
             continue

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,8 +22,14 @@ MOST_MARKS = 24
 """Largest values of spans that are written, where there is room."""
 WORTH = 0.02
 """Share of the largest value from which one of a span is written."""
-LETTER, HIGH, OFF = 4.6, 8.5, 4.0
-"""Width of a letter, height of a line, distance from the point (points of 1/72 inch)."""
+LETTER, HIGH, OFF, NEAR = 4.6, 8.5, 4.0, 5.0
+"""Width of a letter, height of a line, distance from the point, from symbols (points of 1/72 inch)."""
+FAR = 1.8
+"""Lines between a label and its point from which a leader connects them."""
+INWARD = 12.0
+"""Price of a label on the side of the axis: as that of six lines farther off."""
+JUMP = 16
+"""Points on a jump."""
 ROUNDS = 8
 """Secants to a zero of the shear."""
 
@@ -43,13 +49,13 @@ class Marks:
         How many shown units are one of the scene, for example 1000 for mm.
     avoid : sequence of (float, float)
         Points that labels keep clear of.
-    curve : (numpy.ndarray, numpy.ndarray), optional
+    curves : sequence of (numpy.ndarray, numpy.ndarray)
         What is drawn; labels cover as little of it as may be.
     """
 
     def __init__(
         self, axes: Axes | Turned, factor: float = 1.0, avoid: Sequence[Point] = (),
-        curve: tuple[np.ndarray, np.ndarray] | None = None,
+        curves: Sequence[tuple[np.ndarray, np.ndarray]] = (),
     ) -> None:
         self.axes, self.factor, self.turned = axes, factor, is_turned(axes)
         size = axes.figure.bbox_inches.size * 72 * raw(axes).get_position().size
@@ -57,10 +63,17 @@ class Marks:
         self.taken: list[Box] = []
         self.written: set[tuple[str, str]] = set()
         self.avoid = self._points(np.array(avoid, dtype=float).reshape(-1, 2))
-        self.curve = np.zeros((0, 2))
-        if curve is not None:
-            x = np.linspace(curve[0][0], curve[0][-1], int(max(self.width, self.height)))
-            self.curve = self._points(np.column_stack((x, np.interp(x, *curve))))
+        along = int(max(self.width, self.height))
+        self.curve = np.concatenate([np.zeros((0, 2)), *(self._along(x, y, along) for x, y in curves)])
+
+    def _along(self, x: np.ndarray, y: np.ndarray, count: int) -> np.ndarray:
+        """Give points on a curve, near one another on jumps too (points)."""
+        at = np.linspace(x[0], x[-1], count)
+        found = self._points(np.column_stack((at, np.interp(at, x, y))))
+        steps = np.diff(found, axis=0)
+        steep = np.abs(steps).max(axis=1) > HIGH / 2
+        between = [found[:-1][steep] + share * steps[steep] for share in np.linspace(0.0, 1.0, JUMP)]
+        return np.concatenate((found, *between))
 
     def extreme(self, value: float, x: float, more: str = "") -> None:
         """Write an extreme and its place, which are never left out."""
@@ -88,13 +101,15 @@ class Marks:
             away = OFF + level * HIGH
             if self.turned:
                 for order, (side, start) in enumerate((("left", x + OFF), ("right", x - OFF - wide))):
-                    for up in (away - OFF, OFF - away):
-                        box = (start, y + up - HIGH / 2, start + wide, y + up + HIGH / 2)
-                        yield 2 * level + (order != (not outward)) / 2, side, "center", box
+                    for up, aside in product((away - OFF, OFF - away), (0.0, 2.0 * HIGH)):
+                        left = start + (aside if side == "left" else -aside)
+                        box = (left, y + up - HIGH / 2, left + wide, y + up + HIGH / 2)
+                        yield 2 * level + aside / HIGH + (order != (not outward)) / 2, side, "center", box
                 continue
-            foot = y + away if outward else y - away - HIGH
-            for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
-                yield 2 * level + order / 4, align, "bottom" if outward else "top", (start, foot, start + wide, foot + HIGH)
+            for up in (outward, not outward) if levels > 1 else (outward,):
+                foot, price = y + away if up else y - away - HIGH, 2 * level + INWARD * (up != outward)
+                for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
+                    yield price + order / 4, align, "bottom" if up else "top", (start, foot, start + wide, foot + HIGH)
 
     def _write(self, value: float, x: float, text: str, must: bool) -> None:
         outward = (value > 0.0) != self.axes.yaxis_inverted()
@@ -105,9 +120,10 @@ class Marks:
             aside = box[0] < 2.0 - 2.0 * out or box[2] > self.width + 9.0 + out
             if aside or box[1] < 1.0 - out or box[3] > self.height + 8.0 or not self._free(box):
                 continue
-            covered = 20 * _inside(self.avoid, box) + 2 * _inside(self.curve, box)
-            if must or not covered:
-                found.append((covered + price, align, upright, box))
+            wide_box = (box[0] - NEAR, box[1] - NEAR, box[2] + NEAR, box[3] + NEAR)
+            on_others, on_curve = _inside(self.avoid, wide_box), _inside(self.curve, box)
+            if must or not on_others + on_curve:
+                found.append((20 * on_others + 2 * on_curve + price, align, upright, box))
         if not found and not must:
             return
         if not found:  # at an end of a long text: anywhere inside that is free
@@ -116,16 +132,20 @@ class Marks:
             box = min((box for box in rows if self._free(box)), key=lambda box: abs(box[1] - at[1]), default=rows[0])
             found = [(0.0, "left", "bottom", box)]
         _, align, upright, box = min(found)
+        on_line = not _inside(self.curve, box) and _inside(self.avoid, box)  # of the ground: it is interrupted there
+        behind = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}} if on_line else {}
         self.taken.append(box)
         self.written.add((self._number(value), fmt.number(x, DIGITS)))
         anchor = np.array([
             {"center": (box[0] + box[2]) / 2, "left": box[0], "right": box[2]}[align],
             {"center": (box[1] + box[3]) / 2, "bottom": box[1], "top": box[3]}[upright],
         ]) - at  # fmt: skip
+        if abs(anchor[1]) > FAR * HIGH:
+            behind["arrowprops"] = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.4, "shrinkA": 0.0, "shrinkB": 1.5}
         self.axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
         place = (value, x) if self.turned else (x, value)
         raw(self.axes).annotate(text, place, anchor.tolist(), textcoords="offset points", fontsize=7.5, zorder=5, ha=align,
-                                va=upright)  # fmt: skip
+                                va=upright, **behind)  # fmt: skip
 
     def _free(self, box: Box) -> bool:
         return all(

@@ -19,6 +19,7 @@ from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_gr
 from .labels import spread
 from .panels import LEFT, WIDTH, cut_text, outcome
 from .save import literal, save
+from .sheet import positive
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -30,10 +31,9 @@ PANEL, GAP, FOOT, NAMES = 2.1, 0.25, 0.5, 0.95
 #: Points: height of a name; length of the sample of a line beside it, and how far it is from the axes
 NAME, SAMPLE, OFF = 9.5, 24.0, 8.0
 
-PANELS = (("reaction", "reaction, upward positive"), ("opening", "opening"))
-OF_LAWS = (PANELS[0], ("deflection", "deflection, downward positive"))
-"""Quantities and words; a support with a law is hardly ever open."""
-ZONES, ALONG = ("x", "x of contact"), ("deflection", "deflection, downward positive")
+PANELS, OF_LAWS = ("reaction", "opening"), ("reaction", "deflection")
+"""Quantities; a support with a law is hardly ever open."""
+ZONES, ALONG = "x", "deflection"
 """On the ground the zones of contact come first; without supports the largest deflections follow."""
 
 MOST_LINES = 8
@@ -112,23 +112,25 @@ def path_figure(result: Result) -> Figure:
     picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
     if said:
         picture.text(0.02, 1 - 0.36 / height, said, fontsize=8, va="top", color="0.3", linespacing=1.3)
-    of_supports = [] if stretches and not normal else [name for name, _ in panels if name != ZONES[0]]
+    of_supports = [] if stretches and not normal else [name for name in panels if name != ZONES]
     tables = {name: np.array([getattr(step, name) for step in states]) for name in of_supports}
     alike = {name: _alike(table, normal) for name, table in tables.items()}
     drawn = {name: _largest(table, alike[name]) for name, table in tables.items()}
     styles = _styles(result, drawn, trace)
-    for row, (name, words) in enumerate(panels):
+    for row, name in enumerate(panels):
         above, width = len(panels) - 1 - row, WIDTH - LEFT - NAMES
         bottom = foot + above * (PANEL + GAP)
         axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
         axes.set_xlim(min(0.0, factors.min()), factors.max() or 1.0)
         if name in tables:
-            _draw_supports(axes, result, trace, factors, tables[name], drawn[name], styles, dots)
-        elif name == ZONES[0]:
+            chosen = {k: alike[name][k] for k in drawn[name]}
+            _draw_supports(axes, result, trace, factors, tables[name], chosen, styles, dots)
+        elif name == ZONES:
             draw_zones(axes, result, stretches)
         else:
             draw_extremes(axes, result, states, dots)
         unit, factor = fmt.shown_unit(scene, name)
+        words = {"x": "x of contact", "opening": "opening"}.get(name) or f"{name}, {positive(scene, name)}"
         _frame(axes, f"{words} [{unit}]" if unit else words, last=not above)
         if factor != 1.0:
             axes.yaxis.set_major_formatter(lambda value, _, by=factor: fmt.number(by * value).replace("-", "\N{MINUS SIGN}"))
@@ -163,19 +165,19 @@ def _styles(result: Result, drawn: dict[str, list[int]], trace: Trace | None) ->
 
 
 def _draw_supports(
-    axes: Axes, result: Result, trace: Trace | None, factors: np.ndarray, table: np.ndarray, drawn: list[int],
+    axes: Axes, result: Result, trace: Trace | None, factors: np.ndarray, table: np.ndarray, alike: dict[int, list[int]],
     styles: dict[int, dict], dots: bool,
 ) -> None:  # fmt: skip
     """Draw one quantity of the supports over the load factor."""
     folded = bool((np.diff(factors) < 0.0).any())
     laws = {k for k in styles if result.scene.supports[k].law is not None}
-    for k in drawn:
+    for k in alike:
         if trace is not None:
-            draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws))
+            draw_trace(axes, trace, k, table[:, k], styles[k], arrows=folded and k in _few(table, laws), alike=alike[k])
             continue
         axes.plot(factors, table[:, k], linewidth=1.3, marker="." if dots else None, markersize=4.5, clip_on=False,
                   label=f"support {k}", **styles[k])  # fmt: skip
-        _mark_events(axes, result, k, factors, table[:, k])
+        _mark_events(axes, result, alike[k], factors, table[:, k])
 
 
 def _states(result: Result, dots: bool) -> list[Step]:
@@ -185,7 +187,7 @@ def _states(result: Result, dots: bool) -> list[Step]:
         states.insert(0, result.state(0.0))
         # Where the beam turns it is in two places at one load factor
         between = {event.factor for event in result.events if event.event == "turns"}
-        if result.beam.smooth:
+        if result._beam.smooth:
             between |= set(np.linspace(0.0, states[-1].factor, CURVE)[1:].tolist()) - {step.factor for step in states}
         between -= {0.0, states[-1].factor}
         states = sorted([*states, *map(result.state, between)], key=lambda step: step.factor)
@@ -203,7 +205,7 @@ def _bends(result: Result) -> list[int]:
     """Find the steps at which lines may bend: with another contact state than the one before or after."""
     schemes = [states for _, states in result.steps.history()]
     last = len(schemes) - 1
-    every = last + 1 if result.beam.is_linear_between_events else max(1, last // CURVE)
+    every = last + 1 if result._beam.is_linear_between_events else max(1, last // CURVE)
     return [k for k in range(last + 1) if k in (0, last) or k % every == 0 or not schemes[k - 1] == schemes[k] == schemes[k + 1]]
 
 
@@ -233,10 +235,10 @@ def _style(order: int) -> dict:
     return {"color": COLOURS[order % len(COLOURS)], "linestyle": (0, pattern) if pattern else "-"}
 
 
-def _mark_events(axes: Axes, result: Result, k: int, factors: np.ndarray, values: np.ndarray) -> None:
+def _mark_events(axes: Axes, result: Result, alike: list[int], factors: np.ndarray, values: np.ndarray) -> None:
     """Mark where a support opens or closes."""
     for event in result.events:
-        if event.support == k and event.event != "turns":
+        if event.support in alike and event.event != "turns":
             marker, face = MARKERS.get(event.event, KINK)
             axes.plot(event.factor, np.interp(event.factor, factors, values), marker, color="black", markerfacecolor=face,
                       markersize=5, clip_on=False)  # fmt: skip

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ..results import formatting as fmt
 from ..results.state.ground import joined
@@ -23,9 +22,9 @@ from .ground import GroundLanes, cells_a_span, draw_ground, near_surface, zone_h
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import MOST_MARKS, find_peaks
-from .panels import LEFT, PANELS, RIGHT, WIDTH, outcome
+from .panels import PANELS, outcome
 from .save import literal, save
-from .sheet import Sheet, along
+from .sheet import Sheet, along, heading_height
 from .states import SYMBOLS, kinds_of, legend_handles, plain_kinds, plain_states
 from .support_values import StateValues
 from .turned import Turned, is_turned
@@ -76,8 +75,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
     kinds, values, state = plain_kinds(states), None, None
     if stands:
         state = result.steps[step]
-        contact, states, kinds, values = state.contact, state.state, kinds_of(result.beam, state), StateValues(scene, state)
-        cells = cells_of(result, step, cells_a_span(scene, result.beam))
+        contact, states, kinds, values = state.contact, state.state, kinds_of(result._beam, state), StateValues(scene, state)
+        cells = cells_of(result, step, cells_a_span(scene, result._beam))
         panels = [panel for panel in PANELS if panel[0] in cells.values]
     elif not result.motion:
         panels = []
@@ -88,13 +87,11 @@ def figure(result: "Result", step: int = -1) -> Figure:
     loads = LoadLanes(scene, supports.top, length, state.factor if stands else 1.0)
     text = _headline(result, step, kinds, contact) if stands else outcome(result)
     handles = legend_handles(kinds) * (not supports.rows) + zone_handles(contact, result.scene)
-    low = _meets(text, handles)  # the legend has a line of its own
-    heading = 0.6 + 0.19 * low + 0.15 * text.count("\n")
-    sheet = Sheet(scene, heading, supports.bottom, loads.top, len(panels))
+    sheet = Sheet(scene, heading_height(text, handles), supports.bottom, loads.top, len(panels))
     draw_ground(sheet.sketch, ground, contact)
     draw_beam(sheet.sketch, scene, states, supports)
     draw_loads(sheet.sketch, loads)
-    sheet.write_heading(text, handles, low)
+    sheet.write_heading(text, handles)
     for quantity, words, downward in panels:
         panel = sheet.panel(quantity, words, downward)
         if not stands:
@@ -102,9 +99,9 @@ def figure(result: "Result", step: int = -1) -> Figure:
             continue
         contacts = ()
         if quantity == "deflection":
-            contacts = draw_contacts(panel, scene, supports, float(np.abs(cells.values["deflection"]).max()))
+            contacts = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
             contacts += near_surface(scene, cells, length)
-        marks = draw_field(panel, scene, cells, quantity, result.extremes(step)[quantity], contacts)
+        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts)
         if quantity == "moment":
             peaks = find_peaks(*cells.along("moment"), scene.span_ends(), lambda x: result.at(x, step))
             for value, x in peaks[:MOST_MARKS]:
@@ -116,18 +113,12 @@ def figure(result: "Result", step: int = -1) -> Figure:
 def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tuple[Contact, ...]") -> str:
     """Say how many supports do what."""
     counted, factor = Counter(kinds), result.steps[step].factor
-    text = f"load factor {fmt.number(factor)}"
+    text = f"load factor {fmt.number(factor)}".replace("-", "\N{MINUS SIGN}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else kind for kind in SYMBOLS}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
     return text + (f", contact in {fmt.count(len(joined(contact)), 'zone')}" if contact else "")
-
-
-def _meets(text: str, handles: list[Line2D]) -> bool:
-    """Whether legend and text have no room side by side."""
-    entries = sum(4.6 * len(str(handle.get_label())) + 26.0 for handle in handles)
-    return bool(handles) and 4.7 * max(map(len, text.split("\n"))) + entries > (WIDTH - RIGHT - LEFT / 4) * 72
 
 
 def _motion(axes: Axes | Turned, result: "Result") -> None:

@@ -73,17 +73,19 @@ class Sheet:
         axes.set_axis_off()
         self.sketch.set_ylim(bottom, top)
 
-    def write_heading(self, text: str, handles: list[Line2D], low: bool, without: str = "Beam") -> None:
+    def write_heading(self, text: str, handles: list[Line2D], without: str = "Beam") -> None:
         """Write title and text, and the legend beside or under them."""
+        rows = legend_rows(text, handles)
         left = LEFT / self.width * 0.25
         self.picture.text(left, 1 - 0.22 / self.height, cut_text(fmt.title(self.scene, without), 95), fontsize=10,
                           fontweight="bold", va="center")  # fmt: skip
         self.picture.text(left, 1 - 0.34 / self.height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
         if handles:
-            under = 0.42 + 0.19 * (low + text.count("\n"))
+            under = 0.34 if not rows else 0.36 + 0.16 * (1 + text.count("\n"))
             self.picture.legend(
-                handles=handles, loc="center right", bbox_to_anchor=(1 - RIGHT / self.width, 1 - under / self.height),
-                ncols=len(handles), frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0, borderpad=0,
+                handles=handles, loc="upper right", bbox_to_anchor=(1 - RIGHT / self.width, 1 - under / self.height),
+                ncols=-(-len(handles) // max(rows, 1)), frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0,
+                borderpad=0,
             )  # fmt: skip
 
     def panel(self, quantity: str, words: str, downward: bool) -> Axes | Turned:
@@ -160,6 +162,26 @@ class Sheet:
         margin = self.end * ENDS / along(self.scene)
         axes.set_ylim(self.end + margin, -margin)
         return axes
+
+
+def legend_rows(text: str, handles: list[Line2D]) -> int:
+    """Count the rows of a legend under a text; 0 where it has room beside it."""
+    wide = [4.6 * len(str(handle.get_label())) + 26.0 for handle in handles]
+    page = (WIDTH - RIGHT - LEFT / 4) * 72
+    if 4.7 * max(map(len, text.split("\n"))) + sum(wide) <= page:
+        return 0
+    return -(-len(wide) // max(1, int(page / max(wide))))
+
+
+def heading_height(text: str, handles: list[Line2D]) -> float:
+    """Give the height of title, text and legend (inches)."""
+    return 0.6 + 0.15 * text.count("\n") + 0.17 * legend_rows(text, handles)
+
+
+def positive(scene: Scene, quantity: str) -> str:
+    """Say which way values are positive: deflections downward, reactions upward; of an upright beam to the right and left."""
+    lying, upright = {"deflection": ("downward", "to the right"), "reaction": ("upward", "to the left")}[quantity]
+    return f"{upright if is_upright(scene) else lying} positive"
 
 
 def is_upright(scene: Scene) -> bool:

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 #: State -> fill of its symbol; in this order in the legend
 FACES = {"closed": "black", "open": "white", "bilateral": "0.7", "one-sided": "0.88"}
-#: The same for the branches of a law of the ground; from the last on all are alike
-BRANCHES = ("black", "0.4", "0.6", "0.8")
+#: The same for the branches of a law of the ground, from dark to light; from the last on all are alike
+BRANCHES = ("black", "#5B2A86", "#B0306A", "#E8622C", "#F5A623", "#F7DC6F")
 #: Of what has no contact
 VERMILION = "#B84A00"
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MOST_LINES = 8
 """Lines that gaps and springs may take under the numbers of the supports."""
-ROWS, MOST_ROWS = 2, 5
+ROWS, MOST_ROWS = 3, 6
 """Rows that reactions take at most, and openings."""
 MOST_UNITS = 8
 """Places up to which every reaction has its unit beside it; else the unit stands at the left."""

@@ -44,14 +44,13 @@ class Turned:
 
     def plot(self, x: Any, y: Any, *style: str, **look: Any) -> list:
         """Draw a line."""
-        if isinstance(look.get("marker"), Path):
-            look["marker"] = turn_path(look["marker"])
+        if look.get("marker") is not None:
+            look["marker"] = _marker(look["marker"])
         return self.axes.plot(self.sign * np.asarray(y, dtype=float), x, *style, **look)
 
-    def scatter(self, x: Any, y: Any, marker: Any, **look: Any) -> Collection:
+    def scatter(self, x: Any, y: Any, marker: Any = "o", **look: Any) -> Collection:
         """Draw symbols."""
-        marker = {"|": "_", "_": "|"}.get(marker, marker) if isinstance(marker, str) else turn_path(marker)
-        return self.axes.scatter(self.sign * np.asarray(y, dtype=float), x, marker=marker, **look)
+        return self.axes.scatter(self.sign * np.asarray(y, dtype=float), x, marker=_marker(marker), **look)
 
     def fill_between(self, x: Any, first: Any, second: Any = 0.0, **look: Any) -> Collection:
         """Fill between two curves."""
@@ -117,9 +116,11 @@ class Turned:
         return np.asarray(points)[:, ::-1] * (self.sign, 1.0)
 
 
-def turn_path(path: Path) -> Path:
+def _marker(marker: str | Path) -> str | Path:
     """Turn a symbol with its beam."""
-    return Path(path.vertices @ MIRROR.T, path.codes)
+    if isinstance(marker, str):
+        return {"|": "_", "_": "|"}.get(marker, marker)
+    return Path(marker.vertices @ MIRROR.T, marker.codes)
 
 
 def is_turned(axes: Axes | Turned) -> bool:

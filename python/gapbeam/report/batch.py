@@ -1,5 +1,6 @@
 """Summaries of batches as text."""
 
+import io
 from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
@@ -45,6 +46,27 @@ def print_summary(summary: "Summary", console: "Console | None" = None) -> None:
     if above:
         say.heading("Cases above a limit")
         say.table_by_name(["", "limit", "cases", "share"], above)
+
+
+def summary_text(summary: "Summary", width: int = 80) -> str:
+    """Write the summary to a string without colours.
+
+    Parameters
+    ----------
+    summary : Summary
+        From `Batch.summary`.
+    width : int
+        Characters a line.
+
+    Returns
+    -------
+    str
+    """
+    from rich.console import Console
+
+    stream = io.StringIO()
+    print_summary(summary, Console(file=stream, width=width, highlight=False, color_system=None))
+    return stream.getvalue()
 
 
 def _first(summary: "Summary", status: str) -> str:

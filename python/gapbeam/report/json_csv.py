@@ -49,6 +49,21 @@ def to_json(result: "Result", points: int = 20) -> str:
     return "".join(json_parts(result, points))
 
 
+def data_as_json(data: Any) -> str:
+    """Write plain data as JSON in the same layout.
+
+    Parameters
+    ----------
+    data : object
+        Only numbers, strings, lists and dicts.
+
+    Returns
+    -------
+    str
+    """
+    return "".join(_layout(data, "")) + "\n"
+
+
 def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
     """Write what `to_json` writes, part by part, each step when its turn comes.
 

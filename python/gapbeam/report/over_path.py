@@ -48,9 +48,9 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
     if not has_cheap_envelope(result):
         say.heading(TITLE)
         say.line("Not looked for: the path has so many states that this takes long; --json has them, and "
-                 "result.history_extremes() in Python.")  # fmt: skip
+                 "result.history_extremes in Python.")  # fmt: skip
         return
-    found = result.history_extremes()
+    found = result.path_envelope()
     legs, beyond = len(scene.analysis.history) > 1, _beyond(found)
     rows = _rows(result, found, legs)
     last = None if result.combinations else found.sources[-1]

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..results import formatting as fmt
-from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, known_envelope
+from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
 from ..results.contact import short
 from ..results.envelopes.over_path import is_followed
 from ..results.equilibrium import balance_in_words
 from ..results.event_words import state_in_words
+from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import bound_in_words, write_combined
@@ -104,7 +105,7 @@ def report_text(result: "Result", width: int = 80, verbose: bool = False) -> str
 
 def _answer(say: "Writer", result: "Result") -> None:
     """The answer, before anything else."""
-    say.line(fmt.title(result.scene), "bold")
+    say.line(headline(result), "bold")
     rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
     rough += [limit.factor for limit in result.limits if not limit.exact and limit.factor not in rough]
     if rough:
@@ -112,7 +113,7 @@ def _answer(say: "Writer", result: "Result") -> None:
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     for words in answer(result):
-        say.line(words, "red" if words.startswith("Check:") else "")
+        say.line(words, "red" if words.startswith(SIGN) or " EXCEEDED: " in words else "")
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)), "red")
 
@@ -233,7 +234,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
     say.heading(f"Extremes {at}")
     rows = []
     bounds = result.steps[-1].certificate
-    for quantity, extreme in fmt.reported(result.extremes()).items():
+    for quantity, extreme in fmt.reported(result._pairs_of_extremes()).items():
         (largest, x_largest), (smallest, x_smallest) = extreme["max"], extreme["min"]
         largest, smallest = fmt.without_noise([largest, smallest], bounds.get(f"error_bound_{quantity}"))
         texts = [fmt.shown(scene, quantity, largest), fmt.number(x_largest, fmt.DIGITS)]

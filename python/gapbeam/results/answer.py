@@ -12,18 +12,20 @@ import numpy as np
 from ..base.characters import visible
 from ..scene.structs import Scene
 from . import formatting as fmt
-from .contact import NONE, contact_in_words, ground_in_words, lifted_supports, short, source_in_words
+from .contact import contact_in_words, ground_in_words, short, source_in_words
+from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .envelopes.tables import KINDS
 from .event_words import limits_of_load_in_words
-from .plausibility import doubts_of_scene
+from .plausibility import doubts_of_scene, doubts_of_signs
+from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
 
 if TYPE_CHECKING:
-    from .envelopes.envelope import Envelope, Extreme
+    from .envelopes.envelope import Envelope
     from .result import Result
     from .trains.envelope import TrainEnvelope
-    from .trains.members import TrainExtreme
+    from .views.extreme import Extreme
 
 MOST_LIMITS = 5
 """Limits of the load, and supports that yield or break, that are named."""
@@ -31,7 +33,6 @@ MOST_WORK = 2_000_000
 """States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds."""
 WIDTH = 56
 """Characters of two values that stand in one line."""
-MOVING = "free to move: forces are unique, its position is not"
 NOT_FOLLOWED = "the path has so many states that its largest values are looked for on request only"
 
 
@@ -50,7 +51,7 @@ def has_cheap_envelope(result: Result) -> bool:
     if not is_followed(result):
         return True
     ones = result.combinations.values() if result.combinations else [result]
-    return sum(count_states(one) for one in ones) * len(result.beam.places.pieces) <= MOST_WORK
+    return sum(count_states(one) for one in ones) * len(result._beam.places.pieces) <= MOST_WORK
 
 
 def known_envelope(result: Result) -> Envelope | TrainEnvelope | None:
@@ -68,14 +69,14 @@ def known_envelope(result: Result) -> Envelope | TrainEnvelope | None:
     """
     if result.has_envelope:
         return result.envelope() if not result.combinations or "solved" in result.statuses else None
-    return result.history_extremes() if not result.combinations and result.steps and is_followed(result) else None
+    return result.path_envelope() if not result.combinations and result.steps and is_followed(result) else None
 
 
-def _place(scene: Scene, one: Extreme | TrainExtreme | Utilisation) -> str:
+def _place(scene: Scene, one: Extreme | Utilisation) -> str:
     return f"x = {fmt.number(one.x, fmt.DIGITS)}" if one.support is None else fmt.support(scene, one.support)
 
 
-def _one(result: Result, name: str, one: Extreme | TrainExtreme, factor: bool) -> str:
+def _one(result: Result, name: str, one: Extreme, factor: bool) -> str:
     scene = result.scene
     source = source_in_words(one, scene, factor)
     value = short(scene, name, one.value)
@@ -102,8 +103,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     last = result.steps[-1].factor if result.steps else None
     lines = []
 
-    def said(one: Extreme | TrainExtreme) -> bool:
-        return getattr(one, "factor", None) not in (None, last)
+    def said(one: Extreme) -> bool:
+        return one.factor not in (None, last)
 
     sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
     if np.isfinite(sizes).any():
@@ -113,6 +114,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     for name in ("moment", "shear", "deflection", *(["pressure"] if "pressure" in envelope.extremes else [])):
         both = [envelope.extremes[name][kind] for kind in KINDS]
         both = [one for one in both if one is not None]
+        if not both:
+            continue  # where the beam can move freely its deflections are not unique
         largest = max((abs(one.value) for one in both), default=0.0)
         both = [one for one in both if abs(one.value) > NONE * largest] or both[:1]
         texts = [_one(result, name, one, said(one)) for one in both]
@@ -141,8 +144,26 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
         quantity = "stress" if name == "pressure" else name
         value, limit = (short(scene, quantity, abs(number)) for number in (one.value, one.limit))
         mark = "EXCEEDED" if one.ratio > 1.0 else "within"
-        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {_place(scene, one)}")
+        of = ", ".join(visible(str(one.source[key])) for key in ("combination", "train") if key in one.source)
+        where = f"{_place(scene, one)}{f' ({of})' if of else ''}"
+        lines.append(f"{f'Limit of {name}':<20}{one.ratio:.0%} used, {mark}: {value} of {limit} at {where}")
     return lines
+
+
+def headline(result: Result) -> str:
+    """Give the first line: the title, and that the beam is free to move where it is.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+
+    Returns
+    -------
+    str
+    """
+    title = fmt.title(result.scene)
+    return f"{title}: {MOVING}" if result._is_neutral else title
 
 
 def outcome_in_words(result: Result) -> list[str]:
@@ -164,8 +185,6 @@ def outcome_in_words(result: Result) -> list[str]:
     elif result.status != "solved" and not result.limits:
         title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
         lines.append(f"{title}. {fmt.sentence(visible(result.reason))}")
-    if any(step.indifferent for step in result.steps[-1:]):
-        lines.append(f"Solved, but {MOVING}.")
     return lines
 
 
@@ -189,7 +208,7 @@ def answer(result: Result) -> list[str]:
     if not cheap:
         return [*lines, f"{NOT_FOLLOWED[0].upper()}{NOT_FOLLOWED[1:]}."]
     if envelope is None or not envelope.extremes:
-        return lines
+        return lines + doubts_of_signs(result)
     if not result.has_envelope:
         lines.append("Up to there:")
     lines += contact_in_words(result, lifted_supports(result, envelope))

@@ -2,92 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ..base.characters import visible
-from ..scene.names import label
+from ..scene.names import column_of, label
 from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
+from .envelopes.lifted import Lifted
 from .envelopes.over_path import is_followed
 from .event_words import share_in_words
 from .state.ground import TOUCHING, joined
 
 if TYPE_CHECKING:
-    from .envelopes.envelope import Envelope
     from .result import Result
-    from .trains.envelope import TrainEnvelope
+    from .views.extreme import Extreme
 
 MOST_NAMED = 8
 """Supports without contact that are told one by one."""
-NONE = 1e-10
-"""Openings below this share of the largest deflection are said to be none."""
 SAME = 1.0 + 1e-9
 """Share of a gap up to which an opening is that gap."""
-
-
-class Lifted(NamedTuple):
-    """A one-sided support without contact, where its opening is largest.
-
-    Attributes
-    ----------
-    support : int
-        Its number in the scene.
-    opening : float
-        Distance of the beam from its seat, the gap included.
-    factor : float or None
-        Load factor; None in a combination at full load and while trains pass.
-    combination, train : str or None
-        Names of the combination, and of the train.
-    position : float or None
-        Of the train.
-    """
-
-    support: int
-    opening: float
-    factor: float | None = None
-    combination: str | None = None
-    train: str | None = None
-    position: float | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        return {key: value for key, value in self._asdict().items() if value is not None}
-
-
-def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[Lifted]:
-    """Find the supports that are without contact somewhere on the way of the load, in a combination or while trains pass.
-
-    Parameters
-    ----------
-    result : Result
-        Of one load or of combinations.
-    envelope : Envelope or TrainEnvelope
-        Its `Result.envelope`.
-
-    Returns
-    -------
-    list of Lifted
-        In the order of the supports.
-    """
-    deflection = envelope.extremes["deflection"]
-    largest = max((abs(one.value) for one in deflection.values() if one is not None), default=0.0)
-    found = []
-    for k in np.flatnonzero(envelope.supports.values("opening", "max") > NONE * largest).tolist():
-        one = envelope.supports[k]["opening"]["max"]
-        train, factor = getattr(one, "train", None), getattr(one, "factor", None)
-        if factor is None and train is None and one.combination is None and result.steps:
-            factor = result.steps[-1].factor
-        found.append(Lifted(k, one.value, factor, one.combination, train, getattr(one, "position", None)))
-    return found
 
 
 def short(scene: Scene, quantity: str, value: float) -> str:
@@ -116,12 +50,12 @@ def short(scene: Scene, quantity: str, value: float) -> str:
     return f"{fmt.shown(scene, quantity, value)} {fmt.shown_unit(scene, quantity)[0]}".rstrip()
 
 
-def source_in_words(one: Any, scene: Scene, factor: bool = True) -> str:
+def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) -> str:
     """Say where a value comes from: combination, train and its position, load factor.
 
     Parameters
     ----------
-    one : Lifted, Extreme or TrainExtreme
+    one : Lifted or Extreme
         Has some of ``combination``, ``train``, ``position``, ``factor``, ``leg``.
     scene : Scene
         Knows the history of its load.
@@ -134,12 +68,12 @@ def source_in_words(one: Any, scene: Scene, factor: bool = True) -> str:
         Empty where there is nothing to say.
     """
     words = [] if one.combination is None else [visible(one.combination)]
-    train = getattr(one, "train", None)
+    train = one.train
     if train is not None:
         direction = " going left" if getattr(one, "direction", None) == LEFT else ""
         at = "" if one.position is None else f" at {fmt.number(one.position, fmt.DIGITS)}"
         words.append(f"{visible(train)}{at}{direction}")
-    at = getattr(one, "factor", None)
+    at = one.factor
     if factor and at is not None:
         leg = getattr(one, "leg", None)
         on_leg = f" of leg {leg}" if leg and len(scene.analysis.history) > 1 else ""
@@ -163,14 +97,14 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         Sentences; none where no support is one-sided.
     """
     supports = result.scene.supports
-    one_sided = {k for k, support in enumerate(supports) if support.side != "both"}
+    one_sided = {k for k, side in enumerate(column_of(supports, "side")) if side != "both"}
     if not one_sided:
         return []
     broken = {event.support for event in result.events if event.event == "breaks"} if not result.combinations else set()
     lost = len((broken & one_sided) - {one.support for one in lifted})
+    x, lines = result.scene.positions(supports), _closed_gaps(result, {one.support for one in lifted})
     if not lifted and not lost:
-        return ["No support lifts off." if len(one_sided) > 1 else "The support that can lift off does not."]
-    x, lines = result.scene.positions(supports), []
+        return [*lines, "No support lifts off." if len(one_sided) > 1 or lines else "The support that can lift off does not."]
     largest = sorted(lifted, key=lambda one: -one.opening)
     for one in sorted(largest[:MOST_NAMED]):
         name = fmt.support(result.scene, one.support)
@@ -184,6 +118,22 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         lines.append(f"The other {left:,} one-sided supports stay in contact." if left > 1
                      else "The other one-sided support stays in contact.")  # fmt: skip
     return lines
+
+
+def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
+    """Say which supports with a gap are reached, where the load is not followed and nothing else tells it."""
+    scene = result.scene
+    if result.combinations or scene.trains or is_followed(result) or not result.steps:
+        return []
+    gaps, states = column_of(scene.supports, "gap"), result.steps[-1].state
+    closed = [k for k, gap in enumerate(gaps) if gap and gap > 0.0 and states[k] != "open" and k not in lifted]
+    if len(closed) > MOST_NAMED:
+        return [f"{len(closed):,} supports close their gaps."]
+    x = scene.positions(scene.supports)
+    return [
+        f"Support {label(scene.supports, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) closes its gap of {short(scene, 'gap', gaps[k])}."
+        for k in closed
+    ]
 
 
 def _how_far(result: Result, one: Lifted) -> str:

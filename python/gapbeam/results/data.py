@@ -54,7 +54,7 @@ def result_data(
         "title": scene.title,
         "units": {"force": scene.units.force, "length": scene.units.length},
         "status": result.status,
-        "system": result.system.asdict(),
+        "system": result.system.to_dict(),
         "steps": steps(step_data(result)),
     }
     if result.status != "solved":
@@ -71,10 +71,10 @@ def result_data(
         data |= limits_data(result)
         data["fields"] = columns
         data["extremes"] = {
-            name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()
+            name: {which: list(pair) for which, pair in row.items()} for name, row in result._pairs_of_extremes().items()
         }
     if is_followed(result):
-        data["history_extremes"] = result.history_extremes().to_history()
+        data["history_extremes"] = result.path_envelope().to_history()
     if scene.trains:
         data |= {} if result.without_trains is None else {"without_trains": result.without_trains}
         data |= trains_data(result)

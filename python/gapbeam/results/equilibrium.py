@@ -60,25 +60,43 @@ def sum_of_loads(scene: Scene, factor: float) -> Sums:
     >>> sum_of_loads(scene, 2.0)
     Sums(force=22.0, moment=68.0, axial=0.0)
     """
-    forces, moments, axial = [], [], []
+    found = resultants_of_loads(scene, factor)
+    return Sums(*(_sum([getattr(one, name) for one in found]) for name in Sums._fields))
+
+
+def resultants_of_loads(scene: Scene, factor: float) -> list[Sums]:
+    """Give the resultant of every load of a scene.
+
+    Parameters
+    ----------
+    scene, factor
+        As for `sum_of_loads`.
+
+    Returns
+    -------
+    list of Sums
+        In the order of the loads; of imposed curvature zeros.
+    """
+    found = []
     end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if not hasattr(one, "from_")])
     places = iter(np.asarray(x, dtype=float).tolist())
     for load in scene.loads:
         share = 1.0 if load.case == DEAD else factor
         at = 0.0 if hasattr(load, "from_") else next(places)
+        force = moment = axial = 0.0
         if isinstance(load, ForceLoad):
-            forces.append(share * load.F)
-            moments.append(share * load.F * at)
+            force, moment = share * load.F, share * load.F * at
         elif isinstance(load, MomentLoad):
-            moments.append(share * load.M)
+            moment = share * load.M
         elif isinstance(load, AxialLoad):
-            axial.append(share * load.F)
+            axial = share * load.F
         elif isinstance(load, UniformLoad | LinearLoad):
             first, last = (load.q, load.q) if isinstance(load, UniformLoad) else load.q
             length = (end if load.to is None else load.to) - load.from_
-            forces.append(share * 0.5 * (first + last) * length)
-            moments.append(share * length * (0.5 * (first + last) * load.from_ + length * (first + 2.0 * last) / 6.0))
-    return Sums(_sum(forces), _sum(moments), _sum(axial))
+            force = share * 0.5 * (first + last) * length
+            moment = share * length * (0.5 * (first + last) * load.from_ + length * (first + 2.0 * last) / 6.0)
+        found.append(Sums(force, moment, axial))
+    return found
 
 
 def sum_of_reactions(scene: Scene, step: Step) -> Sums:

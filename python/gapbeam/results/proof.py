@@ -111,7 +111,7 @@ def _at_factor(scene: Scene, factor: float) -> Scene:
 
 
 def _on_path(result: Result, factor: float) -> Step | None:
-    """The state at a factor, where it depends on the way of the load."""
+    """The state at a factor, where it depends on the loading history."""
     if result.status == "no-equilibrium":
         return None
     try:

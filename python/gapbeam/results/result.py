@@ -9,13 +9,12 @@ from typing import Any
 from ..base.hints import Named
 from ..engine.beam import Beam
 from ..scene.structs import Scene
-from . import formatting as fmt
-from .answer import answer, known_envelope
-from .contact import Lifted, lifted_supports
+from .answer import known_envelope
 from .data import result_data
 from .envelopes.envelope import Envelope
 from .envelopes.full_load import envelope_of_one
 from .envelopes.hints import Hint, find_hints
+from .envelopes.lifted import Lifted, lifted_supports
 from .envelopes.over_path import PathEnvelope, is_followed
 from .state.arguments import whole
 from .state.fields import Fields
@@ -25,12 +24,13 @@ from .trains.members import Member
 from .trains.trains import Trains
 from .utilisation import Utilisation, find_utilisations
 from .verbs import Verbs
+from .views.extreme import Extremes
 
 
 class Result(Verbs):
     """All load steps of a scene.
 
-    It can be pickled, for other processes, and goes on from there with the same digits; all its arrays are read-only. Two
+    It can be pickled, for other processes, and continues there with the same digits; all its arrays are read-only. Two
     results are equal if scene, outcome and events are, and all steps to the last digit; how long it took does not count.
 
     Attributes
@@ -41,7 +41,8 @@ class Result(Verbs):
         ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end. Of a
         combination also ``indeterminate``, ``not-converged``, ``not-finite``: it has no unique answer.
     reason : str or None
-        Why there is no equilibrium or no unique answer, or which limit there is.
+        Why there is no equilibrium or no unique answer, or which limit there is; of a beam that is solved, but free to move
+        without work of the loads, that it is.
     motion : list of (float, float) or None
         The free motion then: x and displacement (positive downward, largest 1), straight lines between.
     steps : sequence of Step
@@ -50,10 +51,10 @@ class Result(Verbs):
     path : Path, BranchPath, GroundPath or None
         Following events, the schemes along the load; with supports whose state depends on it always.
     without_trains : str or None
-        Why the beam cannot stand while no train is on it, which is not in the envelope and does not count for `status`; None
+        Why the beam is unstable while no train is on it, which is not in the envelope and does not count for `status`; None
         where it can, and in scenes without trains.
     has_answer : bool
-        Whether there is a unique answer, be it that the beam cannot stand.
+        Whether there is a unique answer, be it that the beam is unstable.
     compression : Compression or None
         The largest axial compression beside the Euler load in all steps, and while trains pass: what its effect on bending is,
         is left out. None where nothing is compressed.
@@ -61,7 +62,7 @@ class Result(Verbs):
         What else is to be known: compression that comes near the Euler load.
     """
 
-    def another(self, scene: Scene, beam: Beam, rule: str) -> Result:
+    def _another(self, scene: Scene, beam: Beam, rule: str) -> Result:
         """Begin the result of another scene, as that of a train at one position.
 
         Parameters
@@ -85,9 +86,9 @@ class Result(Verbs):
         """Trains by name; followed over the beam when something is asked of them."""
         return Trains(self)
 
-    def take_trains(self) -> None:
+    def _take_trains(self) -> None:
         """Take the outcome from the positions of the trains; what the beam does without them is no part of the envelope."""
-        self.without_trains = self.reason
+        self.without_trains = self._reason
         lost = lost_positions(self.trains)
         self.status, self.reason = lost or ("solved", None)
 
@@ -127,14 +128,19 @@ class Result(Verbs):
         ValueError
             The beam is not solved, or a place is outside the beam.
         """
-        places = places_given(self.beam, x)
+        places = places_given(self._beam, x)
         if self.scene.trains:
-            return TrainEnvelope(self, list(self.members()), places, whole("points", points, least=1))
+            return TrainEnvelope(self, list(self._members()), places, whole("points", points, least=1))
         if is_followed(self):
-            return self.history_extremes(points, x=x)
+            return self.path_envelope(points, x=x)
         return envelope_of_one(self, points, places)
 
-    def history_extremes(self, points: int = 20, *, x: Any = None) -> PathEnvelope:
+    @property
+    def history_extremes(self) -> Extremes:
+        """Largest and smallest fields over the whole way of the load, by field, then by ``max`` and ``min``."""
+        return Extremes(lambda: self.path_envelope().extremes, self.path_envelope, "result.history_extremes, or path_envelope()")
+
+    def path_envelope(self, points: int = 20, *, x: Any = None) -> PathEnvelope:
         """Largest and smallest values over the whole way of the load, without trains; with combinations over the ways of all.
 
         Parameters
@@ -152,7 +158,7 @@ class Result(Verbs):
         ValueError
             The load is not followed, no state stands, or a place is outside the beam.
         """
-        points, places = whole("points", points, least=1), places_given(self.beam, x)
+        points, places = whole("points", points, least=1), places_given(self._beam, x)
         if not is_followed(self):
             raise ValueError('the load is not followed; give load steps, a history or follow = "events"')
         if x is not None or points != 20:
@@ -167,7 +173,7 @@ class Result(Verbs):
         """Pickle without what is found again when it is asked for."""
         return {key: value for key, value in self.__dict__.items() if key != "_over_path"}
 
-    def members(self) -> Iterator[Member]:
+    def _members(self) -> Iterator[Member]:
         """Go through what an envelope with trains is made of.
 
         Yields
@@ -175,7 +181,7 @@ class Result(Verbs):
         Member
             Every train in every direction.
         """
-        yield from self.trains.members()
+        yield from self.trains._members()
 
     @property
     def lifted(self) -> list[Lifted]:
@@ -189,10 +195,6 @@ class Result(Verbs):
         envelope = known_envelope(self) if self.scene.limits is not None else None
         return find_utilisations(self, envelope) if envelope is not None else {}
 
-    def __repr__(self) -> str:
-        """Show the answer: outcome, what has no contact, the largest values."""
-        return "\n".join([fmt.title(self.scene), *answer(self)])
-
     def hints(self) -> list[Hint]:
         """Where a load factor between 0 (the dead loads alone) and 1 governs: extremes that are greater there than at both ends.
 
@@ -200,7 +202,7 @@ class Result(Verbs):
         -------
         list of Hint
             The load is followed from event to event, so that nothing is missed between. None for beams on foundations or with
-            smooth laws, and where the state depends on the way of the load.
+            smooth laws, and where the state depends on the loading history.
         """
         return find_hints(self)
 

@@ -52,9 +52,6 @@ class Utilisation(NamedTuple):
         return {"value": self.value, "limit": self.limit, "ratio": self.ratio, "x": self.x, **support, **self.source}
 
 
-SOURCE = ("combination", "train", "position", "direction", "factor", "leg")
-
-
 def find_utilisations(result: Result, envelope: Envelope | TrainEnvelope) -> dict[str, Utilisation]:
     """Set the largest values beside the limits of the scene.
 
@@ -84,7 +81,7 @@ def find_utilisations(result: Result, envelope: Envelope | TrainEnvelope) -> dic
             continue
         most = max(ones, key=lambda one: abs(one.value))
         value = most.value / scene.beam.width if name == "pressure" else most.value
-        source = {key: of for key in SOURCE if (of := getattr(most, key, None)) is not None}
+        source = most.source._replace(side=None).to_dict()
         place = most.x if most.support is None else float(x[most.support])
         found[name] = Utilisation(name, value, limit, place, most.support, source)
     return found

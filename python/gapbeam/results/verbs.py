@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
-from ..base.hints import Named
 from ..scene.names import labels
+from .envelopes.tables import event_columns
 from .state.fields import Fields
 from .state.states import States
 from .views.columns import Columns, one_of
+from .views.extreme import Extreme, Extremes
 from .views.labelled import Labelled, by_support
 from .views.shown import Shown
 
@@ -23,14 +22,21 @@ TABLES = ("supports", "fields", "combinations", "events")
 """The tables of a result."""
 OF_STEP = ("reaction", "deflection", "opening", "couple")
 """What a table tells of every support in one state."""
-SYMBOLS = {"m": "moment", "v": "shear", "q": "shear", "w": "deflection", "n": "axial_force", "displacement": "deflection",
-           "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure",
-           "kappa": "curvature"}  # fmt: skip
-"""Fields by the symbols of others."""
 
 
 class Verbs(Shown, States):
     """What is asked of every result in the same words."""
+
+    renamed: ClassVar = {
+        "beam": "_beam", "rule": "_rule", "members": "_members", "places_along": "_places_along", "another": "_another",
+        "refuse": "_refuse", "refuse_answer": "_refuse_answer", "refuse_limit": "_refuse_limit", "take_trains": "_take_trains",
+        "fields_there": "_fields_there",
+    }  # fmt: skip
+
+    @property
+    def _kinds(self) -> tuple[str, ...]:
+        """Tables that there are."""
+        return ("supports", "fields", *["combinations"] * bool(self.combinations), "events")
 
     @property
     def reactions(self) -> Labelled:
@@ -50,7 +56,7 @@ class Verbs(Shown, States):
         """States of the supports at the end of the load, ``closed``, ``open`` or ``bilateral``, of a law ``branch 1`` and so on.
 
         By number and name of the support; with combinations by combination, then by support. While trains pass states change:
-        ask for those at a position, ``result.trains[name].at(position).state``.
+        ask for those at a position, ``result.trains[name].state(position).state``.
         """
         return by_support(self.scene, "state", self._chosen(None).state)
 
@@ -62,6 +68,7 @@ class Verbs(Shown, States):
     def at(
         self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None, *, leg: int | None = None,
         position: float | None = None, train: str | None = None, direction: str = "right", combination: str | int | None = None,
+        case: int | None = None,
     ) -> Fields:  # fmt: skip
         """Exact values anywhere along the beam.
 
@@ -85,6 +92,8 @@ class Verbs(Shown, States):
             Which way it goes.
         combination : str or int, optional
             Name or number of a combination.
+        case : int, optional
+            Of prepared cases only (`Cases.at`): a result has none.
 
         Returns
         -------
@@ -111,13 +120,15 @@ class Verbs(Shown, States):
         >>> float(result.at(2.0, position=2.0).moment)
         8.0
         """
+        if case is not None:
+            raise ValueError("case: a result has no cases; prepared ones have, gapbeam.prepare(scene).solve([...]).at(x, case=0)")
         if combination is not None:
             one = self.combinations[combination]
             return one.at(x, step, side, factor, leg=leg, position=position, train=train, direction=direction)
         if position is not None:
             if (step, factor, leg) != (None, None, None):
                 raise ValueError("position: trains pass at full load; leave step, factor and leg out")
-            return self._train(train).at(position, direction).fields(x, side)
+            return self._train(train).state(position, direction).fields(x, side)
         if train is not None:
             raise ValueError("train: give its position too, as position = 0.0")
         if leg is None:
@@ -132,11 +143,21 @@ class Verbs(Shown, States):
             raise ValueError(f"train: give one of the {len(trains)} trains" if trains else "position: the scene has no trains")
         return trains[next(iter(trains)) if name is None else name]
 
-    def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
-        """Exact largest and smallest values of every field with their places, as `States.extremes`."""
-        return Named("field", super().extremes(step), SYMBOLS)
+    @property
+    def extremes(self) -> Extremes:
+        """Exact largest and smallest values of every field at the end of the load, with trains over all positions.
 
-    extremes.__doc__ = States.extremes.__doc__
+        By field, then by ``max`` and ``min``: each an `Extreme` with ``value``, ``x``, ``source`` and ``concurrent``. Those of a
+        step has ``result.steps[k].extremes``, those of the way of the load `history_extremes`.
+        """
+        at_end = super().extremes
+        if not self.scene.trains:
+            return at_end
+        return Extremes(self._extremes_with_trains, at_end._call, at_end._instead)
+
+    def _extremes_with_trains(self) -> dict[str, dict[str, Extreme]]:
+        along = dict(self._chosen(None).extremes) if self.stands else {}  # forces along the beam do not meet trains
+        return {**along, **self.envelope().extremes}
 
     def table(self, kind: str = "supports", points: int = 20) -> Columns:
         """Give a table.
@@ -213,8 +234,7 @@ def table_of(result: Result, kind: str, points: int = 20) -> dict[str, Any]:
 
 def _events(result: Result) -> dict[str, Any]:
     """Events of the load, or of trains; with combinations those of all."""
-    scene, rows = result.scene, []
-    of_trains = bool(scene.trains)
+    of_trains = bool(result.scene.trains)
 
     def found(one: Result) -> Iterator[tuple[str | None, Any]]:
         if not of_trains:
@@ -224,14 +244,4 @@ def _events(result: Result) -> dict[str, Any]:
 
     ones = result.combinations.items() if result.combinations else [(None, result)]
     rows = [(name, train, event) for name, one in ones if one.has_answer for train, event in found(one)]
-    names = {"support": labels(scene.supports), "foundation": labels(scene.foundation)}
-    table: dict[str, Any] = {"combination": [name for name, _, _ in rows]} if result.combinations else {}
-    if of_trains:
-        table |= {"train": [train for _, train, _ in rows], "direction": [event.direction for *_, event in rows]}
-    where = "position" if of_trains else "factor"
-    table[where] = np.array([getattr(event, where) for *_, event in rows], dtype=float)
-    for kind, known in names.items():
-        if kind == "support" or scene.foundation:
-            which = [getattr(event, kind, None) for *_, event in rows]
-            table[kind] = [None if k is None else known[k] for k in which]
-    return table | {"x": np.array([event.x for *_, event in rows], dtype=float), "event": [event.event for *_, event in rows]}
+    return event_columns(result.scene, rows, of_trains, bool(result.combinations))

@@ -16,6 +16,7 @@ from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth, law_points
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from .structs import Scene
+from .table import kind_of
 from .tables import Table
 from .wording import number, shown
 
@@ -193,7 +194,10 @@ def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 def _groups(items: Sequence[Any]) -> dict[type, Any]:
     """Index of the loads of every type."""
     types = [items.struct] if isinstance(items, Table) else list(map(type, items))
-    if len(found := set(types)) < 2:
+    if not (found := set(types)) <= KINDS.keys():  # some belong to a result
+        types = list(map(kind_of, items))
+        found = set(types)
+    if len(found) < 2:
         return dict.fromkeys(found, slice(None))
     numbers = {one: k for k, one in enumerate(KINDS) if one in found}
     of = np.fromiter(map(numbers.__getitem__, types), np.int8, len(types))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import suppress
 from typing import Any
 
 from ..base.errors import SceneError
@@ -37,7 +38,10 @@ def lines_of_keys(text: str) -> dict[Path, int]:
     >>> lines["beam", "spans", 1], lines["supports", 1], lines["supports", 1, "law", "type"]
     (3, 6, 7)
     """
-    return _Scanner(text).lines
+    scanner = _Scanner(text)
+    with suppress(RecursionError, ValueError):  # rather no line than no message
+        scanner.scan()
+    return scanner.lines
 
 
 class _Scanner:
@@ -45,19 +49,22 @@ class _Scanner:
         self.text, self.at, self.line, self.counted = text, 0, 1, 0
         self.lines: dict[Path, int] = {(): 1}
         self.entries: dict[Path, int] = {}
+
+    def scan(self) -> None:
+        """Go through the text once."""
         self._skip()
-        if text.startswith("{", self.at):
+        if self.text.startswith("{", self.at):
             self._value(())
             return
         table: Path = ()
-        while self.at < len(text):
+        while self.at < len(self.text):
             before = self.at
-            if header := HEADER.match(text, self.at):
+            if header := HEADER.match(self.text, self.at):
                 table = self._header(header[0])
             else:
                 self._pair(table)
             self._skip()
-            if self.at == before:  # nothing that is known: rather no line than no message
+            if self.at == before:  # nothing that is known
                 return
 
     def _skip(self) -> None:
@@ -74,7 +81,7 @@ class _Scanner:
         parts: list[str] = []
         while found := KEY.match(self.text, self.at):
             word = found[0]
-            parts.append(json.loads(word) if word[0] == '"' and "\\U" not in word else word.strip("\"'"))
+            parts.append(json.loads(word, strict=False) if word[0] == '"' and "\\U" not in word else word.strip("\"'"))
             self.at = found.end()
             self._spaces()
             if not self.text.startswith(".", self.at):

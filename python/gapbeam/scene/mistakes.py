@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from copy import deepcopy
+from time import perf_counter
 from typing import Any
 
 from ..base.errors import GapbeamError, SceneError, SceneFileError
 from .files import Written
 from .lines import Path, line_of, lines_of_keys, path_of
+from .wording import shown
 
-MOST = 20
-"""Mistakes that are told at once."""
+MOST, LONGEST = 20, 2.0
+"""Mistakes that are told at once; seconds after which no more are looked for."""
 NUMBERS = ("EI", "GA", "EA", "width")
 """Keys of the beam that any number above 0 puts right."""
 HARMLESS: dict[str, Callable[[float, int, int], dict[str, Any]]] = {
@@ -48,8 +50,9 @@ def all_mistakes(written: Written, first: SceneError, check: Callable[[dict[str,
     """
     data, found, error = deepcopy(dict(written)), [first], first
     repair = _Repair(data)
+    begin = perf_counter()
     for _ in range(2 * MOST):
-        if len(found) == MOST or not repair(error):
+        if len(found) == MOST or perf_counter() - begin > LONGEST or not repair(error):
             break
         try:
             check(data)
@@ -86,9 +89,19 @@ class _Repair:
         path, problem = path_of(error.place, self._data), error.problem
         if path in self._done or (("is missing" in problem or len(path) == 2) and path[:2] in {done[:2] for done in self._done}):
             return True
+        if any(name in problem for name in self._changed()):
+            return True
         if "nothing holds the beam" in problem:
             return any(done[0] == "supports" for done in self._done)
         return any(words in problem and self._has_lost(key, part) for words, (key, part) in REFERENCES.items())
+
+    def _changed(self) -> Iterator[str]:
+        """Entries that are not as they were, as messages name them."""
+        for key, k in {done[:2] for done in self._done if len(done) > 1 and isinstance(done[1], int)}:
+            yield f"{key}[{k}]"
+            entry = self._data[key][k]
+            if isinstance(entry, dict) and isinstance(entry.get("name"), str):
+                yield f"{key} {shown(entry['name'])}"
 
     def _has_lost(self, key: str, part: str) -> bool:
         """Whether names or cases of a list are not all there any more."""

@@ -34,7 +34,7 @@ def names_of(items: Sequence[Any]) -> list[str | None]:
     -------
     list of (str or None)
     """
-    return _column(items, "name")
+    return column_of(items, "name")
 
 
 def cases_of(items: Sequence[Any]) -> list[str]:
@@ -50,10 +50,23 @@ def cases_of(items: Sequence[Any]) -> list[str]:
     list of str
         One for every load.
     """
-    return _column(items, "case")
+    return column_of(items, "case")
 
 
-def _column(items: Sequence[Any], key: str) -> list[Any]:
+def column_of(items: Sequence[Any], key: str) -> list[Any]:
+    """Give one attribute of all entries, without making an object of each where they are columns.
+
+    Parameters
+    ----------
+    items : sequence
+        A list of a scene.
+    key : str
+        The attribute.
+
+    Returns
+    -------
+    list
+    """
     if not isinstance(items, Table):
         return list(map(attrgetter(key), items))
     column = items.column(key)

@@ -13,6 +13,7 @@ from ..base.errors import SceneError
 from .columns import KINDS, SIDES
 from .ground_laws import PowerGround, varies
 from .structs import Scene
+from .table import kind_of
 from .wording import number, shown
 
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
@@ -70,7 +71,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
         return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
     if reason == NO_PLACE:
-        return SceneError(path, "its place is missing; give node or x")
+        return SceneError(path, "its position is missing; give node or x")
     if reason == NO_STRETCH:
         stretch = f"from = {number(item.from_)} to = {number(end if item.to is None else item.to)}"
         return SceneError(path, f"the stretch {stretch} has no length; from must be less than to")
@@ -81,8 +82,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial"',
-        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is open which "
-        "side takes it; put it on one side of the hinge",
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
+        "which side takes it; put it on one side of the hinge",
     }
     return SceneError(path, words[reason]())
 
@@ -127,7 +128,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
     if table == HINGES:
         return SceneError(path, "expected a number, got nan")
     if table == LOADS and key in ("value", "value_to"):
-        key = KINDS[type(item)][1]
+        key = KINDS[kind_of(item)][1]
     value = getattr(item, "from_" if key == "from" else key)
     expected = EXPECTED.get(key, "a finite number")
     if table == SECTIONS:
@@ -146,7 +147,7 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
     if reason == NO_GAP:
         return SceneError(f"{path}.gap", 'only a support with side = "below" or "above" has a gap')
     if reason == AT_HINGE:
-        problem = "there is a hinge here, so it is open which side is held; move one aside"
+        problem = "there is a hinge here, so it is unclear which side is held; move one aside"
         return SceneError(f"{path}.rotation", problem)
     x = number(scene.positions([item])[0])
     if reason == TWICE and key == "law":

@@ -133,7 +133,7 @@ class Support(Point, kw_only=True, gc=False):
         Normal (default) is across the beam; axial holds it horizontally, only with axial loads.
     law : list of (float, float) or table, optional
         Instead of stiffness: points of a curve, displacement past the gap and force (length, force), from (0, 0) on, which is
-        left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope goes on. With side
+        left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope continues. With side
         both the curve is mirrored, and may have a gap. Or a table with a type, the name of a curve.
     unloading : {"elastic", "plastic", "broken"}
         Of a support with a curve: elastic (default) goes back along it. Plastic goes back parallel to its first segment and
@@ -169,7 +169,7 @@ class Foundation(Stretch, kw_only=True, gc=False):
         columns.
     law : list of (float, float) or table, optional
         Instead of k: points of a curve, displacement past the gap and force per length (length, force/length), from (0, 0) on,
-        which is left out. The force never falls, and no displacement stands there twice. The last slope goes on. With side both
+        which is left out. The force never falls, and no displacement stands there twice. The last slope continues. With side both
         the curve is mirrored. Or tables with x and points, as many at every position, linear in between. Or a table with a type,
         the name of a curve, whose parameters are numbers per length, (at from, at to), or points (x, value), linear in
         between: curves are solved to all digits.

@@ -46,13 +46,20 @@ def _problem(cls: type[Struct], args: tuple, keys: dict[str, Any]) -> str | None
     return None
 
 
+def kind_of(table: Struct) -> type[Struct]:
+    """Give the type of a table, the same for one that cannot be changed (`held`)."""
+    return getattr(type(table), "changeable", type(table))
+
+
 class Table(Struct, metaclass=_Hinting):
     """A table of a scene."""
 
     def __eq__(self, other: object) -> bool:
         """Whether all keys have equal values, with numpy numbers and arrays for numbers and lists."""
         if type(other) is not type(self):
-            return NotImplemented
+            if not isinstance(other, Table) or kind_of(other) is not kind_of(self):
+                return NotImplemented
+            return all(getattr(self, name) == getattr(other, name) for name in self.__struct_fields__)
         try:
             return bool(super().__eq__(other))
         except ValueError:  # numpy compares arrays element by element

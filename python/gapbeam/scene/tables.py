@@ -12,6 +12,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
+from .held import hold
 from .loads import Load
 from .structs import Foundation, Scene, Section, Support
 from .wording import choice
@@ -53,7 +54,8 @@ class Table(Sequence):
         if isinstance(index, slice):
             return [self[k] for k in range(self._count)[index]]
         k = range(self._count)[index]
-        return self.struct(**{key: _plain(value[k]) if _is_array(value) else value for key, value in self._columns.items()})
+        row = self.struct(**{key: _plain(value[k]) if _is_array(value) else value for key, value in self._columns.items()})
+        return hold(row)  # it is made anew each time, so a change would be lost
 
     def __iter__(self) -> Iterator[Any]:
         """Go through the rows."""
@@ -198,6 +200,8 @@ def _column(value: Any) -> Any:
         value = value.to_numpy()
     if isinstance(value, np.ndarray):
         return value if value.ndim else value.item()
+    if isinstance(value, range):
+        return np.array(value)
     if not isinstance(value, list):
         return value
     with suppress(ValueError, OverflowError):  # rows of unequal length, endless integers
@@ -255,6 +259,8 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
     if array.shape[many:] not in ((), (2,)):
         return None
     if name == "node":
+        if array.dtype.kind == "f" and (array == np.round(array)).all():
+            value = array = array.astype(np.int64)
         small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
         return _own(value) if small else None
     return array.astype(float) if array.ndim else float(array)

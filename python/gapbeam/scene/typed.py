@@ -16,6 +16,8 @@ from .wording import as_text, explain
 
 S = TypeVar("S", bound=msgspec.Struct)
 
+WHOLE = ("node", "steps")
+"""Keys of integers."""
 TOO_DEEP = "tables or lists are nested too deeply"
 
 
@@ -43,7 +45,7 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
     except (msgspec.ValidationError, AttributeError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
         pass  # once more, slowly: to word the message, or to take numpy numbers and what UTF-8 does not know
     try:
-        data = msgspec.to_builtins(source, enc_hook=_simple, str_keys=False)
+        data = _with_whole(msgspec.to_builtins(source, enc_hook=_simple, str_keys=False))
         try:
             return msgspec.convert(data, struct)
         except UnicodeEncodeError:  # titles and labels may hold halves of characters; this is a key or a choice
@@ -89,6 +91,10 @@ def _simple(value: Any) -> Any:
         return f"{value} ({type(value).__name__}; take float() of it)"  # more digits than a double holds
     if isinstance(value, Mapping):
         return dict(value)
+    if isinstance(value, range):
+        return list(value)
+    if type(value).__name__ == "NAType":  # of pandas, which need not be there
+        return "missing, pandas.NA"
     with suppress(OverflowError):
         if isinstance(value, Real):
             return float(value)
@@ -112,6 +118,16 @@ def _with_lists(source: Mapping[str, Any]) -> Mapping[str, Any]:
         if isinstance(value, dict) and any(type(one) is np.ndarray for one in value.values())
     }
     return {**source, **arrays} if arrays else source
+
+
+def _with_whole(data: Any) -> Any:
+    """Plain data with integers for floats that are whole, where integers are meant."""
+    if isinstance(data, dict):
+        return {
+            key: int(one) if key in WHOLE and isinstance(one, float) and one.is_integer() else _with_whole(one)
+            for key, one in data.items()
+        }
+    return list(map(_with_whole, data)) if isinstance(data, list) and not isinstance(next(iter(data), None), float) else data
 
 
 def _has_structs(data: Mapping[str, Any]) -> bool:

@@ -6,8 +6,6 @@ import base64
 from collections.abc import Callable
 from html import escape
 
-from ..results import formatting as fmt
-from ..results.answer import answer
 from ..results.result import Result
 from ..results.views.columns import Columns
 
@@ -15,17 +13,22 @@ MOST_ROWS = 12
 """Rows of the table."""
 MOST_DRAWN = 60
 """Spans and supports up to which a picture is made unasked."""
-SHOWN = ("support", "x", "state", "reaction", "opening", "reaction_max", "reaction_min", "opening_max")
+SHOWN = (
+    "support", "x", "state", "reaction", "opening", "reaction_max", "reaction_min", "opening_max", "lifted_share",
+    "result", "mean", "least", "1 %", "50 %", "99 %", "largest",
+)  # fmt: skip
 """Columns of the table."""
 
 
-def html_of(result: Result, picture: Callable[[], bytes]) -> str:
-    """Write the answer, a table of the supports and the picture as HTML.
+def html_of(result: Result, lines: list[str], picture: Callable[[], bytes]) -> str:
+    """Write the answer, a table of the supports and the picture of a result as HTML.
 
     Parameters
     ----------
     result : Result
         Of one load or of combinations.
+    lines : list of str
+        Title and answer.
     picture : callable
         Makes it, as SVG.
 
@@ -35,12 +38,35 @@ def html_of(result: Result, picture: Callable[[], bytes]) -> str:
         Without scripts and without anything from elsewhere.
     """
     scene = result.scene
-    parts = [f"<strong>{escape(fmt.title(scene))}</strong>", f"<pre>{escape(chr(10).join(answer(result)))}</pre>"]
-    if result.has_envelope and scene.supports:
-        parts.append(html_table(result.table("supports")))
-    if max(len(scene.beam.spans), len(scene.supports)) <= MOST_DRAWN:
+    table = result.table("supports") if result.has_envelope and scene.supports else None
+    small = max(len(scene.beam.spans), len(scene.supports)) <= MOST_DRAWN
+    return html_of_lines(lines, table, picture if small else None)
+
+
+def html_of_lines(lines: list[str], table: Columns | None, picture: Callable[[], bytes] | None) -> str:
+    """Write an answer, a table and a picture as HTML.
+
+    Parameters
+    ----------
+    lines : list of str
+        Title and answer.
+    table : Columns, optional
+        Its first rows are shown.
+    picture : callable, optional
+        Makes it, as SVG.
+
+    Returns
+    -------
+    str
+        Without scripts and without anything from elsewhere.
+    """
+    title, *rest = map(escape, lines)
+    parts = [f"<strong>{title}</strong>", f"<pre>{chr(10).join(rest)}</pre>"]
+    if table is not None:
+        parts.append(html_table(table))
+    if picture is not None:
         data = base64.b64encode(picture()).decode()
-        parts.append(f'<img style="max-width:100%" alt="{escape(fmt.title(scene))}" src="data:image/svg+xml;base64,{data}">')
+        parts.append(f'<img style="max-width:100%" alt="{title}" src="data:image/svg+xml;base64,{data}">')
     return f"<div>{''.join(parts)}</div>"
 
 

@@ -59,7 +59,7 @@ def every_answer(scene):
     result = gapbeam.solve(scene)
     step = result.steps[-1]
     fields = result.at([0.3, 1.7, 2.0])
-    extremes = [pair for pairs in result.extremes().values() for pair in pairs.values()]
+    extremes = [pair for pairs in result._pairs_of_extremes().values() for pair in pairs.values()]
     return [step.reaction, fields.deflection, fields.moment, extremes, list(step.certificate.values())]
 
 

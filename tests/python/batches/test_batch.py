@@ -137,7 +137,7 @@ def test_what_is_kept(tmp_path):
     supports = [{**SCENE["supports"][0], "gap": gap}, *SCENE["supports"][1:]]
     case = gapbeam.solve({**SCENE, "supports": supports, "loads": [SCENE["loads"][0], {**SCENE["loads"][1], "F": 20.0 * factor}]})
     assert [found[f"reaction.{one}"][7] for one in ("R-101", "R 102", "2", "3")] == pytest.approx(case.steps[-1].reaction, abs=1e-9)
-    assert (found["shear.min"][7], found["shear.min_x"][7]) == pytest.approx(case.extremes()["shear"]["min"])
+    assert (found["shear.min"][7], found["shear.min_x"][7]) == pytest.approx(case._pairs_of_extremes()["shear"]["min"])
     bounds = [found[f"error_bound.{kind}"][7] / bound for kind, bound in case.steps[-1].error_bounds.items()]
     assert 0.5 < min(bounds) <= max(bounds) < 30
     assert (done.done, done.cases, done.statuses()) == (50, 50, {"solved": 50})
@@ -158,7 +158,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     with pytest.raises(ValueError, match=r"case: expected a whole number, got 1\.5"):
         done.scene_of(1.5)
     assert gapbeam.solve(done.scene_of(3)).reason == found["reason"][3]
-    assert done.failed_chunks() == [0]
+    assert done._failed_chunks() == [0]
 
 
 def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):
@@ -319,7 +319,7 @@ def test_cells_over_two_lines_are_refused(tmp_path):
     """They were two cases, each refused, and all later cases had other numbers."""
     for text, line in (('factors.wind,"factors.dead"\n1,"1"\n2,"1\n"\n', 3), ('"factors\n.wind"\n1\n', 1)):
         (tmp_path / "t.csv").write_text(text)
-        with pytest.raises(gapbeam.SceneError, match=f"line {line}: a quoted cell goes on in the next line; write"):
+        with pytest.raises(gapbeam.SceneError, match=f"line {line}: a quoted cell continues in the next line; write"):
             take_table(tmp_path / "t.csv")
 
 

@@ -155,7 +155,7 @@ def test_nothing_done_and_nothing_solved(tmp_path):
     assert summary.statuses == {"refused": 2}
     assert summary.columns["moment.max"].count == 0
     assert np.isnan(summary.columns["moment.max"].quantiles[0.5])
-    assert summary.asdict()["columns"] == {}
+    assert summary.to_dict()["columns"] == {}
     for part in (tmp_path / "out").glob("part*"):
         part.unlink()
     assert gapbeam.Batch(tmp_path / "out").summary().statuses == {}

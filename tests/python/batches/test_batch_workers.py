@@ -48,7 +48,7 @@ def test_a_lost_process_is_told(tmp_path, whole):
 
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
         pool.submit(int).result()
-        with pytest.raises(gapbeam.GapbeamError, match=r"a worker is gone .* start the same batch again, and it goes on"):
+        with pytest.raises(gapbeam.GapbeamError, match=r"a worker is gone .* start the same batch again, and it continues"):
             gapbeam.batch(SCENE, table(550), tmp_path / "out", executor=pool, chunk=100, progress=progress)
     gapbeam.batch(SCENE, table(550), tmp_path / "out")
     assert digests(tmp_path / "out") == whole

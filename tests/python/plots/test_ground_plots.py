@@ -69,7 +69,7 @@ def test_a_touch_is_marked():
 def test_pressure_has_a_panel_with_its_extremes(on_rail, rail_picture):
     axes = panel(rail_picture, "pressure [kN/m]")
     assert rail_picture.axes[-1] is axes
-    (value, x) = on_rail.extremes()["pressure"]["max"]
+    (value, x) = on_rail._pairs_of_extremes()["pressure"]["max"]
     assert [text.get_text() for text in axes.texts] == [f"{value:.4g} at {x:g}"]
     x, drawn = curve(axes)
     np.testing.assert_allclose(drawn, on_rail.at(x).pressure, atol=1e-4 * value)
@@ -204,4 +204,5 @@ def test_path_by_load_steps_without_supports():
     drawn = [(segment[0, 0], segment[0, 1], segment[1, 1]) for segment in lines.get_segments()]
     assert drawn == [(step.factor, step.contact[0].from_, step.contact[0].to) for step in result.steps]
     for name, which in (("largest", "max"), ("smallest", "min")):
-        np.testing.assert_allclose(line(lower, name)[:, 1], [result.extremes(k)["deflection"][which][0] for k in range(3)])
+        largest = [step.extremes["deflection"][which].value for step in result.steps]
+        np.testing.assert_allclose(line(lower, name)[:, 1], largest)

@@ -211,4 +211,4 @@ def test_axles_stand_where_the_largest_moment_is():
     assert places == pytest.approx(axles)
     notes = " ".join(text.get_text() for text in made.texts)
     assert f"{most.train}" in notes
-    assert f"at {number(most.position, 4)}" in notes
+    assert f"at position {number(most.position, 4)} m" in notes

@@ -101,7 +101,7 @@ def test_of_trains_extremes(train):
     largest = train.envelope().supports[1]["reaction"]["max"]
     assert train.reactions["B"]["max"].value == largest.value
     at = train.at(6.0, position=4.0)
-    assert at.moment == train.trains["crane"].at(4.0).fields(6.0).moment
+    assert at.moment == train.trains["crane"].state(4.0).fields(6.0).moment
     assert train.at(6.0, position=4.0, train="crane").moment == at.moment
     with pytest.raises(KeyError, match="did you mean 'crane'"):
         train.at(6.0, position=4.0, train="crain")
@@ -163,7 +163,7 @@ def test_pictures(result, combined, train, fallen, tmp_path):
     figure = result.plot("moment", path=tmp_path / "c.pdf")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "b.png", "c.pdf"]
     curve = figure.axes[0].lines[0].get_ydata()
-    assert curve.max() == pytest.approx(result.extremes()["moment"]["max"][0])
+    assert curve.max() == pytest.approx(result.extremes["moment"]["max"].value)
     axes = Figure().add_subplot()
     assert combined.plot("shear", ax=axes) is axes.figure
     assert isinstance(result.plot("path"), Figure)
@@ -201,7 +201,7 @@ def test_errors_inside_of_properties_are_told(result):
         def wrong(self):
             return result.steps.not_there
 
-    broken = Broken(result.scene, result.beam, result.rule)
+    broken = Broken(result.scene, result._beam, result._rule)
     with pytest.raises(AttributeError, match="not_there"):
         broken.wrong  # noqa: B018
     assert not hasattr(result, "__nothing__")

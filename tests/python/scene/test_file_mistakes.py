@@ -129,6 +129,7 @@ c = [
         ('[[supports]]\nnode = 1\nlaw = { type = "plastic", stiffness = 1.0 }\n', [(11, "supports[2].law.limit")]),
         ('[[supports]]\nname = "A"\nx = 99.0\n[[supports]]\nname = "A"\nx = 3.0\n',
          [(11, 'supports "A".x'), (13, "supports[3].name")]),
+        ('[[supports]]\nnode = 1\nside = "below"\ngap = "x"\n', [(12, "supports[2].gap")]),
         ('[[loads]]\ntype = "axial"\nx = 1.0\nF = 2.0\n', [(9, "loads[0]")]),
         ("[[sections]]\nfrom = 2.0\nto = 1.0\nEI = 3.0\n[[loads]]\ntype = 'force'\nx = 8.0\nF = 1.0\n",
          [(9, "sections[0]"), (15, "loads[0].x")]),

@@ -192,7 +192,7 @@ def test_sections(given, expected):
 # Supports
 
 IN_A_SUPPORT = """
-# no key -> supports[0]: its place is missing; give node or x
+# no key -> supports[0]: its position is missing; give node or x
 node = 1; x = 6.0 -> supports[0]: has both node = 1 and x = 6; give one of the two
 node = 4 -> supports[0].node: there is no node 4; the nodes of the beam are 0 to 3
 node = -1 -> supports[0].node: there is no node -1; the nodes of the beam are 0 to 3
@@ -281,7 +281,7 @@ def test_support(given, expected):
 
 @pytest.mark.parametrize("place", [{"x": 6.0}, {"node": 1}, {"x": 6.000000000000001}])
 def test_rotation_held_at_a_hinge(place):
-    problem = "there is a hinge here, so it is open which side is held; move one aside"
+    problem = "there is a hinge here, so it is unclear which side is held; move one aside"
     expected = f"supports[0].rotation: {problem}"
     assert message(beam=BEAM | {"hinges": [6.0]}, supports=[place | {"rotation": "fixed"}]) == expected
     assert message(beam=BEAM | {"hinges": [3.0, 6.0, 9.0]}, supports=[place | {"rotation": 5.0}]) == expected
@@ -328,7 +328,7 @@ def test_no_room_between_two_supports(given, expected):
 # Loads
 
 IN_A_LOAD = """
-type = "force"; F = 1.0 -> loads[1]: its place is missing; give node or x
+type = "force"; F = 1.0 -> loads[1]: its position is missing; give node or x
 type = "moment"; M = 1.0; node = 0; x = 0.0 -> loads[1]: has both node = 0 and x = 0; give one of the two
 type = "force"; F = 1.0; node = 9 -> loads[1].node: there is no node 9; the nodes of the beam are 0 to 3
 type = "moment"; M = 1.0; x = 18.5 -> loads[1].x: 18.5 is outside the beam, which runs from x = 0 to x = 18
@@ -359,7 +359,7 @@ def test_loads(given, expected):
 )
 def test_moment_at_a_hinge(place):
     expected = (
-        "loads[1]: the moment acts exactly at the hinge at x = 6, so it is open which side takes it; "
+        "loads[1]: the moment acts exactly at the hinge at x = 6, so it is unclear which side takes it; "
         "put it on one side of the hinge"
     )
     loads = [FORCE, {"type": "moment", "M": 2.0} | place]

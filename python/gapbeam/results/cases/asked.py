@@ -13,6 +13,7 @@ from ...engine.beam import Beam
 from ...engine.case_certificates import case_certificates
 from ...engine.cases import WANTED, solve_cases
 from ...engine.combinations import Combined, Varied, all_combinations
+from ...scene.structs import Scene
 from ..state.fields import find_places
 
 
@@ -36,6 +37,8 @@ class Asked(Record):
         What is known of them already, but for fields at places.
     start : numpy.ndarray of int or None
         Where the searches for the schemes that were found had started, supports of the engine; None if not known.
+    scene : Scene or None
+        The prepared scene.
     """
 
     beam: Beam
@@ -45,6 +48,7 @@ class Asked(Record):
     varied: Varied
     states: Combined | None = None
     start: np.ndarray | None = None
+    scene: Scene | None = None
 
     def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
         """Solve all cases.

@@ -7,6 +7,7 @@ beam, so a case is one call of the engine, and a million cases are one call as w
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 from math import isfinite
@@ -24,6 +25,7 @@ from ...scene.names import cases_of, find
 from ...scene.reading import read_beam
 from ...scene.structs import Scene
 from ...scene.wording import choice, key_of, shown
+from ..formatting import count, title
 from ..result import Result
 from ..state.arguments import numbers, scheme
 from ..state.schemes import choose_rule
@@ -54,9 +56,16 @@ class Prepared(Pickled):
         self.scene, self.supports = solver.scene, solver.supports
         self.node_x = solver.beam.node_x
 
+    def __repr__(self) -> str:
+        """Say what it is, and what to do with it."""
+        scene = self.scene
+        parts = [count(len(items), noun) for items, noun in
+                 ((scene.beam.spans, "span"), (scene.supports, "support"), (scene.loads, "load")) if len(items)]  # fmt: skip
+        return f"Prepared({title(scene)}: {', '.join(parts)}); solve(factors) takes a factor for every load, or a row for each case"
+
     def solve(
         self, factors: ArrayLike | None = None, start: Sequence[bool] | None = None,
-        settlements: Mapping[str | int, ArrayLike] | None = None, *,
+        extra_settlement: Mapping[str | int, ArrayLike] | None = None, *,
         gap: Given = None, settlement: Given = None, stiffness: Given = None, EI: Given = None, GA: Given = None, k: Given = None,
         want: str | Collection[str] | None = None, out: Cases | None = None, **others: Any,
     ) -> Cases:  # fmt: skip
@@ -69,7 +78,7 @@ class Prepared(Pickled):
         start : sequence of bool, optional
             Where the search for the contact state starts: True (closed) or False for every support across the beam;
             default all closed. Every case starts from it, so its result does not depend on the other cases.
-        settlements : mapping, optional
+        extra_settlement : mapping, optional
             Further movement of supports (length, positive downward), by name or number: one for all cases, or an array with
             one for each.
         gap, settlement, stiffness : array_like or mapping, optional
@@ -119,24 +128,21 @@ class Prepared(Pickled):
                [1.55 , 3.9  , 0.55 ]])
         """
         if others:
-            name = next(iter(others))
-            meant = nearest(name, (*VARIED, "factors", "settlements", "start", "want", "out"))
-            hint = f"did you mean {meant}?" if meant else f"there are {choice(VARIED, 'and')}"
-            raise TypeError(f"solve has no {name!r}; {hint}")
+            extra_settlement = _old_name(others, extra_settlement)
         one = self._solver.one
-        if one is not None and (start is settlements is EI is GA is k is want is None):
+        if one is not None and (start is extra_settlement is EI is GA is k is want is None):
             found = self._solve_one(one, factors, settlement, gap, stiffness, out)
             if found is not None:
                 return found
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
         factors = self._checked(factors)
-        count = len(factors) if factors.ndim == 2 else cases_in({**given, "settlements": settlements})
+        count = len(factors) if factors.ndim == 2 else cases_in({**given, "extra_settlement": extra_settlement})
         # What is asked later is about these
         many = np.array(factors if count is None else np.broadcast_to(factors, (count, factors.shape[-1])), order="C", ndmin=2)
         closed = self._solver.start
         if start is not None:
             closed = self._solver.starting(scheme(start, len(self.supports), "support across the beam"))
-        varied = self._vary(settlements, given, len(many))
+        varied = self._vary(extra_settlement, given, len(many))
         names = wanted_names(want) if out is None else self._fitting(out, want, count)
         return self._solver.solve(many, closed, varied, names, single=count is None, out=out)
 
@@ -174,17 +180,17 @@ class Prepared(Pickled):
         return out._names
 
     def _vary(
-        self, settlements: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], count: int
+        self, extra_settlement: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], count: int
     ) -> Varied:
         """Numbers that differ from those of the scene, movements of supports among their settlements."""
         columns = self._solver.beam.columns
         varied = vary(self.scene, columns, given, count)
-        if not isinstance(settlements, Mapping | None):
-            raise ValueError("settlements: expected a mapping, as {1: 0.01} by number or name of a support; got "
-                             f"{shown(settlements)}; an array for all supports, instead of the scene's, is settlement = [...]")
-        if not settlements:
+        if not isinstance(extra_settlement, Mapping | None):
+            raise ValueError("extra_settlement: expected a mapping, as {1: 0.01} by number or name of a support; got "
+                             f"{shown(extra_settlement)}; an array for all supports, instead of the scene's, is settlement = [...]")
+        if not extra_settlement:
             return varied
-        moves = self._movements(settlements, count)
+        moves = self._movements(extra_settlement, count)
         supports = varied.supports
         if supports is None:
             supports = np.broadcast_to(base_values(columns), (count, moves.shape[1] + 1, 3))
@@ -197,15 +203,15 @@ class Prepared(Pickled):
         """What supports may have in the short way."""
         return SupportArrays(self._solver.beam.columns)
 
-    def _movements(self, settlements: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
+    def _movements(self, extra_settlement: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
         """Further movements of all supports, cases by supports."""
         moves = np.zeros((count, len(self.scene.supports)))
-        for key, given in (settlements or {}).items():
-            k = find(self.scene.supports, key, f"settlements.{key_of(key)}", "support")
-            values = np.asarray(numbers(f"settlements.{key_of(key)}", given))
+        for key, given in (extra_settlement or {}).items():
+            k = find(self.scene.supports, key, f"extra_settlement.{key_of(key)}", "support")
+            values = np.asarray(numbers(f"extra_settlement.{key_of(key)}", given))
             if values.shape not in ((), (count,)) or not np.isfinite(values).all():
                 got = f"shape {values.shape}" if values.size > 1 else str(values)
-                raise ValueError(f"settlements.{key_of(key)}: expected a finite number, or {count}, one a case; got {got}")
+                raise ValueError(f"extra_settlement.{key_of(key)}: expected a finite number, or {count}, one a case; got {got}")
             moves[:, k] += values
         return moves
 
@@ -233,8 +239,9 @@ class Prepared(Pickled):
         return factors
 
     def result(
-        self, factors: ArrayLike | None = None, settlements: Mapping[str | int, ArrayLike] | None = None, *,
+        self, factors: ArrayLike | None = None, extra_settlement: Mapping[str | int, ArrayLike] | None = None, *,
         gap: Given = None, settlement: Given = None, stiffness: Given = None, EI: Given = None, GA: Given = None, k: Given = None,
+        **others: Any,
     ) -> Result:  # fmt: skip
         """Solve one case with all that `gapbeam.solve` gives: fields, extremes, certificate, report.
 
@@ -242,7 +249,7 @@ class Prepared(Pickled):
         ----------
         factors : array_like, optional
             Factor of every load of the scene; default all 1.
-        settlements : mapping, optional
+        extra_settlement : mapping, optional
             As for `solve`, numbers only.
         gap, settlement, stiffness, EI, GA, k : array_like or mapping, optional
             As for `solve`, of one case.
@@ -261,14 +268,29 @@ class Prepared(Pickled):
         EngineError
             No unique answer exists.
         """
+        if others:
+            extra_settlement = _old_name(others, extra_settlement)
         factors = self._checked(factors)
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
-        if factors.ndim != 1 or cases_in({**given, "settlements": settlements}) is not None:
+        if factors.ndim != 1 or cases_in({**given, "extra_settlement": extra_settlement}) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
-        result = self._solver.result(factors, self._vary(settlements, given, 1))
+        result = self._solver.result(factors, self._vary(extra_settlement, given, 1))
         if self._solver.may_buckle and result.compression is not None and result.compression.is_refused:
             raise result.compression.refusal()
         return result
+
+
+def _old_name(others: dict[str, Any], given: Mapping[str | int, ArrayLike] | None) -> Mapping[str | int, ArrayLike] | None:
+    """Take further movements of supports by the name that they had; refuse any other name."""
+    for name, values in others.items():
+        if name == "settlements" and given is None:
+            warnings.warn("settlements of cases are called extra_settlement", DeprecationWarning, stacklevel=3)
+            given = values
+            continue
+        meant = nearest(name, (*VARIED, "factors", "extra_settlement", "start", "want", "out"))
+        hint = f"did you mean {meant}?" if meant else f"there are {choice(VARIED, 'and')}"
+        raise TypeError(f"solve has no {name!r}; {hint}")
+    return given
 
 
 def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str | None = None) -> Prepared:
@@ -289,7 +311,7 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid, or has combinations or trains; or the state of a support depends on the way of the load to it, or
+        The scene is not valid, or has combinations or trains; or the state of a support depends on the loading history to it, or
         its law is a curve, so that each case is more than one solve.
     """
     return Prepared(prepared_solver(source, rule))
@@ -320,6 +342,6 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
     if beam.beyond_one_search is not None:
-        what = {"path": "its state depends on the way of the load", "curve": "one of them is a curve"}[beam.beyond_one_search]
+        what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
     return solver_of(scene, beam, choose_rule(scene, rule))

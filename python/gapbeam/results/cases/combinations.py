@@ -188,7 +188,7 @@ class Combinations(Pickled, Mapping[str, Result]):
                 if error.status not in WITHOUT_ANSWER:
                     raise
                 result = Result(scene, beam, self._rule)
-                result.refuse_answer(error)
+                result._refuse_answer(error)
                 return result
 
     def _in_scheme(self, k: int, other: int) -> Result:

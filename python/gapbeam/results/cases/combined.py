@@ -17,13 +17,14 @@ from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown
-from ..envelopes.envelope import AT_SUPPORTS, Envelope, Source
+from ..envelopes.envelope import AT_SUPPORTS, Envelope
 from ..envelopes.hints import Hint, find_hints
 from ..paths.compression import larger
 from ..result import Result
 from ..state.fields import Fields
 from ..trains.envelope import TrainEnvelope, places_given
 from ..trains.members import Member, Standing
+from ..views.extreme import Extremes, Source
 from ..views.labelled import Labelled, by_support
 from .combinations import Combinations
 from .combined_data import combined_data
@@ -99,7 +100,7 @@ class CombinedResult(Result):
         self._solver = kind(self._combinations, plan, beam, rule, start)
         self._found, reasons = self._solver.solve(self._note_compression)
         self.statuses = tuple(reasons)
-        self._combinations.take(self._found, self.statuses, self.fields_there)
+        self._combinations.take(self._found, self.statuses, self._fields_there)
         if not scene.analysis.first_order:
             for k in self._solver.compressed(self._found):
                 self._note_compression(k)
@@ -119,7 +120,7 @@ class CombinedResult(Result):
         if not isinstance(other, CombinedResult):
             return NotImplemented
         return self is other or (
-            self.scene == other.scene and self.rule == other.rule and self.statuses == other.statuses
+            self.scene == other.scene and self._rule == other._rule and self.statuses == other.statuses
             and np.array_equal(self._found.at_supports, other._found.at_supports, equal_nan=True)
             and np.array_equal(self._found.extremes, other._found.extremes, equal_nan=True)
         )  # fmt: skip
@@ -146,7 +147,7 @@ class CombinedResult(Result):
         """Time of these."""
         return self._seconds
 
-    def _chosen(self, step: int | None, factor: float | None = None) -> Step:
+    def _chosen(self, step: int | None = None, factor: float | None = None) -> Step:
         raise ValueError(self._words)
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:
@@ -163,6 +164,11 @@ class CombinedResult(Result):
         rows = self._found.at_supports[:, AT_SUPPORTS.index(quantity)]
         keys = by_support(self.scene, quantity, rows[0]).keys()
         return Labelled(quantity, "combination", self.names, [Labelled(quantity, "support", keys, row) for row in rows])
+
+    @property
+    def extremes(self) -> Extremes:
+        """Exact extremes of every field over all combinations, with trains over all positions, as of `envelope`."""
+        return Extremes(lambda: self.envelope().extremes, self._chosen, 'result.extremes["moment"]["max"].value')
 
     @property
     def states(self) -> Labelled:
@@ -192,7 +198,7 @@ class CombinedResult(Result):
     def _check_products(self) -> None:
         """Refuse loads that leave the range of doubles with their factors."""
         with np.errstate(over="ignore"):
-            largest = np.abs(self.beam.columns.load[2:, :-1]).max(axis=0, initial=0.0)
+            largest = np.abs(self._beam.columns.load[2:, :-1]).max(axis=0, initial=0.0)
             wrong = np.argwhere(~np.isfinite(self._plan.factors * largest))
         if len(wrong):
             k, load = wrong[0].tolist()
@@ -234,15 +240,15 @@ class CombinedResult(Result):
         """
         if self.scene.trains:
             return super().envelope(points, x=x)
-        places = places_given(self.beam, x)
+        places = places_given(self._beam, x)
         sources = [Source(name) for name in self.names]
         found = self._found
         return Envelope(
-            self.scene, self.fields_there, sources, found.at_supports, found.extremes, found.places,
+            self, self._fields_there, sources, found.at_supports, found.extremes, found.places,
             lambda k: self.combinations[k], lambda: self._curves(points, places), places is not None,
         )  # fmt: skip
 
-    def members(self) -> Iterator[Member]:
+    def _members(self) -> Iterator[Member]:
         """Go through the trains in every combination, and the combinations in which none acts.
 
         Yields
@@ -254,7 +260,7 @@ class CombinedResult(Result):
             if not result.has_answer:
                 continue
             if result.scene.trains:
-                yield from result.trains.members(name)
+                yield from result.trains._members(name)
             elif result.status == "solved":
                 yield Standing(result, name)
 
@@ -290,10 +296,10 @@ class CombinedResult(Result):
         return "solved" in self.statuses or any(one.has_envelope for one in self.combinations.values())
 
     @property
-    def fields_there(self) -> dict[str, int]:
+    def _fields_there(self) -> dict[str, int]:
         """Names of the fields, and which of FIELDS they are."""
-        there = dict(self.beam.fields)
-        if self._plan.settlements[:, ~self.beam.across].any():
+        there = dict(self._beam.fields)
+        if self._plan.settlements[:, ~self._beam.across].any():
             there |= {"axial_force": 4, "axial_displacement": 5}
         return there
 
@@ -303,13 +309,13 @@ class CombinedResult(Result):
         """Places along the beam, and the fields there of some combinations at a time."""
         if x is not None:
             piece, distance = map(
-                np.concatenate, zip(self.beam.find(x, False), self.beam.find(x, True), strict=True)
+                np.concatenate, zip(self._beam.find(x, False), self._beam.find(x, True), strict=True)
             )
             x = np.tile(x, 2)
             left = np.arange(len(x)) >= len(x) // 2
             return x, self._solver.fields_at(self._found, self.statuses, piece, distance, x, left)
-        piece, distance = self.places_along(points)
-        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        piece, distance = self._places_along(points)
+        places, lengths = self._beam.places, self._beam.places.pieces[:, 0]
         at_end = distance == lengths[piece]
         x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
         return x, self._solver.fields_at(self._found, self.statuses, piece + np.int32(1), distance, x, at_end)

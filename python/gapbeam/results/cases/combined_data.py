@@ -47,7 +47,7 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     data["combinations"] = combinations(_each(result))
     data |= trains_data(result)
     if is_followed(result):
-        data["history_extremes"] = result.history_extremes().to_history()
+        data["history_extremes"] = result.path_envelope().to_history()
     data["lifted"] = lifted_data(result)
     data |= limits_data(result)
     if result.has_envelope:
@@ -79,5 +79,6 @@ def _one(result: Result) -> dict[str, Any]:
     steps = list(step_data(result))
     data |= steps[-1] if len(steps) == 1 else {"steps": steps, "supports": steps[-1]["supports"]}
     data |= ground_data(result, result.steps[-1])
-    data["extremes"] = {name: {which: list(pair) for which, pair in row.items()} for name, row in result.extremes().items()}
+    found = result._pairs_of_extremes()
+    data["extremes"] = {name: {which: list(pair) for which, pair in row.items()} for name, row in found.items()}
     return data

@@ -19,7 +19,7 @@ from .combinations import Combinations
 
 
 class OneByOne(Pickled):
-    """Combinations solved one after the other, as the way of the load, or trains that pass, ask for.
+    """Combinations solved one after the other, as the loading history, or trains that pass, ask for.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class OneByOne(Pickled):
             if error.status not in WITHOUT_ANSWER:
                 raise
             self._combinations.failed[k] = error.status
-            result.refuse_answer(error)
+            result._refuse_answer(error)
             values = at_full_load(result)
         note(k)
         found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,9 +14,10 @@ from ...engine.case_extremes import case_extremes, case_fields
 from ...engine.cases import ALWAYS, WANTED, OneCase, split_loads
 from ...engine.combinations import Combined, Varied
 from ...engine.quantities import BENDING, FIELDS
-from ..state.arguments import numbers
+from ..state.arguments import numbers, whole
 from ..state.fields import Fields, find_places
 from .asked import Asked
+from .case_verbs import CaseVerbs
 
 NAMES = ("status", "closed", "reaction", "deflection", "moment_left", "moment_right", "solves")
 """The arrays of cases."""
@@ -26,7 +27,7 @@ def _array(name: str) -> property:
     return property(lambda cases: cases._take(name))
 
 
-class Cases:
+class Cases(CaseVerbs):
     """Solutions of load cases; arrays have one row a case, or no such axis after `Prepared.solve` with one case.
 
     The arrays are read-only. Two are equal if they have the same arrays, but for `solves`. What was not wanted (`want` of
@@ -116,7 +117,7 @@ class Cases:
             return self._question
         factors = one.take(self._block, "factors")[None].copy()
         varied = Varied(None if self._supports is None else self._supports[None].copy())
-        return Asked(one.beam, one.rule, factors, one.take(self._block, "closed")[None], varied)
+        return Asked(one.beam, one.rule, factors, one.take(self._block, "closed")[None], varied, scene=one.scene)
 
     def __eq__(self, other: object) -> bool:
         """Whether all arrays are equal."""
@@ -127,9 +128,8 @@ class Cases:
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=True) for name in names
         )
 
-    def __repr__(self) -> str:
-        """Show all arrays."""
-        return f"Cases({', '.join(f'{name}={getattr(self, name)!r}' for name in self._wanted)})"
+    def _made(self, arrays: dict[str, np.ndarray], question: Asked, single: bool) -> Cases:
+        return cases_of(arrays, question, single)
 
     def __reduce__(self) -> tuple:
         """Pickle as arrays."""
@@ -140,7 +140,7 @@ class Cases:
                 arrays[name] = arrays[name][0]
         return _unpickled, (arrays, self._asked, single)
 
-    def at(self, x: ArrayLike, side: str = "right") -> Fields:
+    def at(self, x: ArrayLike, side: str = "right", *, case: int | None = None, **others: Any) -> Fields:
         """Exact values anywhere along the beam, of all cases in few calls of the engine.
 
         Parameters
@@ -149,6 +149,10 @@ class Cases:
             Places along the beam.
         side : {"right", "left"}
             Which value is taken where a field jumps.
+        case : int, optional
+            The number of one case; default all.
+        **others
+            ``factor``, ``combination`` and so on are refused: every case is one state.
 
         Returns
         -------
@@ -169,6 +173,10 @@ class Cases:
         array([[1.5, 2. ],
                [4.5, 6. ]])
         """
+        if others:
+            raise ValueError(f"{next(iter(others))}: every case is one state at its own factors; leave it out, or give case = 0")
+        if case is not None:
+            return self[whole("case", case)].at(x, side)
         places = np.array(numbers("x", x))
         beam, shape = self._asked.beam, self._shape + places.shape
         solutions = self._solutions() if set(beam.fields) == set(BENDING) else None
@@ -187,7 +195,7 @@ class Cases:
         """What fields follow from, as `case_extremes` takes it; None where they do not."""
         return self._asked.solutions(np.atleast_1d(self.status), self._known)
 
-    def states(self) -> Combined:
+    def _combined(self) -> Combined:
         """Values at all supports and extremes of all fields, of all cases in few calls of the engine.
 
         Returns
@@ -197,17 +205,13 @@ class Cases:
         """
         return self._asked.solve()
 
-    def extremes(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
-        """Exact largest and smallest values of every field with their places, of all cases in few calls of the engine.
+    def _pairs_of_extremes(self) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
+        """Give values and places of the extremes of every field: ``{"moment": {"max": (values, x), ...}, ...}``."""
+        return self._extremes_of(self._asked.beam.fields)
 
-        Returns
-        -------
-        dict
-            ``{"moment": {"max": (values, x), "min": (values, x)}, ...}``, arrays with an entry for every case.
-        """
-        return self.extremes_of(self._asked.beam.fields)
+    renamed: ClassVar = {"extremes_of": "_extremes_of"}
 
-    def extremes_of(self, names: Collection[str]) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
+    def _extremes_of(self, names: Collection[str]) -> dict[str, dict[str, tuple[np.ndarray, np.ndarray]]]:
         """Find those of some fields, each of which takes time of its own.
 
         Parameters
@@ -218,7 +222,7 @@ class Cases:
         Returns
         -------
         dict
-            As of `extremes`.
+            As of `_pairs_of_extremes`.
 
         Raises
         ------
@@ -231,7 +235,7 @@ class Cases:
         solutions = self._solutions()
         there = solutions and case_extremes(*solutions, names)
         if there is None:
-            states = self.states()
+            states = self._combined()
             there = {name: (states.extremes[:, FIELDS.index(name)], states.places[:, FIELDS.index(name)]) for name in names}
         return {
             name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(("max", "min"))}
@@ -278,7 +282,7 @@ class Cases:
         True
         """
         found, reaction = self._asked.certified(np.atleast_1d(self.status), self._known)
-        extremes = self.extremes_of(BOUNDED[:-1])
+        extremes = self._extremes_of(BOUNDED[:-1])
         largest = {kind: np.maximum(*(np.abs(values).ravel() for values, _ in pair.values())) for kind, pair in extremes.items()}
         largest["reaction"] = np.abs(reaction).max(axis=1, initial=0.0)
         return {name: values.reshape(self._shape) for name, values in relative_certificate(found, largest).items()}

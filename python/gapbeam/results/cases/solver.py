@@ -10,20 +10,19 @@ import numpy as np
 
 from ...base.errors import Status
 from ...base.records import Pickled, read_only
-from ...engine.beam import Beam, RefusalError
+from ...engine.beam import Beam
 from ...engine.calls import FEW_NODES
 from ...engine.cases import OneCase, solve_cases, split_loads
 from ...engine.combinations import Combined, Varied, all_combinations
-from ...scene.refusals import refusal
+from ...scene.held import hold
 from ...scene.structs import Scene
-from ..paths.compression_check import compression_of, pieces_in_sections, refused_cases
+from ..paths.compression_check import pieces_in_sections, refused_cases
 from ..result import Result
 from ..state.fields import find_places
 from ..state.schemes import starting_scheme
-from ..state.steps import LoadSteps
 from .asked import Asked
+from .case_result import result_of_case
 from .solved_cases import Cases, cases_of
-from .varied import replace_numbers
 
 STATES = ("at_supports", "extremes", "places", "fields")
 """Values of `Combined`."""
@@ -54,7 +53,7 @@ class CaseSolver(Pickled):
     """
 
     def __init__(self, scene: Scene, beam: Beam, rule: str):
-        self.scene, self.beam, self.rule = scene, beam, rule
+        self.scene, self.beam, self.rule = hold(scene), beam, rule
         self.supports = read_only(np.flatnonzero(beam.across))
         self.start = read_only(starting_scheme(beam))
         # Columns of the supports of the engine; None if these are the same, one by one
@@ -71,13 +70,14 @@ class CaseSolver(Pickled):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Take the attributes back."""
         super().__setstate__(state)
+        hold(self.scene)
         self.one = self._condense()
 
     def _condense(self) -> OneCase | None:
         """Condense the loads, and make the short call."""
         split_loads(self.beam)
         short = len(self.scene.loads) > 0 and self.beam.links + 1 < FEW_NODES
-        return OneCase(self.beam, self.rule) if short and self._carries is None and not self.may_buckle else None
+        return OneCase(self.beam, self.rule, self.scene) if short and self._carries is None and not self.may_buckle else None
 
     def starting(self, closed: np.ndarray) -> np.ndarray:
         """Give the start of a search.
@@ -121,7 +121,7 @@ class CaseSolver(Pickled):
         """
         found, states = self._find(factors, closed, varied, want, out)
         again = found if states is None else None
-        asked = Asked(self.beam, self.rule, factors, found["closed"], varied, states, closed)
+        asked = Asked(self.beam, self.rule, factors, found["closed"], varied, states, closed, self.scene)
         if self._carries is not None:
             found = self._by_scene(found)
         if self.may_buckle:
@@ -199,22 +199,7 @@ class CaseSolver(Pickled):
         -------
         Result
         """
-        base, scene = self.beam, self.scene
-        if not varied.is_nothing:
-            scene, columns = replace_numbers(scene, base.columns, varied)
-            try:
-                base = Beam(columns)
-            except RefusalError as refused:
-                raise refusal(scene, *refused.codes) from None
-        beam = base.with_factors(factors)
-        result = Result(scene, beam, self.rule)
-        result.steps = LoadSteps(beam, self.rule, starting_scheme(beam), 1)
-        fallen = result.steps.solve_all()
-        if fallen is not None:
-            result.refuse("in this load case", fallen[1])
-        for step in result.steps:
-            result.compression = compression_of(result, step)
-        return result
+        return result_of_case(self.scene, self.beam, self.rule, factors, varied)
 
 
 class WithLaws(CaseSolver):

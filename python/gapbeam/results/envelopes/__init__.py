@@ -1,1 +1,1 @@
-"""Largest and smallest values: at full load, over the way of the load, on the ground."""
+"""Largest and smallest values: at full load, over the loading history, on the ground."""

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 
 from ...base.records import Record
 from ...engine.quantities import FIELDS
 from ...scene.names import names_of
-from ...scene.structs import Scene
+from ..views.extreme import Extreme, Extremes, Source
 from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
 from .tables import curves_with_sources, support_places
+from .verbs import PartVerbs
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -30,89 +31,34 @@ NEAR = 10.0
 """How many error bounds from an extreme another combination is looked at for a tie."""
 
 
-class Source(NamedTuple):
-    """Where an extreme comes from.
+class EnvelopeExtreme(Extreme):
+    """The largest or smallest value of a quantity over all combinations, or over the loading history.
 
-    Attributes
-    ----------
-    combination : str or None
-        Name of the combination; None in a scene without any.
-    factor : float or None
-        Load factor, over the whole way of the load; None at full load.
-    leg : int or None
-        Which factor of the history was gone to there, from 0; -1 at a limit while the dead loads were put on, whose factor
-        it is then.
-    """
-
-    combination: str | None = None
-    factor: float | None = None
-    leg: int | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        return {key: value for key, value in self._asdict().items() if value is not None}
-
-
-class Extreme:
-    """The largest or smallest value of a quantity over all combinations, or over the way of the load.
-
-    Attributes
-    ----------
-    quantity : str
-        For example ``moment`` or ``reaction``.
-    value : float
-        The value.
-    x : float
-        Its place.
-    support : int or None
-        Number of the support it belongs to.
-    source : Source
-        Where it comes from: the first one of those that tie.
+    Its attributes are those of `Extreme`.
     """
 
     def __init__(self, of: Envelope, quantity: str, values: np.ndarray, which: int, x: float, support: int | None, sign: int):
-        self.quantity, self.value, self.x, self.support = quantity, float(values[which]), x, support
-        self.source = of.sources[which]
+        super().__init__(quantity, float(values[which]), x, of.sources[which], support)
         self._of, self._values, self._which, self._sign = of, values, which, sign
-
-    def __repr__(self) -> str:
-        """Show value, place and source."""
-        return f"Extreme({self.quantity} {self.value:.6g} at x = {self.x:.6g}, {self.source})"
-
-    @property
-    def combination(self) -> str | None:
-        """Name of the combination it comes from."""
-        return self.source.combination
-
-    @property
-    def factor(self) -> float | None:
-        """Load factor it comes from, over the whole way of the load; else None."""
-        return self.source.factor
-
-    @property
-    def leg(self) -> int | None:
-        """Which factor of the history was gone to there, from 0; else None."""
-        return self.source.leg
 
     @property
     def result(self) -> Result:
         """The result of that combination."""
-        return self._of.result_of(self._which)
+        return self._of._result_of(self._which)
+
+    @property
+    def state(self) -> Step:
+        """The state in which it is the value."""
+        return self._of._state_of(self._which)
 
     @cached_property
     def ties(self) -> tuple[Source, ...]:
         """All sources of this value, the first one included: those whose values differ by no more than their error bounds."""
-        bound = self._of.bound(self._which, self.quantity)
+        bound = self._of._bound(self._which, self.quantity)
         away = self._sign * (self.value - self._values)
         found = []
         for k in np.flatnonzero(away <= NEAR * bound).tolist():
-            if away[k] <= 0.0 or away[k] <= bound + self._of.bound(k, self.quantity):
+            if away[k] <= 0.0 or away[k] <= bound + self._of._bound(k, self.quantity):
                 found.append(self._of.sources[k])
         return tuple(found)
 
@@ -125,8 +71,7 @@ class Extreme:
         if self.support is not None:
             rows = self._of.at_supports[self._which, :, self.support].tolist()
             return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
-        state = self._of.state_of(self._which)
-        both = [self.result.at_state(state, self.x, side).columns() for side in ("right", "left")]
+        both = [self.result.at_state(self.state, self.x, side).columns() for side in ("right", "left")]
         there = min(both, key=lambda fields: abs(float(fields[self.quantity]) - self.value))
         return {name: float(value) for name, value in there.items() if name not in ("x", self.quantity)}
 
@@ -212,7 +157,7 @@ class SupportExtremes(Sequence):
         k = range(len(self))[index]
         return {
             name: {
-                kind: Extreme(self._of, name, self._of.at_supports[:, row, k], int(which[i, k]), float(self._x[k]), k, sign)
+                kind: EnvelopeExtreme(self._of, name, self._of.at_supports[:, row, k], int(which[i, k]), float(self._x[k]), k, sign)
                 for (kind, which), sign in zip(self._of_all.items(), (1, -1), strict=True)
             }
             for i, (name, row) in enumerate(zip(OF_SUPPORTS, self._rows, strict=True))
@@ -230,20 +175,22 @@ class SupportExtremes(Sequence):
         -------
         dict
             ``support`` (name or number), ``x``, and of every quantity ``reaction_max`` and ``reaction_min``, in a scene with
-            combinations each with the first one it comes from, ``reaction_max_combination``; over the way of the load with
+            combinations each with the first one it comes from, ``reaction_max_combination``; over the loading history with
             ``reaction_max_factor`` and ``reaction_max_leg``.
         """
         found = support_places(self._of.scene)
         for i, name in enumerate(OF_SUPPORTS):
             for kind, which in self._of_all.items():
                 found[f"{name}_{kind}"] = self.values(name, kind)
-                for key in self._of.keys:
+                for key in self._of._keys:
                     found[f"{name}_{kind}_{key}"] = [getattr(self._of.sources[k], key) for k in which[i].tolist()]
         return found
 
 
-class Envelope:
+class Envelope(PartVerbs):
     """Largest and smallest values over all combinations that are solved, each at its full load; never floored at zero.
+
+    It has the verbs of results, with largest and smallest values. Its status is that of the result.
 
     Attributes
     ----------
@@ -258,22 +205,33 @@ class Envelope:
     """
 
     def __init__(
-        self, scene: Scene, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
+        self, result: Result, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
         places: np.ndarray, result_of: Callable[[int], Result],
         curves: Callable[[], tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]], on_both_sides: bool,
         state_of: Callable[[int], Step] | None = None, keys: Sequence[str] | None = None,
     ):  # fmt: skip
-        self.state_of = (lambda k: result_of(k).steps[-1]) if state_of is None else state_of
+        self._result, self.sources, self.at_supports = result, list(sources), at_supports
+        self._result_of = result_of
+        self._state_of = (lambda k: result_of(k).steps[-1]) if state_of is None else state_of
         # What of a source tells where a value comes from
-        self.keys = (["combination"] if scene.combinations else []) if keys is None else keys
-        self.scene, self.sources, self.at_supports, self.result_of = scene, list(sources), at_supports, result_of
+        self._keys = (["combination"] if result.scene.combinations else []) if keys is None else keys
         self._fields, self._values, self._places, self._make = fields, extremes, places, curves
         self._on_both_sides = on_both_sides  # are the second half of the curves' places the first ones again, from the left
         self._bounds: dict[int, dict[str, float]] = {}
         if not np.isfinite(extremes[:, 2, 0]).any():
             raise ValueError("no combination is solved, so there is no envelope")
 
-    def bound(self, k: int, quantity: str) -> float:
+    @property
+    def _solved(self) -> list[int]:
+        """Sources that count."""
+        return np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
+
+    def _seen_states(self) -> Iterator[tuple[str, ...]]:
+        return (self._state_of(k).state for k in self._solved)
+
+    renamed: ClassVar = {"bound": "_bound", "result_of": "_result_of", "state_of": "_state_of", "keys": "_keys"}
+
+    def _bound(self, k: int, quantity: str) -> float:
         """Give the error bound of a quantity in a combination.
 
         Parameters
@@ -288,20 +246,23 @@ class Envelope:
         float
         """
         if k not in self._bounds:
-            bounds = self.state_of(k).error_bounds
+            bounds = self._state_of(k).error_bounds
             self._bounds[k] = {name: bound or 0.0 for name, bound in bounds.items()}
         return self._bounds[k].get("deflection" if quantity == "opening" else quantity, 0.0)
 
     @cached_property
-    def extremes(self) -> dict[str, dict[str, Extreme]]:
+    def extremes(self) -> Extremes:
         """Exact extremes of every field, by ``max`` and ``min``."""
-        found = {}
+        return Extremes(self._find_extremes)
+
+    def _find_extremes(self) -> dict[str, dict[str, Extreme]]:
+        found: dict[str, dict[str, Extreme]] = {}
         for name, column in self._fields.items():
             found[name] = {}
             for row, (kind, best, sign) in enumerate((("max", np.nanargmax, 1), ("min", np.nanargmin, -1))):
                 values = self._values[:, column, row]
                 k = int(best(values))
-                found[name][kind] = Extreme(self, name, values, k, float(self._places[k, column, row]), None, sign)
+                found[name][kind] = EnvelopeExtreme(self, name, values, k, float(self._places[k, column, row]), None, sign)
         return found
 
     @cached_property
@@ -316,8 +277,7 @@ class Envelope:
         ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
         foundation everywhere and always). Every combination is looked at, so each is solved once more.
         """
-        solved = np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
-        return find_ground_extremes(self, solved) if self.scene.foundation else []
+        return find_ground_extremes(self, self._solved) if self.scene.foundation else []
 
     @cached_property
     def fields(self) -> Curves:
@@ -347,9 +307,9 @@ class Envelope:
         -------
         dict
             ``x``, of every field its largest and smallest values (``moment_max``), and in a scene with combinations the one that
-            gives them (``moment_max_combination``); over the way of the load ``moment_max_factor`` and ``moment_max_leg``.
+            gives them (``moment_max_combination``); over the loading history ``moment_max_factor`` and ``moment_max_leg``.
         """
-        return curves_with_sources(self.fields, self.sources, self.keys)
+        return curves_with_sources(self.fields, self.sources, self._keys)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.

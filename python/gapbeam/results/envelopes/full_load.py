@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...engine.quantities import FIELDS
-from .envelope import Envelope, Source
+from ..views.extreme import Source
+from .envelope import Envelope
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -43,13 +44,13 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
             return both, iter([(slice(0, 1), fields_on_sides(result, both, np.arange(len(both)) >= len(x))[None])])
         fields = result.fields(points=points).columns()
         values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
-        for name, column in result.beam.fields.items():
+        for name, column in result._beam.fields.items():
             values[0, :, column] = fields[name]
         return fields["x"], iter([(slice(0, 1), values)])
 
     at_supports, extremes, places, _ = at_full_load(result)
     return Envelope(
-        result.scene, result.beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves,
+        result, result._beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves,
         x is not None,
     )
 
@@ -76,7 +77,7 @@ def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray, state: Step
     values = np.full((len(x), len(FIELDS)), np.nan)
     for side, which in (("left", left), ("right", ~left)):
         found = result.at_state(result.steps[-1] if state is None else state, x[which], side).columns()
-        for name, column in result.beam.fields.items():
+        for name, column in result._beam.fields.items():
             values[which, column] = found[name]
     return values
 
@@ -102,7 +103,7 @@ def at_full_load(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, in
     extremes, places = np.full((2, len(FIELDS), 2), np.nan)
     if result.stands:
         at_supports = result.steps[-1].solution.at_supports
-        for name, row in result.extremes().items():
+        for name, row in result._pairs_of_extremes().items():
             column = FIELDS.index(name)
             extremes[column], places[column] = zip(row["max"], row["min"], strict=True)
     return at_supports, extremes, places, result.solves

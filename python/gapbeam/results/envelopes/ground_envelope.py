@@ -3,60 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...scene.names import names_of
 from ..state.ground import FreeSpan
+from ..views.extreme import Extreme
 
 if TYPE_CHECKING:
     from ..result import Result
-    from .envelope import Envelope, Source
+    from ..state.step import Step
+    from .envelope import Envelope
 
 SAME = 1e-12
 """Share of the largest of them by which values that tie differ at most: of resultants, lengths and sags."""
 
 
-class GroundExtreme:
-    """The largest or smallest value of a foundation over all combinations.
+class GroundExtreme(Extreme):
+    """The largest or smallest value of a foundation over all combinations; its attributes are those of `Extreme`.
+
+    Its quantity is ``resultant`` (force on the beam, positive upward), ``length`` or ``sag``.
 
     Attributes
     ----------
-    quantity : str
-        ``resultant`` (force on the beam, positive upward), ``length`` or ``sag``.
-    value : float
-        The value.
-    foundation : int
-        Number of the foundation in the scene.
-    span : FreeSpan or None
-        The free span, if it is one's length or sag.
-    source : Source
-        Where it comes from: the first one of those that tie.
     ties : tuple of Source
         All sources of this value, the first one included: those whose values differ by rounding.
     """
 
     def __init__(self, of: Envelope, quantity: str, value: float, foundation: int, span: FreeSpan | None, which: Sequence[int]):
-        self.quantity, self.value, self.foundation, self.span = quantity, value, foundation, span
         self.ties = tuple(of.sources[k] for k in which)
-        self.source: Source = self.ties[0]
+        super().__init__(quantity, value, None, self.ties[0], foundation=foundation, span=span)
         self._of, self._which = of, which[0]
-
-    def __repr__(self) -> str:
-        """Show value, foundation and source."""
-        where = "" if self.span is None else f" from x = {self.span.from_:.6g} to {self.span.to:.6g}"
-        return f"GroundExtreme({self.quantity} {self.value:.6g} of foundation {self.foundation}{where}, {self.source})"
-
-    @property
-    def combination(self) -> str | None:
-        """Name of the combination it comes from."""
-        return self.source.combination
 
     @property
     def result(self) -> Result:
         """The result of that combination."""
-        return self._of.result_of(self._which)
+        return self._of._result_of(self._which)
+
+    @property
+    def state(self) -> Step:
+        """The state in which it is the value."""
+        return self._of._state_of(self._which)
+
+    @cached_property
+    def concurrent(self) -> dict[str, float]:
+        """What else the foundation has in this state."""
+        return on_foundation(self.state, self.foundation, self.quantity)
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data: the free span, its source, and all that tie with it.
@@ -68,6 +62,30 @@ class GroundExtreme:
         span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
         ties = {"ties": [one.to_dict() for one in self.ties[1:]]} if len(self.ties) > 1 else {}
         return {**span, **self.source.to_dict(), **ties}
+
+
+def on_foundation(state: Step, foundation: int, without: str) -> dict[str, float]:
+    """Give what a foundation has in a state.
+
+    Parameters
+    ----------
+    state : Step
+        The state.
+    foundation : int
+        Its number.
+    without : str
+        The quantity that is left out.
+
+    Returns
+    -------
+    dict of float
+        Its resultant, and length and sag of its longest and its deepest free span.
+    """
+    zones = [zone.resultant for zone in state.contact if zone.foundation == foundation]
+    spans = [span for span in state.free_spans if span.foundation == foundation]
+    found = {"resultant": sum(zones), "length": max((span.to - span.from_ for span in spans), default=0.0),
+             "sag": max((span.sag for span in spans), default=0.0)}  # fmt: skip
+    return {name: value for name, value in found.items() if name != without}
 
 
 def find_ground_extremes(of: Envelope, solved: Sequence[int]) -> list[dict[str, dict[str, GroundExtreme | None]]]:
@@ -89,7 +107,7 @@ def find_ground_extremes(of: Envelope, solved: Sequence[int]) -> list[dict[str, 
     count = len(of.scene.foundation)
     resultants, spans = np.zeros((len(solved), count)), [[] for _ in range(count)]
     for row, k in enumerate(solved):
-        step = of.state_of(k)
+        step = of._state_of(k)
         for zone in step.contact:
             resultants[row, zone.foundation] += zone.resultant
         for span in step.free_spans:

@@ -79,7 +79,7 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
     -------
     list of Hint
         None for beams on foundations or with smooth laws, whose values are not linear between events, where the state depends
-        on the way of the load, and where there is no equilibrium.
+        on the loading history, and where there is no equilibrium.
     """
     states = _states(result)
     if not states:
@@ -107,14 +107,14 @@ def find_hints(result: Result, combination: str | None = None) -> list[Hint]:
 
 def _states(result: Result) -> list[Step]:
     """States at no load but the dead ones, at every event, and at full load."""
-    scene, beam = result.scene, result.beam
+    scene, beam = result.scene, result._beam
     if not (result.stands and result.is_linear_between_events):
         return []
     path = result.path
     if path is None:
-        trial = result.another(scene, beam, result.rule)
+        trial = result._another(scene, beam, result._rule)
         try:
-            path = follow(trial, result.rule, starting_scheme(beam))
+            path = follow(trial, result._rule, starting_scheme(beam))
         except EngineError:
             return []
         if trial.status != "solved":
@@ -134,7 +134,7 @@ def _values(result: Result, step: Step, x: np.ndarray) -> dict[tuple[str, int | 
     values, places = step.solution.extremes()
     found: dict[tuple[str, int | None], list[tuple[float, float]]] = {
         (name, None): [(values[i, FIELDS.index(name)], places[i, FIELDS.index(name)]) for i in (0, 1)]
-        for name in result.beam.fields
+        for name in result._beam.fields
     }
     for name in ("reaction", "opening"):
         for k, value in enumerate(getattr(step, name).tolist()):

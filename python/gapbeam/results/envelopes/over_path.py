@@ -18,7 +18,8 @@ from ...engine.beam import SOLVED
 from ...engine.quantities import FIELDS
 from ...scene.names import names_of
 from ..paths.branches import BranchPath
-from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope, Source
+from ..views.extreme import Source
+from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope
 from .full_load import fields_on_sides
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def is_followed(result: Result) -> bool:
     Returns
     -------
     bool
-        True following events or a history, by load steps, and where the state depends on the way of the load.
+        True following events or a history, by load steps, and where the state depends on the loading history.
     """
     if result.scene.analysis.is_one_step and not result.depends_on_path:
         return False
@@ -80,7 +81,7 @@ def is_exact(result: Result) -> bool:
     bool
         False by load steps, on foundations, and with smooth laws.
     """
-    return result.path is not None and result.beam.is_linear_between_events
+    return result.path is not None and result._beam.is_linear_between_events
 
 
 def _states(result: Result) -> Iterator[tuple[Source, Step]]:
@@ -159,7 +160,7 @@ class PathEnvelope(Envelope):
                 try:
                     if step.solution.status != SOLVED:
                         raise EngineError("held by so little that rounding decides whether it stands", Status.INDETERMINATE)
-                    found, x_found = step.extremes()
+                    found, x_found = step.solution.extremes()
                     k, n = len(sources), found.shape[1]
                     at_supports[k], values[k, :n], places[k, :n] = step.solution.at_supports, found.T, x_found.T
                 except EngineError as error:
@@ -173,20 +174,20 @@ class PathEnvelope(Envelope):
         kinds = {"steps" if one.path is None else "path" if is_exact(one) else "states" for _, one in followed if is_followed(one)}
         self.over = max(kinds, key=["path", "states", "steps"].index)
         at_supports, values, places = (table[: len(sources)] for table in (at_supports, values, places))
-        there = {name: column for _, one in followed for name, column in one.beam.fields.items()}
+        there = {name: column for _, one in followed for name, column in one._beam.fields.items()}
         super().__init__(
-            result.scene, there, sources, *map(read_only, (at_supports, values, places)), self._results.__getitem__,
+            result, there, sources, *map(read_only, (at_supports, values, places)), self._results.__getitem__,
             lambda: self._curves(points, x), x is not None, self._states.__getitem__,
             [*(["combination"] if result.combinations else []), "factor", "leg"],
         )  # fmt: skip
 
     def _curves(self, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         """Places along the beam, and the fields there of one state after the other."""
-        beam = self._results[0].beam
+        beam = self._results[0]._beam
         if x is not None:
             x, left = np.tile(x, 2), np.arange(2 * len(x)) >= len(x)
         else:
-            piece, distance = self._results[0].places_along(points)
+            piece, distance = self._results[0]._places_along(points)
             lengths, points_x = beam.places.pieces[:, 0], beam.places.point_x
             left = distance == lengths[piece]
             x = np.where(left, points_x[piece + 1], points_x[piece] + distance)

@@ -112,6 +112,39 @@ def curves_with_sources(curves: Curves, sources: Sequence[Any], keys: Sequence[s
     return found
 
 
+def event_columns(
+    scene: Scene, rows: Sequence[tuple[str | None, str | None, Any]], of_trains: bool, with_combinations: bool = False
+) -> dict[str, Any]:
+    """Give events as columns of a table.
+
+    Parameters
+    ----------
+    scene : Scene
+        Knows the names of supports and foundations.
+    rows : sequence of (str or None, str or None, event)
+        Combination, train, and the event of a support or of the ground.
+    of_trains : bool
+        Whether events have a position of a train, else a load factor.
+    with_combinations : bool
+        Whether combinations are named.
+
+    Returns
+    -------
+    dict
+    """
+    names = {"support": labels(scene.supports), "foundation": labels(scene.foundation)}
+    table: dict[str, Any] = {"combination": [name for name, _, _ in rows]} if with_combinations else {}
+    if of_trains:
+        table |= {"train": [train for _, train, _ in rows], "direction": [event.direction for *_, event in rows]}
+    where = "position" if of_trains else "factor"
+    table[where] = np.array([getattr(event, where) for *_, event in rows], dtype=float)
+    for kind, known in names.items():
+        if kind == "support" or scene.foundation:
+            which = [getattr(event, kind, None) for *_, event in rows]
+            table[kind] = [None if k is None else known[k] for k in which]
+    return table | {"x": np.array([event.x for *_, event in rows], dtype=float), "event": [event.event for *_, event in rows]}
+
+
 def extremes_while_trains_pass(combinations: Combinations) -> dict[str, np.ndarray]:
     """Find the extremes of every combination over all positions of trains, or of its one state where none acts.
 

@@ -1,1 +1,1 @@
-"""The way of the load: from event to event, past limits, on smooth laws and on the ground."""
+"""The loading history: from event to event, past limits, on smooth laws and on the ground."""

@@ -24,7 +24,7 @@ class Limit:
         Supports and what happens to them there.
     landing : Step or None
         The next stable state on the path at the same load factor; dynamics may lead elsewhere. None too while settlements or
-        lacks of fit grow with the dead loads.
+        preloads (negative gaps) grow with the dead loads.
     released : float or None
         By how much the potential energy is less there (force times length).
     exact : bool

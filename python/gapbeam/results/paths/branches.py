@@ -229,7 +229,7 @@ class BranchPath(Pickled):
         Returns
         -------
         list of Step
-            None where settlements or lacks of fit grow with them.
+            None where settlements or preloads grow with them.
         """
         found, h = [], self._history
         for factor, (_, leg, before, landing) in zip(h.limit_factors.tolist(), h.limits.tolist(), strict=True):
@@ -324,25 +324,25 @@ def follow_branches(result: Result) -> BranchPath:
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
     stops = analysis.at_limit == "stop"
-    at_limit = "jump" if stops and result.beam.curves else analysis.at_limit
-    history = follow_history(result.beam, factors, at_limit, MOST_STRETCHES)
-    curved = CurvedPath(result.beam, history, factors[-1], stops) if result.beam.curves else None
+    at_limit = "jump" if stops and result._beam.curves else analysis.at_limit
+    history = follow_history(result._beam, factors, at_limit, MOST_STRETCHES)
+    curved = CurvedPath(result._beam, history, factors[-1], stops) if result._beam.curves else None
     if curved is not None and curved.unreached == len(factors):
         # The limit load that keeps it from there lies beyond on the polylines
         further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
-        history = follow_history(result.beam, further, at_limit, MOST_STRETCHES)
-        curved = CurvedPath(result.beam, history, factors[-1], stops)
+        history = follow_history(result._beam, further, at_limit, MOST_STRETCHES)
+        curved = CurvedPath(result._beam, history, factors[-1], stops)
     if curved is not None and curved.unreached is not None:
         which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"
         raise EngineError(
             f"{which} so near a limit load that the smooth laws of the supports cannot be followed there: change it a little",
             Status.NOT_CONVERGED,
         )
-    path = BranchPath(result.scene, result.beam, history, perf_counter() - begin, curved)
+    path = BranchPath(result.scene, result._beam, history, perf_counter() - begin, curved)
     if path.ending == "cut off":
         raise EngineError(
             f"the path has more than {MOST_STRETCHES:,} stretches: shorten the history, or follow it in parts", Status.NOT_CONVERGED
         )
     if path.ending:
-        result.refuse_limit(path)
+        result._refuse_limit(path)
     return path

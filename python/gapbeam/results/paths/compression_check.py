@@ -46,7 +46,7 @@ def compression_of(result: Result, step: Step, struts: Struts | None = None) -> 
     Compression or None
         None where nothing is compressed.
     """
-    beam = result.beam
+    beam = result._beam
     if beam.bars < 0:
         return None
     struts, tension = struts_of(beam) if struts is None else struts, tensions(beam, step)
@@ -56,7 +56,7 @@ def compression_of(result: Result, step: Step, struts: Struts | None = None) -> 
 
 
 def check_compression(result: Result) -> None:
-    """Note the largest compression of all states on the way of the load, and refuse one that is beyond the Euler load.
+    """Note the largest compression of all states on the loading history, and refuse one that is beyond the Euler load.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ def check_compression(result: Result) -> None:
     SceneError
         It is, and ``analysis.first_order`` does not let it pass.
     """
-    if result.beam.bars < 0:
+    if result._beam.bars < 0:
         return
-    struts, asked = struts_of(result.beam), not result.scene.analysis.first_order
+    struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
     on_the_way = chain(result.steps, _begins(result))
     states = ((f"at load factor {step.factor:.6g} ", compression_of(result, step, struts)) for step in on_the_way)
     for where, found in chain(states, _with_trains(result, struts)):
@@ -99,7 +99,7 @@ def _with_trains(result: Result, struts: Struts) -> Iterator[tuple[str, Compress
     """Go through the states while trains pass: their axles change the supports that act, not the axial forces."""
     if not result.scene.trains or not result.steps:
         return
-    tension = tensions(result.beam, result.steps[-1])
+    tension = tensions(result._beam, result.steps[-1])
     if not tension.min() < 0.0:
         return
     for name, train in result.trains.items():

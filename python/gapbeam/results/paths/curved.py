@@ -150,7 +150,7 @@ class CurvedPath(PolylinePath):
         if not self._stops or lost or (arrives and not last):
             if stays or is_limit or lost:
                 raise EngineError(
-                    f"at load factor {state.factor:.9g} equal smooth laws soften together, and how the beam goes on from there "
+                    f"at load factor {state.factor:.9g} equal smooth laws soften together, and how the path continues from there "
                     'cannot be followed on them: use at_limit = "stop" without further load factors, or make one of them differ '
                     "a little",
                     Status.NOT_CONVERGED,

@@ -42,15 +42,15 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
     EngineError
         No unique answer exists.
     """
-    scene, beam = result.scene, result.beam
+    scene, beam = result.scene, result._beam
     follow_scene = _way(result)
     if not scene.trains:
         follow_scene(result, closed)
         check_compression(result)
         return
     if beam.depends_on_path:
-        what = "laws whose state depends on the way of the load cannot stand beside trains"
-        raise SceneError("supports", f"{what} in this version; use polylines that rise")
+        what = "supports whose state depends on the loading history cannot be combined with trains"
+        raise SceneError("supports", f"{what} in this version; use non-decreasing polylines")
     result.trains.pass_all()
     try:
         follow_scene(result, closed)
@@ -61,63 +61,64 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         advice = "; or give it loads that stay, such as its own weight, and have them in every combination"
         more = advice if error.status == Status.NOT_CONVERGED else ""
         raise EngineError(f"without its trains {error}{more}", error.status) from None
-    result.take_trains()
+    result._take_trains()
 
 
 def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
     """Choose how the load of a beam is followed without its trains."""
-    if result.beam.ground_layers:
-        _refuse_on_ground(result.scene, result.beam)
+    if result._beam.ground_layers:
+        _refuse_on_ground(result.scene, result._beam)
     if result.depends_on_path:
         return _on_path
     if result.scene.analysis.follow == "steps":
         return _by_steps
-    return partial(_by_events, follow_on_ground if result.beam.ground_layers else follow)
+    return partial(_by_events, follow_on_ground if result._beam.ground_layers else follow)
 
 
 def _by_steps(result: Result, closed: np.ndarray) -> None:
     """Solve at equal steps of the load factor."""
-    result.steps = LoadSteps(result.beam, result.rule, closed, result.scene.analysis.steps)
+    result.steps = LoadSteps(result._beam, result._rule, closed, result.scene.analysis.steps)
     fallen = result.steps.solve_all()
     if fallen is not None:
         factor, motion = fallen
-        result.refuse(f"at load factor {factor:g}", motion)
+        result._refuse(f"at load factor {factor:g}", motion)
 
 
 def _by_events(follow_events: Callable[..., Path | GroundPath | None], result: Result, closed: np.ndarray) -> None:
     """Follow the load from event to event."""
-    result.path = follow_events(result, result.rule, closed)
+    result.path = follow_events(result, result._rule, closed)
     if result.segments:
-        result.steps = PathSteps(result.beam, result.rule, result.path)
+        result.steps = PathSteps(result._beam, result._rule, result.path)
     _refuse_beyond_bounds(result)
 
 
 def _refuse_beyond_bounds(result: Result) -> None:
     """Refuse a path along polylines of laws that tend to a force, where the laws themselves cannot carry the load at its end."""
-    if result.beam.beyond_one_search != "curve" or result.status != "solved":
+    if result._beam.beyond_one_search != "curve" or result.status != "solved":
         return
     ends = {getattr(segment, "leg", 0): segment for segment in result.segments}  # of every factor of a history
     for last in ends.values():
         with suppress(EngineError):  # that is said where the step is looked at
-            found = solve_step(result.beam, last.stop, result.rule, result.path.closed(last))
+            found = solve_step(result._beam, last.stop, result._rule, result.path.closed(last))
             if isinstance(found, Solution):
                 result.path = None
-                result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam), 0)
-                result.refuse(f"at load factor {last.stop:g}", found.motion)
+                result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam), 0)
+                result._refuse(f"at load factor {last.stop:g}", found.motion)
                 return
 
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation."""
     if beam.beyond_one_search is not None:
-        what = {"path": "whose state depends on the way of the load", "curve": "that are curves"}[beam.beyond_one_search]
-        raise SceneError("supports", f"laws {what} cannot stand beside a foundation in this version; use polylines that rise")
+        what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
+        problem = f"supports with laws {what} cannot be combined with a foundation in this version; use non-decreasing polylines"
+        raise SceneError("supports", problem)
     if scene.analysis.has_history:
-        raise SceneError("analysis.history", "a beam on a foundation goes back along its path; leave it out")
+        raise SceneError("analysis.history", "a beam on a foundation unloads along its path; leave it out")
 
 
 def _on_path(result: Result, _: np.ndarray) -> None:
-    """Solve a scene whose state depends on the way of the load."""
+    """Solve a scene whose state depends on the loading history."""
     analysis = result.scene.analysis
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":
@@ -129,5 +130,5 @@ def _on_path(result: Result, _: np.ndarray) -> None:
     if result.path is None:
         return
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
-    result.steps = PathSteps(result.beam, result.rule, result.path, factors)
-    result.steps.reason = result.reason
+    result.steps = PathSteps(result._beam, result._rule, result.path, factors)
+    result.steps.outcome = result.status, result._reason

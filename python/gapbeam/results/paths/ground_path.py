@@ -124,7 +124,7 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     Parameters
     ----------
     result : Result
-        Receives the reason where the beam cannot stand.
+        Receives the reason where the beam is unstable.
     rule : {"block", "single"}
         How schemes of the supports are found.
     closed : numpy.ndarray of int
@@ -135,17 +135,17 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     GroundPath or None
         From 0 to 1, or to the factor above which there is no equilibrium; None if there is none from the beginning.
     """
-    path = GroundPath(result.beam, rule, closed)
+    path = GroundPath(result._beam, rule, closed)
     if path.limits:
         result.status = "limit-load"
         last, beyond = f"{path.limits[0].factor:.12g}", f"{max(path.limits[0].factor, path.beyond):.12g}"
         where = f"beyond load factor {last}" if beyond == last else f"between the load factors {last} and {beyond}"
         result.reason = f"limit load: nothing more resists the load {where}"
         if path.motion is not None:
-            result.motion = list(zip(result.beam.node_x.tolist(), path.motion.tolist(), strict=True))
-            result.reason += f"; {describe_motion(result.beam, path.motion)}"
+            result.motion = list(zip(result._beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            result.reason += f"; {describe_motion(result._beam, path.motion)}"
         return path
     if not path.stands:
         where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
-        result.refuse(where, path.motion)
+        result._refuse(where, path.motion)
     return path if path.segments else None

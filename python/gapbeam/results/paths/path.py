@@ -208,7 +208,7 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     Parameters
     ----------
     result : Result
-        Receives the reason where the beam cannot stand.
+        Receives the reason where the beam is unstable.
     rule : {"block", "single"}
         How schemes are found.
     closed : numpy.ndarray of int
@@ -220,14 +220,14 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         From 0 to 1, or to the factor above which there is no equilibrium; None if there is none at 0.
     """
     begin = perf_counter()
-    beam = result.beam
+    beam = result._beam
     solution = beam.solve(0.0, rule, closed)
     if solution.slides:
         # What nothing holds along its axis moves as soon as it is pushed
-        result.refuse("above load factor 0", None)
+        result._refuse("above load factor 0", None)
         return None
     if solution.status == NO_EQUILIBRIUM:
-        result.refuse("at load factor 0", solution.motion)
+        result._refuse("at load factor 0", solution.motion)
         return None
     factor, scheme, marginal, stretches = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
@@ -235,6 +235,6 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         stretches.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == NO_EQUILIBRIUM:
-            result.refuse(f"above load factor {factor:.16g}", piece.motion)
+            result._refuse(f"above load factor {factor:.16g}", piece.motion)
             break
     return Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)

@@ -158,7 +158,7 @@ class GroundStruts(Struts):
 
     def of_step(self, scene: Scene, step: Step, tension: np.ndarray, breakpoints: np.ndarray | None = None) -> Compression | None:
         """Find the largest compression of a state beside what supports and ground resist, as `Struts.of_step`."""
-        pressure = float(np.abs(step.extremes()[0][:, FIELDS.index("pressure")]).max())
+        pressure = float(np.abs(step.solution.extremes()[0][:, FIELDS.index("pressure")]).max())
         zones = [
             (zone.from_, zone.to, zone.state, under)
             for zone in step.contact

@@ -45,6 +45,8 @@ def numbers(place: str, value: Any) -> np.ndarray:
         raise ValueError(f"{place}: expected numbers in rows of equal length") from None
     if type(array) is np.ndarray and array.dtype == float:
         return array
+    if array.dtype == object and any(type(entry).__name__ == "NAType" for entry in array.ravel().tolist()):
+        raise ValueError(f"{place}: expected numbers, and some of these are missing (pandas.NA); fill them or leave them out")
     exotic = array.dtype == object and all(isinstance(entry, Real | Decimal) for entry in array.ravel().tolist())
     if array.dtype.kind not in "biuf" and not exotic:
         raise ValueError(f"{place}: expected numbers, got {_words(value)}")
@@ -110,6 +112,8 @@ def whole(place: str, value: Any, least: int | None = None) -> int:
     20
     """
     bound = "" if least is None else f", {least} or more"
+    if isinstance(value, float | np.floating) and value.is_integer():
+        value = int(value)
     try:
         number = operator.index(value)
     except TypeError:

@@ -11,14 +11,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.errors import EngineError
+from ...base.errors import EngineError, NoStepError
 from ...base.memory import refuse_beyond
 from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.states import Solution
+from ...scene.held import hold
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown
+from ..views.extreme import Extremes
 from .arguments import finite, numbers, whole
 from .fields import Fields, find_places
 from .ground import with_ends_of_zones
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
     from ..paths.ground_path import GroundEvent, GroundPath
     from ..paths.path import Event, Path, Segment
 
+MOVING = "solved, but free to move: its position is not unique"
+"""Of a beam in neutral equilibrium."""
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
 
@@ -43,18 +47,39 @@ class States(Pickled):
     __hash__ = None
 
     def __init__(self, scene: Scene, beam: Beam, rule: str):
-        self.scene = scene
+        self.scene = hold(scene)
         self.status = "solved"
-        self.reason: str | None = None
+        self._reason: str | None = None
         self.motion: list[tuple[float, float]] | None = None
         self.steps: Steps = LoadSteps(beam, rule, np.ones(beam.supports, dtype=np.int32), 0)
-        self.beam = beam
-        self.rule = rule
+        self._beam = beam
+        self._rule = rule
         self.path: Path | BranchPath | GroundPath | None = None
         self.without_trains: str | None = None
         self.has_answer = True
         self.compression: Compression | None = None
         self.remarks: list[str] = []
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the attributes back."""
+        super().__setstate__(state)
+        hold(self.scene)
+
+    @property
+    def reason(self) -> str | None:
+        """Why there is no equilibrium or no unique answer, which limit there is, or that the beam is free to move."""
+        if self._reason is None and self.status == "solved" and self._is_neutral:
+            return MOVING
+        return self._reason
+
+    @reason.setter
+    def reason(self, words: str | None) -> None:
+        self._reason = words
+
+    @property
+    def _is_neutral(self) -> bool:
+        """Whether it stands at the end of the load, but can move freely without work of the loads."""
+        return len(self.steps) > 0 and self.steps[-1].indifferent
 
     def __eq__(self, other: object) -> bool:
         """Whether scene, outcome, events and all steps are equal."""
@@ -62,7 +87,7 @@ class States(Pickled):
             return NotImplemented
         return self is other or (
             self.scene == other.scene
-            and self.beam == other.beam
+            and self._beam == other._beam
             and (self.status, self.reason, self.motion) == (other.status, other.reason, other.motion)
             and self.events == other.events
             and len(self.steps) == len(other.steps)
@@ -71,13 +96,13 @@ class States(Pickled):
 
     @property
     def depends_on_path(self) -> bool:
-        """Whether states depend on the way of the load: by the laws of supports, or since it goes to several factors in turn."""
-        return self.beam.depends_on_path or self.scene.analysis.has_history
+        """Whether states depend on the loading history: by the laws of supports, or since it goes to several factors in turn."""
+        return self._beam.depends_on_path or self.scene.analysis.has_history
 
     @property
     def is_linear_between_events(self) -> bool:
         """Whether values are linear in the load factor from one event to the next, the same on every way of the load."""
-        return self.beam.is_linear_between_events and not self.depends_on_path
+        return self._beam.is_linear_between_events and not self.depends_on_path
 
     @property
     def events(self) -> list[Event] | list[GroundEvent]:
@@ -104,7 +129,7 @@ class States(Pickled):
         """Time of these."""
         return self.steps.seconds if self.path is None else self.path.seconds
 
-    def refuse(self, where: str, motion: np.ndarray | None) -> None:
+    def _refuse(self, where: str, motion: np.ndarray | None) -> None:
         """Note that there is no equilibrium.
 
         Parameters
@@ -115,13 +140,13 @@ class States(Pickled):
             Displacements of the nodes in the free motion; None where the beam slides along its axis.
         """
         self.status = "no-equilibrium"
-        self.reason = f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(self.beam, motion)}"
-        self.steps.reason = self.reason
+        self.reason = f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(self._beam, motion)}"
+        self.steps.outcome = self.status, self.reason
         if motion is None:
             return
-        self.motion = list(zip(self.beam.node_x.tolist(), motion.tolist(), strict=True))
+        self.motion = list(zip(self._beam.node_x.tolist(), motion.tolist(), strict=True))
 
-    def refuse_answer(self, error: EngineError) -> None:
+    def _refuse_answer(self, error: EngineError) -> None:
         """Note that there is no unique answer.
 
         Parameters
@@ -130,10 +155,10 @@ class States(Pickled):
             What stands in its way.
         """
         self.status, self.reason, self.path, self.has_answer = error.status.word, str(error), None, False
-        self.steps = LoadSteps(self.beam, self.rule, np.ones(self.beam.supports, dtype=np.int32), 0)
-        self.steps.reason = self.reason
+        self.steps = LoadSteps(self._beam, self._rule, np.ones(self._beam.supports, dtype=np.int32), 0)
+        self.steps.outcome = self.status, self.reason
 
-    def refuse_limit(self, path: BranchPath) -> None:
+    def _refuse_limit(self, path: BranchPath) -> None:
         """Note that the load cannot go to its last factor.
 
         Parameters
@@ -154,8 +179,8 @@ class States(Pickled):
         if limit.leg < 0:
             self.reason += ", while the dead loads are put on (they count from 0 to 1)"
         if path.motion is not None:
-            self.motion = list(zip(self.beam.node_x.tolist(), path.motion.tolist(), strict=True))
-            self.reason += f"; {describe_motion(self.beam, path.motion)}"
+            self.motion = list(zip(self._beam.node_x.tolist(), path.motion.tolist(), strict=True))
+            self.reason += f"; {describe_motion(self._beam, path.motion)}"
 
     def state(self, factor: float, leg: int | None = None) -> Step:
         """Solve the exact state at any load factor.
@@ -183,10 +208,10 @@ class States(Pickled):
         segment = self.path.find(factor) if self.path is not None else None
         if segment is not None:
             return self.path.step(segment, factor)
-        if self.beam.depends_on_path:
+        if self._beam.depends_on_path:
             raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
         closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
-        step = solve_step(self.beam, factor, self.rule, closed)
+        step = solve_step(self._beam, factor, self._rule, closed)
         if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step
@@ -214,7 +239,7 @@ class States(Pickled):
         number = -1 if step is None else whole("step", step)
         count = len(self.steps)
         if count == 0:
-            raise IndexError(f"step: no load step stands; {self.reason}")
+            raise NoStepError(self.status, self.reason)
         if count == 1 and number not in (0, -1):
             raise IndexError(f"step: there is one load step, number 0, got {shown(number)}; for a load factor give factor = ...")
         if not -count <= number < count:
@@ -271,12 +296,12 @@ class States(Pickled):
             As for `at`.
         """
         x = np.array(numbers("x", x))
-        piece, distance = find_places(self.beam, x.ravel(), side)
+        piece, distance = find_places(self._beam, x.ravel(), side)
         return self._fields(x, piece, distance, state)
 
     def _fields(self, x: np.ndarray, piece: np.ndarray, distance: np.ndarray, state: Step) -> Fields:
         values = state.values(piece, distance)
-        return Fields(x, **{name: values[row].reshape(x.shape) for name, row in self.beam.fields.items()})
+        return Fields(x, **{name: values[row].reshape(x.shape) for name, row in self._beam.fields.items()})
 
     def fields(self, step: int | None = None, points: int = 20) -> Fields:
         """Tabulate all fields, for drawing.
@@ -302,14 +327,14 @@ class States(Pickled):
             There is no such step.
         """
         state = self._chosen(step)
-        piece, distance = self.places_along(points)
-        lengths, places = self.beam.places.pieces[:, 0], self.beam.places
+        piece, distance = self._places_along(points)
+        lengths, places = self._beam.places.pieces[:, 0], self._beam.places
         if state.solution.ground is not None:
-            piece, distance = with_ends_of_zones(piece, distance, self.beam, state.solution.ground)
+            piece, distance = with_ends_of_zones(piece, distance, self._beam, state.solution.ground)
         x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
         return self._fields(x, piece + np.int32(1), distance, state)
 
-    def places_along(self, points: int) -> tuple[np.ndarray, np.ndarray]:
+    def _places_along(self, points: int) -> tuple[np.ndarray, np.ndarray]:
         """Choose places for a table of fields.
 
         Parameters
@@ -332,38 +357,23 @@ class States(Pickled):
         points = whole("points", points, least=1)
         rows = float(min(points, 2**62)) * len(self.scene.beam.spans)
         refuse_beyond("points", f"fields at {shown(points)} points a span", rows * BYTES_PER_PLACE, "give fewer")
-        places, lengths = self.beam.places, self.beam.places.pieces[:, 0]
+        places, lengths = self._beam.places, self._beam.places.pieces[:, 0]
         spans = np.asarray(self.scene.beam.spans, dtype=float)[places.span]
         parts = np.maximum(np.ceil(points * (lengths / spans)).astype(int), 1)
         piece = np.repeat(np.arange(len(lengths), dtype=np.int32), parts + 1)
         place = np.arange(len(piece)) - np.repeat(np.cumsum(parts + 1) - (parts + 1), parts + 1)
         return piece, lengths[piece] * (place / parts[piece])
 
-    def extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
-        """Exact largest and smallest values of every field with their places.
+    @property
+    def extremes(self) -> Extremes:
+        """Exact largest and smallest values of every field at the end of the load; those of a step has ``steps[k].extremes``."""
+        return Extremes(lambda: self._chosen(None).extremes, self._pairs_of_extremes, 'result.extremes["moment"]["max"].value')
 
-        Parameters
-        ----------
-        step : int, optional
-            Number of the load step; default the last.
-
-        Returns
-        -------
-        dict
-            ``{"moment": {"max": (value, x), "min": (value, x)}, ...}``.
-
-        Raises
-        ------
-        ValueError
-            `step` is no whole number.
-        IndexError
-            There is no such step.
-        """
-        state = self._chosen(step)
-        values, x = state.extremes()
+    def _pairs_of_extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
+        """Give ``{"moment": {"max": (value, x), ...}, ...}`` in a load step, default the last."""
+        values, x = (table.tolist() for table in self._chosen(step).solution.extremes())
         return {
-            name: {"max": (float(values[0, k]), float(x[0, k])), "min": (float(values[1, k]), float(x[1, k]))}
-            for name, k in self.beam.fields.items()
+            name: {"max": (values[0][k], x[0][k]), "min": (values[1][k], x[1][k])} for name, k in self._beam.fields.items()
         }
 
     def history(self) -> list[tuple[float, tuple[str, ...]]]:

@@ -6,7 +6,9 @@ Signs: deflections positive downward, reactions upward, couples clockwise; at ax
 from __future__ import annotations
 
 import warnings
-from functools import cached_property
+from collections import namedtuple
+from collections.abc import Iterator
+from functools import cached_property, partial
 from time import perf_counter
 from typing import NamedTuple
 
@@ -17,9 +19,11 @@ from ...engine.beam import SOLVED, Beam
 from ...engine.case_certificates import BOUNDED
 from ...engine.states import Solution
 from ...engine.units import bound_in_scene, scaled
+from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .smooth import solve_on_curves, with_openings
+from .state_extremes import extremes_of_state
 
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
@@ -236,15 +240,16 @@ class Step(Pickled):
         """The stretches in which the beam has no contact with ground that is there."""
         return find_free_spans(self.runs)
 
-    def extremes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Exact extremes of all fields.
+    @property
+    def extremes(self) -> Extremes:
+        """Exact largest and smallest values of every field, by field, then by ``max`` and ``min``."""
+        find = partial(extremes_of_state, self, self._beam, Source(factor=self.factor))
+        return Extremes(find, self.solution.extremes, 'step.extremes["moment"]["max"].value')
 
-        Returns
-        -------
-        values, x : numpy.ndarray
-            Maximum and minimum (rows) of every field in the order of FIELDS (columns), and where they are.
-        """
-        return self.solution.extremes()
+    def __iter__(self) -> Iterator[tuple]:
+        """Go through the supports: named tuples of their values, of which pandas makes a table."""
+        columns = {name: getattr(self, name) for name in ("state", "reaction", "deflection", "opening", "couple")}
+        return map(namedtuple("Support", columns)._make, zip(*columns.values(), strict=True))
 
     def values(self, piece: np.ndarray, distance: np.ndarray) -> np.ndarray:
         """Fields at given distances from the left ends of pieces, as `Solution.values`: with the loads that act in this state."""

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from ...base.errors import SceneError
+from ...base.errors import NoStepError, SceneError
 from ...base.memory import LITTLE, refuse_beyond
 from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
+from .arguments import whole
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class Steps(Pickled, Sequence[Step]):
         self._beam = beam
         self._rule = rule
         self._kept: dict[str, tuple[int, Step]] = {}
-        self.reason: str | None = None  # why there are none
+        self.outcome: tuple[str, str | None] = ("solved", None)  # why there are none
 
     @abstractmethod
     def _make(self, k: int) -> Step:
@@ -81,9 +82,13 @@ class Steps(Pickled, Sequence[Step]):
         """Give a step, from the end where the number is negative; or a list of steps."""
         if isinstance(index, slice):
             return [self._make(k) for k in range(len(self))[index]]
-        if not len(self) and self.reason is not None:
-            raise IndexError(f"no load step stands; {self.reason}")
-        k = range(len(self))[index]
+        count = len(self)
+        if not count and self.outcome[1] is not None:
+            raise NoStepError(*self.outcome)
+        index = whole("step", index)
+        if not -count <= index < count:
+            raise IndexError(f"there is no load step {index}; their numbers go from 0 to {count - 1}, or from -{count} to -1")
+        k = index % count
         for at, step in self._kept.values():
             if at == k:
                 return step

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,11 @@ class System:
     compression: Compression | None = None
 
     def asdict(self) -> dict[str, Any]:
+        """Give the same as `to_dict`, by the name that it had."""
+        warnings.warn("asdict is called to_dict", DeprecationWarning, stacklevel=2)
+        return self.to_dict()
+
+    def to_dict(self) -> dict[str, Any]:
         """As plain data.
 
         Returns
@@ -68,7 +74,7 @@ def system_of(result: Result) -> System:
     -------
     System
     """
-    beam, steps = result.beam, result.steps
+    beam, steps = result._beam, result.steps
     method = steps[-1].solution.method if steps else 0
     ground = steps[-1].solution.ground if steps else None
     nodes = 1 + (beam.links if ground is None else ground.stretches)

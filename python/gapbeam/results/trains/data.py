@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from .traversals import TrainEvent
-
 if TYPE_CHECKING:
+    from ...scene.structs import Scene
     from ..result import Result
-    from .trains import TrainResult, Trains
+    from .trains import TrainResult
+    from .traversals import TrainEvent
 
 
 def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
@@ -35,18 +35,18 @@ def passing_trains(result: Result) -> Iterator[tuple[str | None, TrainResult]]:
             yield name, train
 
 
-def lost_positions(trains: Trains) -> tuple[str, str] | None:
+def lost_positions(trains: Mapping[str, TrainResult]) -> tuple[str, str] | None:
     """Say that positions of trains are not solved.
 
     Parameters
     ----------
-    trains : Trains
+    trains : mapping of TrainResult
         Of a scene, or of a combination.
 
     Returns
     -------
     status, reason : str
-        Of the first at which the beam cannot stand, else of the first without a unique answer; None where all are solved.
+        Of the first at which the beam is unstable, else of the first without a unique answer; None where all are solved.
     """
     lost = [(train, gap) for train in trains.values() for gap in train.unstable_positions if gap.status != "solved"]
     if not lost:
@@ -70,29 +70,43 @@ def trains_data(result: Result) -> dict[str, Any]:
     """
     if not result.scene.trains:
         return {}
+    return {"trains": [train_data(train, result.scene, combination) for combination, train in passing_trains(result)]}
+
+
+def train_data(train: TrainResult, scene: Scene, combination: str | None = None) -> dict[str, Any]:
+    """Give a train as plain data: events, and positions that are not solved.
+
+    Parameters
+    ----------
+    train : TrainResult
+        The train.
+    scene : Scene
+        Knows the names of supports and foundations.
+    combination : str, optional
+        In which it passes.
+
+    Returns
+    -------
+    dict
+    """
     return {
-        "trains": [
-            {
-                "name": train.name,
-                **({} if combination is None else {"combination": combination}),
-                "case": train.train.case,
-                "events": [_event(event, result) for event in train.events],
-                "gaps": [
-                    {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
-                    for gap in train.unstable_positions
-                ],
-                "solves": train.solves,
-            }
-            for combination, train in passing_trains(result)
-        ]
+        "name": train.name,
+        **({} if combination is None else {"combination": combination}),
+        "case": train.train.case,
+        "events": [_event(event, scene) for event in train.events],
+        "gaps": [
+            {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
+            for gap in train.unstable_positions
+        ],
+        "solves": train.solves,
     }
 
 
-def _event(event: TrainEvent, result: Result) -> dict[str, Any]:
+def _event(event: TrainEvent, scene: Scene) -> dict[str, Any]:
     """Give an event as plain data."""
     of_support = event.support is not None
     what, number = ("support", event.support) if of_support else ("foundation", event.foundation)
-    name = (result.scene.supports if of_support else result.scene.foundation)[number].name
+    name = (scene.supports if of_support else scene.foundation)[number].name
     return {
         "position": event.position, what: number, **({} if name is None else {"name": name}),
         "x": event.x, "event": event.event, **({} if event.branch == 1 else {"branch": event.branch}), "direction": event.direction,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from ...scene.names import names_of
 from ...scene.places import END_TOLERANCE
 from ..envelopes.envelope import Curves
 from ..envelopes.tables import KINDS, SupportRows, curves_with_sources
+from ..envelopes.verbs import PartVerbs
 from ..state.arguments import numbers
+from ..views.extreme import Extremes
 from .members import OF_SUPPORTS, Member, TrainExtreme, fields_of
 
 if TYPE_CHECKING:
@@ -46,28 +48,28 @@ class TrainCurves(Curves):
     smallest_at: dict[str, np.ndarray]
 
 
-class TrainEnvelope:
+class TrainEnvelope(PartVerbs):
     """Largest and smallest values over all positions of trains; never floored at zero. Trains pass one at a time.
 
     A state in which no train acts is in it only where a combination gives its case no factor.
 
+    It has the verbs of results, with largest and smallest values. Its status is that of the result.
+
     Attributes
     ----------
-    members : list of Member
-        What it is made of.
     extremes : dict
         ``{"moment": {"max": TrainExtreme, "min": TrainExtreme}, ...}`` of the whole beam, exact in place and position; None
         where nothing is solved.
     supports : list of dict
         The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
     unstable_positions : list of (Member, UnstablePositions)
-        Positions that are not in it, as there the beam cannot stand.
+        Positions that are not in it, as the beam is unstable there.
     """
 
     def __init__(self, result: Result, members: Sequence[Member], x: np.ndarray | None = None, points: int = 20):
         if not members:
             raise ValueError("envelope: no combination is solved, and no train acts in any")
-        self._result, self.members, self._x, self._points = result, list(members), x, points
+        self._result, self._members, self._x, self._points = result, list(members), x, points
         self.unstable_positions = [(member, one) for member in members for one in member.unstable_positions]
 
     @property
@@ -76,12 +78,24 @@ class TrainEnvelope:
         warnings.warn("gaps of trains are called unstable_positions", DeprecationWarning, stacklevel=2)
         return self.unstable_positions
 
+    renamed: ClassVar = {"members": "_members"}
+
+    def _curves_at(self, x: Any) -> TrainCurves:
+        return TrainEnvelope(self._result, self._members, places_given(self._result._beam, x)).fields
+
+    def _seen_states(self) -> Iterator[tuple[str, ...]]:
+        for one in self._members:
+            yield from one.seen_states()
+
     @cached_property
-    def extremes(self) -> dict[str, dict[str, TrainExtreme | None]]:
+    def extremes(self) -> Extremes:
         """Exact extremes of every field, by ``max`` and ``min``."""
+        return Extremes(self._find_extremes)
+
+    def _find_extremes(self) -> dict[str, dict[str, TrainExtreme | None]]:
         return {
-            name: {kind: _merged([one.of_fields(name, i) for one in self.members], i) for i, kind in enumerate(KINDS)}
-            for name in fields_of(self._result.beam)
+            name: {kind: _merged([one.of_fields(name, i) for one in self._members], i) for i, kind in enumerate(KINDS)}
+            for name in fields_of(self._result._beam)
         }
 
     @cached_property
@@ -93,7 +107,7 @@ class TrainEnvelope:
         """
         return [
             {
-                name: {kind: _merged([one.of_foundations(k, what, i) for one in self.members], i) for kind, what, i in kinds}
+                name: {kind: _merged([one.of_foundations(k, what, i) for one in self._members], i) for kind, what, i in kinds}
                 for name, kinds in OF_FOUNDATIONS.items()
             }
             for k in range(len(self._result.scene.foundation))
@@ -104,17 +118,21 @@ class TrainEnvelope:
         """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
         rows = [
             {
-                name: {kind: _merged([one.of_supports(k, name, i) for one in self.members], i) for i, kind in enumerate(KINDS)}
+                name: {kind: _merged([one.of_supports(k, name, i) for one in self._members], i) for i, kind in enumerate(KINDS)}
                 for name in OF_SUPPORTS
             }
             for k in range(len(self._result.scene.supports))
         ]
+        for row, x in zip(rows, self.scene.positions(self.scene.supports).tolist(), strict=True):
+            for one in (one for kinds in row.values() for one in kinds.values() if one is not None):
+                for tie in (one, *one.ties):
+                    tie.x = x
         return SupportRows(self._result.scene, rows)
 
     @cached_property
     def fields(self) -> TrainCurves:
         """Largest and smallest fields along the beam, at the places asked for."""
-        beam = self._result.beam
+        beam = self._result._beam
         x = places_along(beam, self._points) if self._x is None else self._x
         n = len(x)
         piece, distance = beam.find(x, False)
@@ -129,7 +147,7 @@ class TrainEnvelope:
         values, positions = np.empty((2, len(fields), len(x))), np.full((2, len(fields), len(x)), np.nan)
         members = np.zeros((2, len(fields), len(x)), dtype=np.int32)
         values[0], values[1] = -np.inf, np.inf
-        for number, member in enumerate(self.members):
+        for number, member in enumerate(self._members):
             found, where = member.curves(pieces, distances)
             for (half, at), (i, sign) in product(halves, enumerate((1.0, -1.0))):
                 better = sign * found[i][:, half] > sign * values[i][:, at]
@@ -154,7 +172,7 @@ class TrainEnvelope:
         keys = ["combination", "train", "direction"] if self._result.scene.combinations else ["train", "direction"]
         positions = {f"{name}_max_position": where for name, where in curves.largest_at.items()}
         positions |= {f"{name}_min_position": where for name, where in curves.smallest_at.items()}
-        return curves_with_sources(curves, self.members, keys) | positions
+        return curves_with_sources(curves, self._members, keys) | positions
 
     def to_dict(self) -> dict[str, Any]:
         """Everything as plain data, in the form of the JSON output.

@@ -88,7 +88,7 @@ def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, p
 
 def _linear(state: TrainState) -> Scene:
     """The beam on what acts, which holds it both ways, with a unit force."""
-    scene, beam = state.result.scene, state.result.beam
+    scene, beam = state.result.scene, state.result._beam
     supports = [_support(scene.supports[k], slope) for k, slope in enumerate(_slopes(state, beam))]
     ground = [_foundation(scene, zone) for zone in state.contact if zone.state != TOUCHING]
     return replace_struct(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,8 +15,10 @@ from ...engine.beam import Beam
 from ...engine.quantities import BENDING, QUANTITIES
 from ...engine.trains import SIDES, Extremes, Traversal
 from ..envelopes.envelope import AT_SUPPORTS
+from ..envelopes.ground_envelope import on_foundation
 from ..envelopes.tables import KINDS
 from ..state.ground import size_of
+from ..views.extreme import Extreme, Source
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -28,48 +33,21 @@ OF_SUPPORTS = ("reaction", "opening", "deflection", "couple")
 """Values of supports that have them."""
 
 
-class TrainExtreme:
-    """A largest or smallest value, and where it comes from.
+class TrainExtreme(Extreme):
+    """A largest or smallest value while trains pass; its attributes are those of `Extreme`.
 
     Attributes
     ----------
-    quantity : str
-        For example ``moment`` or ``reaction``.
-    value : float
-        The value.
-    x : float or None
-        Place on the beam; None for a support.
-    side : {"left", "right"} or None
-        On which side of x it is the value, where an axle or a support is there.
-    support, foundation : int or None
-        Number of the support, or of the foundation.
-    span : FreeSpan or None
-        The free span, if it is one's length or sag.
-    combination : str or None
-        Name of the combination; None in a scene without any.
-    train : str or None
-        Name of the train; None for the state of a combination in which no train acts.
-    position : float or None
-        Its position.
-    direction : {"right", "left"} or None
-        Which way it goes.
     ties : tuple of TrainExtreme
         Others with the same value.
     """
 
     def __init__(self, of: Member, quantity: str, value: float, x: float | None, side: str | None, support: int | None,
                  position: float | None, foundation: int | None = None, span: FreeSpan | None = None):  # fmt: skip
-        self.quantity, self.value, self.x, self.side, self.support, self.position = quantity, value, x, side, support, position
-        self.foundation, self.span = foundation, span
-        self.combination, self.train, self.direction = of.combination, of.train, of.direction
+        source = Source(of.combination, None, None, of.train, position, of.direction, side)
+        super().__init__(quantity, value, x, source, support, foundation, span)
         self.ties: tuple[TrainExtreme, ...] = ()
         self._of = of
-
-    def __repr__(self) -> str:
-        """Show value, place and source."""
-        where = f" at x = {self.x:.6g}" if self.x is not None else f" of support {self.support}"
-        where = where if self.foundation is None else f" of foundation {self.foundation}"
-        return f"TrainExtreme({self.quantity} {self.value:.6g}{where}, {self.source()})"
 
     def __eq__(self, other: object) -> bool:
         """Whether values and sources are equal, those of the ties too."""
@@ -80,7 +58,7 @@ class TrainExtreme:
     __hash__ = None
 
     def _key(self) -> tuple:
-        return self.quantity, self.value, self.x, self.support, self.foundation, self.span, self.source()
+        return self.quantity, self.value, self.x, self.support, self.foundation, self.span, self.source
 
     @property
     def state(self) -> Step:
@@ -94,29 +72,13 @@ class TrainExtreme:
         Of a field the others at the same place, on the side of the extreme; of a support or a foundation what else it has.
         """
         if self.foundation is not None:
-            zones = [zone.resultant for zone in self.state.contact if zone.foundation == self.foundation]
-            spans = [span for span in self.state.free_spans if span.foundation == self.foundation]
-            found = {"resultant": sum(zones), "length": max((span.to - span.from_ for span in spans), default=0.0),
-                     "sag": max((span.sag for span in spans), default=0.0)}  # fmt: skip
-            return {name: value for name, value in found.items() if name != self.quantity}
+            return on_foundation(self.state, self.foundation, self.quantity)
         if self.support is not None:
             rows = self.state.solution.at_supports[:, self.support].tolist()
             there = dict(zip(AT_SUPPORTS, rows, strict=True))
         else:
             there = self._of.fields(self)
         return {name: value for name, value in there.items() if name not in ("x", self.quantity) and self._of.is_unique(name)}
-
-    def source(self) -> dict[str, Any]:
-        """Where it comes from, as plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        found = {"combination": self.combination, "train": self.train, "position": self.position, "direction": self.direction}
-        found["side"] = self.side
-        return {key: value for key, value in found.items() if value is not None}
 
     def to_dict(self) -> dict[str, Any]:
         """Where it comes from, all that tie with it, and the concurrent values, as plain data.
@@ -125,9 +87,9 @@ class TrainExtreme:
         -------
         dict
         """
-        ties = [({} if tie.x is None else {"x": tie.x}) | tie.source() for tie in self.ties]
+        ties = [({"x": tie.x} if tie.support is tie.foundation is None else {}) | tie.source.to_dict() for tie in self.ties]
         span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
-        return {**span, **self.source(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
+        return {**span, **self.source.to_dict(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
 
 
 class Member:
@@ -167,6 +129,14 @@ class Member:
     def state_of(self, extreme: TrainExtreme) -> Step:
         """Give the state in which a value is an extreme one."""
         raise NotImplementedError
+
+    def seen_states(self) -> Iterator[tuple[str, ...]]:
+        """Go through the states of all supports: those between the events."""
+        of = self._traversal
+        ends = [of.course.from_, of.course.to, *(end for gap in of.unstable_positions for end in (gap.from_, gap.to))]
+        for before, after in pairwise(sorted({*ends, *(event.position for event in of.events)})):
+            with suppress(EngineError, ValueError):  # the beam does not stand there
+                yield self._train.state((before + after) / 2, self.direction).state
 
     def fields(self, extreme: TrainExtreme) -> dict[str, float]:
         """Give all fields in that state at the place of an extreme value."""
@@ -223,12 +193,12 @@ class Passing(Member):
         for scheme, inside in self._traversal.schemes(extreme.position):
             for position in (extreme.position, inside):
                 try:
-                    states.append(self._train.at(position, self.direction, scheme))
+                    states.append(self._train.state(position, self.direction, scheme))
                     break
                 except (EngineError, ValueError):  # on the other side of a change by rounding
                     continue
         if not states:
-            return self._train.at(extreme.position, self.direction)
+            return self._train.state(extreme.position, self.direction)
         return min(states, key=lambda state: abs(_value_in(state, extreme) - extreme.value))
 
 
@@ -266,10 +236,10 @@ class Neutral(Passing):
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`: one of those that are possible there."""
         try:
-            return self._train.at(extreme.position, self.direction)
+            return self._train.state(extreme.position, self.direction)
         except (EngineError, ValueError):  # the beam falls beside it, by rounding there
             start, end, beside = self._held.ends[0, 0], self._held.ends[-1, 1], 4 * self._traversal.near
-            return self._train.at(float(min(max(extreme.position, start + beside), end - beside)), self.direction)
+            return self._train.state(float(min(max(extreme.position, start + beside), end - beside)), self.direction)
 
     def is_unique(self, quantity: str) -> bool:
         """As `Member.is_unique`."""
@@ -297,7 +267,7 @@ class Standing(Member):
     def __init__(self, result: Result, combination: str):
         super().__init__(combination)
         self._result, self._step = result, result.steps[-1]
-        self._extremes = result.extremes()
+        self._extremes = result._pairs_of_extremes()
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
@@ -325,10 +295,14 @@ class Standing(Member):
 
     def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
-        step, beam = self._result.steps[-1], self._result.beam
+        step, beam = self._result.steps[-1], self._result._beam
         values = step.solution.values(piece, distance)
         found = np.array([values[beam.fields[name]] for name in fields_of(beam)])
         return np.stack((found, found)), np.full((2, *found.shape), np.nan)
+
+    def seen_states(self) -> Iterator[tuple[str, ...]]:
+        """As `Member.seen_states`."""
+        return iter([self._step.state])
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`."""

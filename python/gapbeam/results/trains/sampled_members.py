@@ -90,7 +90,7 @@ class SampledMember(Member):
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`."""
-        return self._train.at(extreme.position, self.direction)
+        return self._train.state(extreme.position, self.direction)
 
 
 def _side(state: Placed, x: float, column: int, value: float) -> str | None:

@@ -123,10 +123,10 @@ class SampledTraversal:
 
     def __init__(self, result: Result, course: Course, near: float, name: str):
         self.course, self.near = course, near
-        self.loads = TrainLoads(result.beam, result.rule, course, near)
+        self.loads = TrainLoads(result._beam, result._rule, course, near)
         self.jumps = places_of_jumps(result.scene)
         self._scene, self._name = result.scene, name
-        self._neighbours = NEIGHBOURS * result.beam.places.end
+        self._neighbours = NEIGHBOURS * result._beam.places.end
         self._read(self._walk())
         self._fill_short_runs()
         self.solves = self.loads.solves

@@ -20,8 +20,8 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -35,12 +35,15 @@ from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, neare
 from ...scene.wording import choice, shown
 from ..state.arguments import finite
 from ..state.schemes import starting_scheme
+from ..state.state_extremes import extremes_of_state
 from ..state.step import Step
 from ..state.steps import LoadSteps
+from ..views.extreme import Extremes, Source
 from .envelope import TrainEnvelope, places_along, places_given
 from .members import Member, fields_of
 from .neutral import loaded
 from .sampled_traversal import SampledTraversal
+from .train_verbs import TrainVerbs
 from .traversals import ExactTraversal, TrainEvent, UnstablePositions
 
 if TYPE_CHECKING:
@@ -69,16 +72,19 @@ class TrainState(Step):
 
     Attributes
     ----------
+    name : str
+        Of the train.
     position : float
-        Position of the train.
+        Its position.
     direction : {"right", "left"}
         Which way it goes.
     result : Result
         The same as the result of a scene with these forces: fields anywhere, extremes, report.
     """
 
-    def __init__(self, result: Result, position: float, direction: str):
-        super().__init__(result.beam, 1.0, result.rule, result.steps.closed(0))
+    def __init__(self, result: Result, position: float, direction: str, name: str):
+        super().__init__(result._beam, 1.0, result._rule, result.steps.closed(0))
+        self.name = name
         self.position = position
         self.direction = direction
         self.result = result
@@ -97,19 +103,16 @@ class TrainState(Step):
         """
         return self.result.at(x, side=side)
 
-    def extremes(self) -> dict[str, dict[str, tuple[float, float]]]:
-        """Exact largest and smallest values of every field with their places.
-
-        Returns
-        -------
-        dict
-            As from `Result.extremes`.
-        """
-        return self.result.extremes()
+    @property
+    def extremes(self) -> Extremes:
+        """Exact largest and smallest values of every field, by field, then by ``max`` and ``min``."""
+        source = Source(train=self.name, position=self.position, direction=self.direction)
+        find = partial(extremes_of_state, self, self._beam, source)
+        return Extremes(find, self.result._pairs_of_extremes, 'state.extremes["moment"]["max"].value')
 
 
-class TrainResult:
-    """A train that goes over the beam.
+class TrainResult(TrainVerbs):
+    """A train that goes over the beam; it has the verbs of results, with largest and smallest values over all positions.
 
     Attributes
     ----------
@@ -127,10 +130,10 @@ class TrainResult:
     def traversals(self) -> list[ExactTraversal] | list[SampledTraversal]:
         """The train in every direction in which it goes."""
         result = self._result
-        end = result.beam.places.end
+        end = result._beam.places.end
         near = nearest(self._joined, end)
         try:
-            kind = ExactTraversal if result.beam.is_linear_between_events else SampledTraversal
+            kind = ExactTraversal if result._beam.is_linear_between_events else SampledTraversal
             return [kind(result, course, near, self.name) for course in courses(self._joined, end)]
         except EngineError as error:
             raise EngineError(f"train {self.name}: {error}", error.status) from None
@@ -148,7 +151,7 @@ class TrainResult:
 
     @property
     def unstable_positions(self) -> list[UnstablePositions]:
-        """Positions at which the beam cannot stand, is not held in one place, or has no unique answer."""
+        """Positions at which the beam is unstable, is not held in one place, or has no unique answer."""
         return [one for traversal in self.traversals for one in traversal.unstable_positions]
 
     @property
@@ -179,9 +182,11 @@ class TrainResult:
         ValueError
             A place outside the beam.
         """
-        return TrainEnvelope(self._result, self.members(), places_given(self._result.beam, x))
+        return TrainEnvelope(self._result, self._members(), places_given(self._result._beam, x))
 
-    def members(self, combination: str | None = None) -> list[Member]:
+    renamed: ClassVar = {"members": "_members"}
+
+    def _members(self, combination: str | None = None) -> list[Member]:
         """What an envelope is made of: the train in every direction.
 
         Parameters
@@ -195,7 +200,7 @@ class TrainResult:
         """
         return [member for traversal in self.traversals for member in traversal.members(self, combination)]
 
-    def at(self, position: float, direction: str = RIGHT, scheme: np.ndarray | None = None) -> TrainState:
+    def state(self, position: float, direction: str = RIGHT, scheme: np.ndarray | None = None) -> TrainState:
         """The state at a position of the train.
 
         Parameters
@@ -220,16 +225,16 @@ class TrainResult:
         position = finite("position", position)
         traversal = self._traversal(direction)
         # Extremes beside the end, where an axle has just left, are farther off
-        position = at_ends(position, self._joined, direction, self._result.beam.places.end, POSITION_TOLERANCE)
+        position = at_ends(position, self._joined, direction, self._result._beam.places.end, POSITION_TOLERANCE)
         scene = loaded(self._result.scene, traversal.course, traversal.near, position)
         taken = columns(scene)
-        result = self._result.another(scene, Beam(taken, curves(scene, taken)), self._result.rule if scheme is None else GIVEN)
-        result.steps = LoadSteps(result.beam, result.rule, starting_scheme(result.beam) if scheme is None else scheme, 1)
+        result = self._result._another(scene, Beam(taken, curves(scene, taken)), self._result._rule if scheme is None else GIVEN)
+        result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
-            result.refuse(f"at position {position:g} of train {self.name}", fallen[1])
+            result._refuse(f"at position {position:g} of train {self.name}", fallen[1])
             raise ValueError(f"position: {result.reason}")
-        return TrainState(result, position, traversal.course.direction)
+        return TrainState(result, position, traversal.course.direction, self.name)
 
     def influence(
         self, what: str, *, x: float, position: float, direction: str = RIGHT, places: Any = None, side: str = "right"
@@ -259,10 +264,10 @@ class TrainResult:
         ValueError
             A place outside the beam, no support there, no equilibrium at that position, or ground whose law is a curve.
         """
-        beam, traversal = self._result.beam, self._traversal(direction)
+        beam, traversal = self._result._beam, self._traversal(direction)
         if what not in (has_lines := (*fields_of(beam), "reaction")):
             raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
-        state = self.at(position, direction)
+        state = self.state(position, direction)
         x = float(places_given(beam, [finite("x", x)])[0])
         places = places_along(beam) if places is None else places_given(beam, places, "places")
         at = self._result.scene.positions(self._result.scene.supports)
@@ -289,7 +294,8 @@ class Trains(Mapping[str, TrainResult]):
     def __getitem__(self, name: str) -> TrainResult:
         """Give a train by its name."""
         if name not in self._by_name:
-            raise KeyError(no_such("train", name, self._by_name) if self._by_name else f"the scene has no trains, so none {name!r}")
+            without = f"the scene has no trains, so none {name!r}: give it some, trains = [...]"
+            raise KeyError(no_such("train", name, self._by_name) if self._by_name else without)
         return self._by_name[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -305,7 +311,7 @@ class Trains(Mapping[str, TrainResult]):
         for train in self._by_name.values():
             train.traversals  # noqa: B018
 
-    def members(self, combination: str | None = None) -> list[Member]:
+    def _members(self, combination: str | None = None) -> list[Member]:
         """What an envelope is made of: every train in every direction.
 
         Parameters
@@ -317,4 +323,4 @@ class Trains(Mapping[str, TrainResult]):
         -------
         list of Member
         """
-        return [member for train in self.values() for member in train.members(combination)]
+        return [member for train in self.values() for member in train._members(combination)]

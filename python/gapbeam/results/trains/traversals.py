@@ -66,7 +66,7 @@ class TrainEvent:
 
 @dataclass(frozen=True, slots=True)
 class UnstablePositions:
-    """Positions at which the beam cannot stand, is not held in one place, or has no unique answer.
+    """Positions at which the beam is unstable, is not held in one place, or has no unique answer.
 
     Attributes
     ----------
@@ -103,7 +103,7 @@ class ExactTraversal:
 
     def __init__(self, result: Result, course: Course, near: float, name: str):
         self.course, self.near, self._scene = course, near, result.scene
-        self.engine = traversal_of(result.beam, course, course.from_, course.to)
+        self.engine = traversal_of(result._beam, course, course.from_, course.to)
         p, supports = self.engine, self._scene.positions(self._scene.supports)
         self.events = [
             TrainEvent(position, support, float(supports[support]), EVENTS[change], course.direction)

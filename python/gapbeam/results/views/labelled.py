@@ -130,7 +130,7 @@ class Labelled(Sequence):
         """Whether names and values are equal."""
         if not isinstance(other, Labelled):
             return NotImplemented
-        return self._keys == other._keys and self.values() == other.values()
+        return self._keys == other._keys and all(np.array_equal(a, b) for a, b in zip(self, other, strict=True))
 
     def __repr__(self) -> str:
         """Show names and values, of many the first."""
@@ -143,6 +143,12 @@ class Labelled(Sequence):
 
 
 def _word(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.size:,} values"
+    if isinstance(value, dict):
+        return f"({', '.join(f'{kind} {fmt.number(one.value)}' for kind, one in value.items() if one is not None)})"
+    if isinstance(value, tuple):
+        return " or ".join(map(str, value))
     return fmt.number(value) if isinstance(value, float) else value if isinstance(value, str) else repr(value)
 
 

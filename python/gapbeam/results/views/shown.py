@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import warnings
+from collections.abc import Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
@@ -24,8 +26,9 @@ MEANT = {
     "dataframe": 'table("supports").to_pandas()', "columns": 'table("fields")', "todf": 'table("supports").to_pandas()',
     "tocsv": 'table("fields").to_pandas().to_csv(path)', "show": "plot()", "draw": "plot()", "figure": "plot()",
     "savefig": 'plot("name.svg")', "summary": "report()", "print": "report()", "text": "report()", "success": "ok",
-    "converged": "ok", "solved": "ok", "message": "reason", "error": "reason", "maxmoment": 'extremes()["moment"]["max"]',
-    "max": 'extremes()["moment"]["max"]', "min": 'extremes()["moment"]["min"]', "asdict": "to_dict()", "json": "to_json()",
+    "converged": "ok", "solved": "ok", "message": "reason", "error": "reason", "maxmoment": 'extremes["moment"]["max"]',
+    "max": 'extremes["moment"]["max"]', "min": 'extremes["moment"]["min"]', "asdict": "to_dict()", "json": "to_json()",
+    "toxlsx": "to_excel(path)", "excel": "to_excel(path)", "save": "to_json(path) or to_excel(path)",
 }  # fmt: skip
 """What to write for words of other programs, in lower case without underscores."""
 
@@ -43,6 +46,12 @@ class Display(Protocol):
 
     def to_json(self, result: Any, path: str | os.PathLike | None, points: int) -> str:
         """Write JSON."""
+
+    def to_excel(self, result: Any, path: str | os.PathLike) -> None:
+        """Write tables for Excel."""
+
+    def answer(self, result: Any) -> list[str]:
+        """Say the answer."""
 
     def to_html(self, result: Any, path: str | os.PathLike | None) -> str:
         """Write a page of HTML."""
@@ -62,6 +71,10 @@ class Shown:
 
     __slots__ = ()
     display: ClassVar[Display | None] = None
+    renamed: ClassVar[Mapping[str, str]] = {}  # attributes by the names that they had
+    meant: ClassVar[Mapping[str, str]] = {}  # as MEANT, of this kind alone
+    _kinds: ClassVar[tuple[str, ...]] = ()  # of tables
+    _drawn: ClassVar[tuple[str, ...]] = ()  # names with a dot of what can be drawn
 
     @property
     def ok(self) -> bool:
@@ -133,7 +146,8 @@ the loads push it that way and no support resists
         -------
         matplotlib.figure.Figure
         """
-        if path is None and (isinstance(kind, os.PathLike) or (isinstance(kind, str) and os.path.splitext(kind)[1])):
+        is_file = isinstance(kind, os.PathLike) or (isinstance(kind, str) and os.path.splitext(kind)[1] and kind not in self._drawn)
+        if path is None and is_file:
             kind, path = None, kind
         return self._by.plot(self, kind, path, ax, support)
 
@@ -187,6 +201,20 @@ the loads push it that way and no support resists
         """
         return self._by.to_html(self, path)
 
+    def to_excel(self, path: str | os.PathLike) -> None:
+        """Write the answer and all tables as sheets of an Excel file; xlsxwriter has to be installed.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            File to write, for example ``beam.xlsx``.
+        """
+        self._by.to_excel(self, path)
+
+    def __repr__(self) -> str:
+        """Show the answer in some lines."""
+        return "\n".join(self._by.answer(self))
+
     def _repr_html_(self) -> str:
         """Show the answer, a table and a picture in a notebook."""
         return self._by.notebook(self)
@@ -201,7 +229,11 @@ the loads push it that way and no support resists
         """Say what was probably meant."""
         if name.startswith("_"):
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        new = next((one.__dict__["renamed"][name] for one in type(self).__mro__ if name in one.__dict__.get("renamed", ())), None)
+        if new is not None:
+            warnings.warn(f"{name} is no longer for users; it goes away", DeprecationWarning, stacklevel=2)
+            return getattr(self, new)
         if hasattr(type(self), name):  # it is there, and said itself what is wrong
             return object.__getattribute__(self, name)
         known = [one for one in dir(self) if not one.startswith("_")]
-        raise AttributeError(missing(type(self).__name__, name, known, MEANT))
+        raise AttributeError(missing(type(self).__name__, name, known, {**MEANT, **self.meant}))

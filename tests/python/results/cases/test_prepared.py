@@ -50,7 +50,7 @@ def test_cases_are_scenes_with_scaled_loads(block):
             assert cases.closed[k].tolist() == step.solution.closed.tolist() or step.undecided
             assert full.steps[-1].reaction == pytest.approx(step.reaction, abs=tolerance, rel=1e-11)
             if not step.indifferent:
-                x = np.linspace(0.0, direct.beam.places.end, 7)
+                x = np.linspace(0.0, direct._beam.places.end, 7)
                 for name in ("deflection", "moment"):
                     a, b = getattr(full.at(x), name), getattr(direct.at(x), name)
                     assert a == pytest.approx(b, rel=1e-9, abs=1e-10 * max(np.abs(b).max(), 1e-6)), (seed, name)
@@ -168,8 +168,8 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
         moved = {f"S{rng.randrange(len(made['supports']))}": [0.01, -0.02, 0.0]} if made["supports"] else None
         x = np.linspace(0.0, sum(made["beam"]["spans"]), 9)
         for settlements in (None, moved):
-            cases = beam.solve(factors, settlements=settlements)
-            fields, extremes = cases.at(x, side="left"), cases.extremes()
+            cases = beam.solve(factors, extra_settlement=settlements)
+            fields, extremes = cases.at(x, side="left"), cases._pairs_of_extremes()
             for k, row in enumerate(factors):
                 if cases.status[k]:
                     assert np.isnan(fields.moment[k]).all()
@@ -182,9 +182,9 @@ def test_fields_and_extremes_of_cases_are_those_of_their_results():
                 assert fields.shear[k] == pytest.approx(there.shear, rel=1e-10, abs=scale)
                 for name in () if one.steps[-1].indifferent else ("deflection", "rotation"):
                     assert getattr(fields, name)[k] == pytest.approx(getattr(there, name), rel=1e-9, abs=1e-12), name
-                largest = one.extremes()["shear"]["max"][0]
+                largest = one.extremes["shear"]["max"].value
                 assert extremes["shear"]["max"][0][k] == pytest.approx(largest, rel=1e-11, abs=scale)
-                for name, field in one.extremes().items():
+                for name, field in one._pairs_of_extremes().items():
                     if name in ("deflection", "rotation") and one.steps[-1].indifferent:
                         continue
                     size = 1e-11 * max(abs(extreme) for extreme, _ in field.values())
@@ -208,7 +208,7 @@ def test_extremes_where_digits_or_range_are_short(short, factor):
     """Then the whole case is solved once more."""
     made = scene([5.0, short, 5.0], [at(0), at(1, side="below"), at(2, side="below"), at(3)], [uniform(1.0), force(2.0, 7.0)])
     cases = gapbeam.prepare(made).solve([[factor, 0.5 * factor], [1.0, 1.0]])
-    extremes, states = cases.extremes(), cases.states()
+    extremes, states = cases._pairs_of_extremes(), cases._combined()
     for name, field in extremes.items():
         for row, kind in enumerate(("max", "min")):
             values = states.extremes[:, FIELDS.index(name)]
@@ -218,12 +218,12 @@ def test_extremes_where_digits_or_range_are_short(short, factor):
 
 def test_movements_of_cases_are_checked():
     beam = gapbeam.prepare(scene([2.0], [at(0, name="A"), at(1)], [uniform(1.0)]))
-    assert beam.solve([1.0], settlements={"A": 0.5}).deflection[0] == 0.5
-    with pytest.raises(gapbeam.SceneError, match=r'settlements\.C: there is no support "C"'):
-        beam.solve(settlements={"C": 1.0})
-    assert beam.solve(settlements={"A": [1.0, 2.0]}).deflection[:, 0].tolist() == [1.0, 2.0]
-    with pytest.raises(ValueError, match=r"settlements\.A: expected a finite number, or 3"):
-        beam.solve([[1.0]] * 3, settlements={"A": [1.0, 2.0]})
+    assert beam.solve([1.0], extra_settlement={"A": 0.5}).deflection[0] == 0.5
+    with pytest.raises(gapbeam.SceneError, match=r'extra_settlement\.C: there is no support "C"'):
+        beam.solve(extra_settlement={"C": 1.0})
+    assert beam.solve(extra_settlement={"A": [1.0, 2.0]}).deflection[:, 0].tolist() == [1.0, 2.0]
+    with pytest.raises(ValueError, match=r"extra_settlement\.A: expected a finite number, or 3"):
+        beam.solve([[1.0]] * 3, extra_settlement={"A": [1.0, 2.0]})
 
 
 def test_movements_of_nothing_change_no_digit_of_a_case():
@@ -232,9 +232,9 @@ def test_movements_of_nothing_change_no_digit_of_a_case():
     beam = gapbeam.prepare(scene([2.9, 3.3], supports, [uniform(1.7), force(0.7, 3.1)]))
     rng = np.random.default_rng(3)
     factors, moves = rng.uniform(-1.0, 2.0, (40, 2)), rng.uniform(-0.1, 0.1, 40) * (np.arange(40) % 2)
-    cases = beam.solve(factors, settlements={2: moves})
+    cases = beam.solve(factors, extra_settlement={2: moves})
     for k in range(0, 40, 2):
-        assert (beam.solve(factors[k], settlements={2: 0.0}).reaction == cases.reaction[k]).all()
+        assert (beam.solve(factors[k], extra_settlement={2: 0.0}).reaction == cases.reaction[k]).all()
 
 
 def test_cases_are_those_that_were_solved():
@@ -283,7 +283,7 @@ def test_supports_vary_by_case():
             assert cases.at([1.0]).moment[k] == pytest.approx(full.at([1.0]).moment, rel=1e-12)
     beam = gapbeam.prepare(scene([2.0, 3.0, 2.0], plain, loads))
     assert beam.solve(settlement={"pier": [0.0, 0.1]}).reaction.shape == (2, 4)
-    assert np.array_equal(beam.solve(settlement={0: 0.1}).reaction, beam.solve(settlements={0: 0.1}).reaction)
+    assert np.array_equal(beam.solve(settlement={0: 0.1}).reaction, beam.solve(extra_settlement={0: 0.1}).reaction)
 
 
 @pytest.mark.parametrize("supports", [[at(0), at(1)], [at(0), at(0, side="above", gap=1.0), at(1)]])
@@ -292,7 +292,7 @@ def test_no_cases(supports):
     for cases in (beam.solve(np.zeros((0, 1))), beam.solve(gap={0: []})):
         assert cases.reaction.shape == (0, len(supports))
         assert cases.at([0.2, 0.4, 0.6]).moment.shape == (0, 3)
-        assert cases.extremes()["moment"]["max"][0].shape == cases.states().status.shape == (0,)
+        assert cases.extremes["moment"]["max"].value.shape == cases._combined().status.shape == (0,)
 
 
 def test_great_factors_are_no_infinite_ones(recwarn):
@@ -315,7 +315,7 @@ def test_mistakes_in_supports_by_case():
         ({"gap": {np.int64(7): 0.0}}, "gap.7: there is no support 7; their numbers go from 0 to 2"),
         ({"gap": {1.0: 0.0}}, 'gap."1.0": expected the name of a support, or its number from 0, got 1.0'),
         ({"gap": {None: 0.0}}, "gap.None: expected the name of a support, or its number from 0, got None"),
-        ({"settlements": {True: 0.0}}, "settlements.True: expected the name of a support, or its number from 0, got True"),
+        ({"extra_settlement": {True: 0.0}}, "extra_settlement.True: expected the name of a support, or its number from 0"),
     ):
         with pytest.raises(ValueError, match=words):
             beam.solve(**given)

@@ -63,12 +63,12 @@ def test_memory_of_results_is_used_again_only_when_nobody_has_them():
     rows = np.random.default_rng(6).uniform(-2.0, 5.0, (30, 3))
     given = np.asfortranarray(rows)
     kept = beam.solve(given)
-    reaction, moment, extremes = kept.reaction.copy(), kept.moment_left, kept.extremes()["moment"]["max"][0]
+    reaction, moment, extremes = kept.reaction.copy(), kept.moment_left, kept.extremes["moment"]["max"].value
     expected = moment.copy()
     given[:] = 7.0  # what was asked for stays
     address = beam.solve(rows[::-1]).reaction.ctypes.data
     assert np.array_equal(kept.reaction, reaction)
-    assert np.array_equal(kept.extremes()["moment"]["max"][0], extremes)
+    assert np.array_equal(kept.extremes["moment"]["max"].value, extremes)
     assert beam.solve(rows).reaction.ctypes.data == address
     del kept
     for count in (30, 9, 200):
@@ -133,14 +133,15 @@ def test_only_what_is_wanted_is_made(kind):
         beam.solve(rows, want=("reaction", "shear"))
     with pytest.raises(ValueError, match=r"want: expected some of .*; got 3"):
         beam.solve(rows, want=3)
-    with pytest.raises(ValueError, match=r"settlements: expected a mapping, .*; got \[1\]"):
-        beam.solve(rows, settlements=[1])
+    with pytest.raises(ValueError, match=r"extra_settlement: expected a mapping, .*; got \[1\]"):
+        beam.solve(rows, extra_settlement=[1])
     with pytest.raises(ValueError, match=r"names: expected some of deflection, .*; got 'sheer'"):
-        full.extremes_of(["sheer"])
+        full._extremes_of(["sheer"])
     assert np.array_equal(beam.solve(rows, want="reaction").at(1.0).moment, full.at(1.0).moment, equal_nan=True)
     start = np.zeros(len(beam.supports), dtype=bool)
     for some, all_ in ((beam.solve(rows, one, want="reaction"), beam.solve(rows, one)) for one in (None, start)):
-        assert np.array_equal(some.extremes()["moment"]["max"], all_.extremes()["moment"]["max"], equal_nan=True)
+        pairs = (one._pairs_of_extremes()["moment"]["max"] for one in (some, all_))
+        assert np.array_equal(*pairs, equal_nan=True)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -205,10 +206,10 @@ def test_extremes_do_not_depend_on_what_was_wanted(kind):
     beam = gapbeam.prepare(scene(SPANS, KINDS[kind], LOADS))
     rows = np.random.default_rng(5).uniform(-2.0, 5.0, (20, 3))
     for given in ({}, {"settlement": {0: 0.01}}, {"EI": {1: np.linspace(0.5, 2.0, 20)}}):
-        expected = beam.solve(rows, **given).extremes()
+        expected = beam.solve(rows, **given)._pairs_of_extremes()
         some = [beam.solve(rows, want=want, **given) for want in ("reaction", "moment", ())]
         again = beam.solve(rows, out=beam.solve(rows[::-1], **given), **given)
         for cases in (*some, again, pickle.loads(pickle.dumps(some[0]))):
-            for name, found in cases.extremes().items():
+            for name, found in cases._pairs_of_extremes().items():
                 for sense in found:
                     assert np.array_equal(found[sense], expected[name][sense], equal_nan=True), (name, sense)

@@ -84,7 +84,7 @@ def test_tables_of_combinations():
     assert table["combination"] == list(result.names)
     assert {len(column) for column in table.values()} == {4}
     for k, one in enumerate(result.combinations.values()):
-        for name, row in one.extremes().items():
+        for name, row in one._pairs_of_extremes().items():
             for kind, pair in row.items():
                 assert (table[f"{name}_{kind}"][k], table[f"{name}_{kind}_x"][k]) == pair
         assert table["reaction wall"][k] == one.steps[-1].reaction[0]

@@ -37,7 +37,7 @@ def arm(**analysis):
 
 def test_what_breaks_on_the_way_is_not_lost():
     result = gapbeam.solve(arm())
-    assert max(abs(value) for value, _ in result.extremes()["moment"].values()) < 1e-12
+    assert max(abs(value) for value, _ in result._pairs_of_extremes()["moment"].values()) < 1e-12
     envelope = result.envelope()
     least = envelope.extremes["moment"]["min"]
     assert (least.value, least.x) == (pytest.approx(-108.0, rel=1e-13), 3.0)
@@ -130,10 +130,10 @@ def test_nothing_between_is_larger(family):
 
 def check_bounds(result, states, tolerance=1e-10):
     """No state goes beyond the extremes, and each extreme is that of the state it comes from, or is in the curves."""
-    found = result.history_extremes()
-    values = np.array([state.extremes()[0] for state in states])
+    found = result.path_envelope()
+    values = np.array([state.solution.extremes()[0] for state in states])
     curves = found.fields
-    for name, column in result.beam.fields.items():
+    for name, column in result._beam.fields.items():
         row = found.extremes[name]
         size = max(abs(one.value) for one in row.values()) or 1.0
         assert values[:, 0, column].max() <= row["max"].value + tolerance * size, name
@@ -199,7 +199,7 @@ def test_steps_count_where_only_they_are_known():
     assert "history_extremes" not in one.to_dict()
     assert one.envelope().extremes["moment"]["max"].factor is None
     with pytest.raises(ValueError, match="not followed"):
-        one.history_extremes()
+        one.path_envelope()
 
 
 @pytest.mark.parametrize("made", [rail(follow="events"), {**yielding(), "analysis": {"follow": "events"}}])
@@ -208,14 +208,14 @@ def test_ground_is_of_states_and_says_so(made):
     found = result.envelope()
     assert found.over == "states"
     assert found.missing == []
-    at_end = result.extremes()
+    at_end = result._pairs_of_extremes()
     for name in FIELDS:
         assert found.extremes[name]["max"].value >= at_end[name]["max"][0]
         assert found.extremes[name]["min"].value <= at_end[name]["min"][0]
     for factor in np.linspace(0.05, 1.0, 11):
         step = result.state(factor)
         size = max(abs(one.value) for one in found.extremes["moment"].values())
-        assert step.extremes()[0][0, 2] <= found.extremes["moment"]["max"].value + 0.01 * size
+        assert step.solution.extremes()[0][0, 2] <= found.extremes["moment"]["max"].value + 0.01 * size
     assert "23 states between" in report_text(result)
 
 
@@ -236,7 +236,7 @@ def test_combinations_and_pickles_and_tables():
     made = arm()
     made["combinations"] = [{"name": "half", "factors": {"live": 0.5}}, {"name": "full", "factors": {"live": 1.0}}]
     result = gapbeam.solve(made)
-    found = result.history_extremes()
+    found = result.path_envelope()
     least = found.extremes["moment"]["min"]
     assert (least.value, least.source.combination) == (pytest.approx(-108.0), "full")
     assert least.factor == pytest.approx(0.7015)

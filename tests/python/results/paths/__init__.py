@@ -1,1 +1,1 @@
-"""The way of the load: events, laws, limit points, branches."""
+"""The loading history: events, laws, limit points, branches."""

@@ -359,7 +359,7 @@ def test_prepared_cases():
         assert cases.closed[row].tolist() == [int(state != "open") for state in step.state]
     with pytest.raises(SceneError, match="one of them is a curve"):
         gapbeam.prepare(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}))
-    with pytest.raises(SceneError, match="depends on the way of the load"):
+    with pytest.raises(SceneError, match="depends on the loading history"):
         gapbeam.prepare(snap())
     with pytest.raises(SceneError, match="has no load factor"):
         gapbeam.solve(snap(history=[]))

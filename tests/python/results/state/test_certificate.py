@@ -35,7 +35,7 @@ def test_bound_holds_and_is_not_wasteful(block):
         if result.status != "solved" or result.steps[-1].indifferent:
             continue
         step = result.steps[-1]
-        errors = true_errors(made, step, result.beam.numbers)
+        errors = true_errors(made, step, result._beam.numbers)
         if errors is None:
             continue
         compared += 1
@@ -55,7 +55,7 @@ def test_places_and_loads_that_are_rounded(seed):
     made["analysis"] = {}
     result, exact = gapbeam.solve(made), oracle.solve(made)
     step = result.steps[-1]
-    errors = true_errors(made, step, result.beam.numbers)
+    errors = true_errors(made, step, result._beam.numbers)
     assert all(error <= bound for error, bound in zip(errors, step.bounds, strict=True))
     places = [sum(made["beam"]["spans"]) * (k + 0.4937) / 11 for k in range(11)]
     found = result.at(places)

@@ -244,7 +244,7 @@ def test_dead_and_live_loads_follow_the_load_factor():
 @pytest.mark.parametrize(("q_a", "q_b"), [(0.0, 3.7), (3.7, 0.0)])
 def test_extremes_under_a_triangular_load(q_a, q_b):
     length, q = 6.5, max(q_a, q_b)
-    extremes = solve([length], SIMPLE, [linear(q_a, q_b)]).extremes()
+    extremes = solve([length], SIMPLE, [linear(q_a, q_b)])._pairs_of_extremes()
 
     def place(share):
         return length * (share if q_b else 1.0 - share)

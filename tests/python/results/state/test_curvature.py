@@ -51,7 +51,7 @@ def test_shear_deformation_does_not_bend():
 
 
 def test_extremes_are_on_the_side_on_which_the_beam_bends_more():
-    extremes = gapbeam.solve(BEAM).extremes()
+    extremes = gapbeam.solve(BEAM)._pairs_of_extremes()
     assert extremes["curvature"]["max"] == pytest.approx((extremes["moment"]["max"][0] / SOFT - 1e-3, 3.0), rel=1e-13)
     # The moment above the support is the same on both sides; the softer span bends more
     assert extremes["curvature"]["min"] == pytest.approx((extremes["moment"]["min"][0] / SOFT - 1e-3, 6.0), rel=1e-13)
@@ -62,9 +62,9 @@ def test_extremes_are_those_of_many_places(seed):
     result = gapbeam.solve(random_scene(random.Random(seed)))
     if result.status != "solved":
         pytest.skip("not solved")
-    places = np.concatenate([result.fields(points=200).x, [result.extremes()["curvature"][kind][1] for kind in ("max", "min")]])
+    places = np.concatenate([result.fields(points=200).x, [one.x for one in result.extremes["curvature"].values()]])
     both = np.concatenate([result.at(places, side=side).curvature for side in ("left", "right")])
-    extremes = result.extremes()["curvature"]
+    extremes = result._pairs_of_extremes()["curvature"]
     size = max(abs(both).max(), 1e-300)
     assert extremes["max"][0] == pytest.approx(both.max(), abs=1e-12 * size)
     assert extremes["min"][0] == pytest.approx(both.min(), abs=1e-12 * size)
@@ -84,10 +84,10 @@ def test_cases_side_by_side_have_what_one_by_one_have():
             assert cases.status[k]
             continue
         solved += 1
-        size = max(abs(one.extremes()["curvature"][kind][0]) for kind in ("max", "min"))
+        size = max(abs(one._pairs_of_extremes()["curvature"][kind][0]) for kind in ("max", "min"))
         np.testing.assert_allclose(fields.curvature[k], one.at(x).curvature, rtol=0, atol=1e-13 * size)
         for kind in ("max", "min"):
-            assert extremes[kind][0][k] == pytest.approx(one.extremes()["curvature"][kind][0], abs=1e-13 * size)
+            assert extremes[kind][0][k] == pytest.approx(one._pairs_of_extremes()["curvature"][kind][0], abs=1e-13 * size)
     assert solved > 20
 
 
@@ -98,14 +98,14 @@ def test_spans_that_differ_by_case():
         one = gapbeam.solve({**BEAM, "beam": {"spans": [6.0, 6.0, 6.0], "EI": stiffness[k].tolist()}})
         for kind in ("max", "min"):
             assert cases.extremes_of(["curvature"])["curvature"][kind][0][k] == pytest.approx(
-                one.extremes()["curvature"][kind][0], rel=1e-12)  # fmt: skip
+                one._pairs_of_extremes()["curvature"][kind][0], rel=1e-12)  # fmt: skip
 
 
 def test_combinations_have_an_envelope_of_it():
     factors = {"a": {"dead": 1.35, "live": 1.0}, "b": {"dead": 1.0}}
     result = gapbeam.solve({**BEAM, "combinations": [{"name": name, "factors": one} for name, one in factors.items()]})
     envelope = result.envelope()
-    largest = max(result.combinations[name].extremes()["curvature"]["max"][0] for name in "ab")
+    largest = max(result.combinations[name]._pairs_of_extremes()["curvature"]["max"][0] for name in "ab")
     assert envelope.extremes["curvature"]["max"].value == pytest.approx(largest, rel=1e-14)
     found = json.loads(result.to_json())
     assert list(found["envelope"]["extremes"])[-1] == "curvature"
@@ -137,7 +137,7 @@ def test_trains_bend_the_softer_span_more(ground):
     assert largest.max() <= envelope.extremes["curvature"]["max"].value * (1 + 1e-9)
     smooth = ~np.isin(envelope.fields.x, [2.0, 6.0, 12.0, 14.0])  # elsewhere it does not jump
     for position in np.linspace(0.0, 20.0, 23):
-        there = result.trains["crane"].at(position).fields(envelope.fields.x).curvature
+        there = result.trains["crane"].state(position).fields(envelope.fields.x).curvature
         assert (there <= largest + 1e-9 * abs(largest).max())[smooth].all()
         assert (there >= smallest - 1e-9 * abs(largest).max())[smooth].all()
 

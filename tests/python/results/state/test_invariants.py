@@ -297,7 +297,7 @@ def test_fields_jump_by_what_acts(solved):
 
 def test_extremes_are_reached_and_not_exceeded(solved):
     _, result = solved
-    extremes, table = result.extremes(), result.fields(points=50)
+    extremes, table = result._pairs_of_extremes(), result.fields(points=50)
     for name in NAMES:
         values = getattr(table, name)
         size = np.abs(values).max()

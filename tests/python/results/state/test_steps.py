@@ -67,7 +67,7 @@ def test_a_step_looked_at_is_the_one_that_was_solved():
     start = np.ones(10, dtype=np.int32)
     solves = 0
     for k in range(40):
-        solution = alone.beam.solve((k + 1) / 40, "block", start)
+        solution = alone._beam.solve((k + 1) / 40, "block", start)
         for step in (result.steps[k], pickle.loads(pickle.dumps(result)).steps[k - 40]):
             assert step.solution == solution
             assert step.solves == step.solution.solves == solution.solves
@@ -90,7 +90,7 @@ def test_steps_up_to_the_one_that_falls():
 def test_the_last_step_is_not_solved_again(monkeypatch):
     result = gapbeam.solve(lifted(3, 8))
     monkeypatch.setattr(gapbeam.engine.beam.Beam, "solve", None)
-    result.extremes()
+    result._pairs_of_extremes()
     assert result.steps[-1].reaction.shape == (4,)
     assert len(result.history()) == 8
     assert [step.solves for step in result.steps]

@@ -80,7 +80,7 @@ def test_d1():
     assert lifted.position == pytest.approx(1 / sqrt(3), abs=1e-12)
     rise = envelope.extremes["deflection"]["min"]
     assert (rise.x, rise.value) == pytest.approx((2.0, -lifted.value), rel=1e-14)
-    state = train.at(0.5)
+    state = train.state(0.5)
     assert state.reaction == pytest.approx([4.0, 6.0, 0.0], rel=1e-14)
     assert state.fields(0.5).moment == pytest.approx(4.0 * 0.5 - 0.125, rel=1e-14)
     assert state.certificate["error_bound_reaction"] < 1e-13
@@ -126,7 +126,7 @@ def test_uniform_loads_between_distances():
     assert (reaction.value, reaction.position) == pytest.approx(((6.0 * 4.5 + 6.0 * 7.0) / 8, 4.0), rel=1e-12)
     curves = envelope.fields
     assert (curves.largest["moment"][0], curves.largest_at["moment"][0]) == pytest.approx((16.5, 6.0), rel=1e-12)
-    assert train.at(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
+    assert train.state(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
     assert (train.traversals[0].engine.ends[0, 0], train.traversals[0].engine.ends[-1, 1]) == (0.0, 12.0)
 
 
@@ -144,7 +144,7 @@ def test_a_plank_tips(tmp_path, capsys):
     assert result.envelope().supports[0]["reaction"]["min"].value == pytest.approx(0.0, abs=1e-13)
     assert len(result.envelope().unstable_positions) == 3
     with pytest.raises(ValueError, match=r"position: no equilibrium at position 2\.5 of train man"):
-        result.trains["man"].at(2.5)
+        result.trains["man"].state(2.5)
     assert "tips about" in report_text(result)
     (tmp_path / "plank.json").write_text(json.dumps(made))
     assert main(["run", str(tmp_path / "plank.json"), "--quiet"]) == 1
@@ -169,7 +169,7 @@ def test_nothing_is_beyond_the_envelope(seed):
         for position in (course.from_, course.to, *rng.uniform(course.from_, course.to, 12)):
             which = np.flatnonzero((passage.ends[:, 0] <= position) & (position <= passage.ends[:, 1]))
             try:
-                state = train.at(position, course.direction)
+                state = train.state(position, course.direction)
             except ValueError:
                 assert (passage.status[which] != 0).any()
                 continue
@@ -178,7 +178,7 @@ def test_nothing_is_beyond_the_envelope(seed):
             if len(which) == 1:
                 decided = state.solution.undecided == 0
                 assert (passage.closed[which[0]] == state.solution.closed)[decided].all()
-            fields, extremes = state.fields(curves.x), state.extremes()
+            fields, extremes = state.fields(curves.x), state.result._pairs_of_extremes()
             for name, row in envelope.extremes.items():
                 slack = 1e-11 * max(abs(row["max"].value), abs(row["min"].value))
                 assert row["min"].value - slack <= extremes[name]["min"][0]
@@ -192,10 +192,10 @@ def test_nothing_is_beyond_the_envelope(seed):
         for kind, extreme in row.items():
             if extreme is None:
                 continue
-            state = train.at(extreme.position, extreme.direction)
+            state = train.state(extreme.position, extreme.direction)
             if state.indifferent:  # where it begins to move its position is not unique
                 continue
-            found = state.extremes()[name][kind][0]
+            found = state.extremes[name][kind].value
             assert found == pytest.approx(extreme.value, rel=1e-10, abs=1e-11 * abs(row["max"].value))
 
 
@@ -219,9 +219,9 @@ def test_axles_at_the_ends_act():
     supports = result.envelope().supports
     assert (supports[0]["reaction"]["max"].value, supports[1]["reaction"]["max"].value) == pytest.approx((4.0, 4.0))
     train = result.trains["train 1"]
-    assert train.at(10.0).reaction == pytest.approx([4.0, 3.0])
-    assert train.at(10.0 - 1e-9).reaction == pytest.approx([0.0, 3.0], abs=1e-8)
-    assert train.at(10.0 + 1e-9).reaction == pytest.approx([4.0, 0.0], abs=1e-8)
+    assert train.state(10.0).reaction == pytest.approx([4.0, 3.0])
+    assert train.state(10.0 - 1e-9).reaction == pytest.approx([0.0, 3.0], abs=1e-8)
+    assert train.state(10.0 + 1e-9).reaction == pytest.approx([4.0, 0.0], abs=1e-8)
 
 
 def test_pickled():
@@ -293,7 +293,7 @@ def test_refusals(train, message):
     ("change", "message"),
     [
         ({"supports": [{"node": 0}, {"node": 1, "side": "below", "law": {"type": "plastic", "stiffness": 1.0, "limit": 1.0}}]},
-         "supports: laws whose state depends on the way of the load cannot stand beside trains"),
+         "supports: supports whose state depends on the loading history cannot be combined with trains"),
     ],
 )  # fmt: skip
 def test_what_trains_cannot_go_over(change, message):
@@ -351,8 +351,9 @@ def test_together(seed):
             state = gapbeam.solve({**made, "loads": loads, "trains": []})
             if state.status != "solved" or state.steps[-1].indifferent:
                 continue
-            assert together.at(position, course.direction).reaction == pytest.approx(state.steps[-1].reaction, rel=1e-9, abs=1e-9)
-            for name, row in state.extremes().items():
+            there = together.state(position, course.direction).reaction
+            assert there == pytest.approx(state.steps[-1].reaction, rel=1e-9, abs=1e-9)
+            for name, row in state._pairs_of_extremes().items():
                 found = envelope.extremes[name]
                 slack = 1e-10 * max(abs(found["max"].value), abs(found["min"].value))
                 assert found["min"].value - slack <= row["min"][0] <= row["max"][0] <= found["max"].value + slack
@@ -367,7 +368,7 @@ def test_together_in_combinations():
     assert list(both.trains) == ["ab"]
     alone = gapbeam.solve(two_spans(trains=[{"axles": [[0.0, 8.0], [0.5, 4.0]]}])).trains["train 1"]
     assert both.trains["ab"].events == alone.events
-    assert both.trains["ab"].at(0.75).reaction.tolist() == alone.at(0.75).reaction.tolist()
+    assert both.trains["ab"].state(0.75).reaction.tolist() == alone.state(0.75).reaction.tolist()
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -394,7 +395,7 @@ def test_axial_loads_do_not_meet_trains(seed):
     for k, value in ((count, right - 3.0), (count + 1, -right)):
         reaction = train.envelope().supports[k]["reaction"]
         assert [reaction[kind].value for kind in ("max", "min")] == pytest.approx([value, value], rel=1e-12)
-    state = train.at(plain.traversals[0].course.to / 2)
+    state = train.state(plain.traversals[0].course.to / 2)
     assert state.fields(length * 0.9).axial_force == pytest.approx(-right, rel=1e-12)
 
 
@@ -457,7 +458,7 @@ def test_trains_in_combinations():
     assert [e.position for e in crane["crane"].events] == [e.position for e in gapbeam.solve(two_spans()).trains["crane"].events]
     assert not result.combinations["alone"].trains
     envelope = result.envelope()
-    assert [(m.combination, m.train) for m in envelope.members] == [("alone", None), ("half", "crane"), ("full", "crane")]
+    assert [(m.combination, m.train) for m in envelope._members] == [("alone", None), ("half", "crane"), ("full", "crane")]
     parts = [result.combinations[name].envelope() for name in result.names]
     for quantity, row in envelope.extremes.items():
         assert row["max"].value == max(part.extremes[quantity]["max"].value for part in parts)
@@ -543,7 +544,7 @@ def test_light_trains_beside_great_loads():
     moment = envelope.extremes["moment"]
     assert 0.0 < moment["max"].value - 9 / 128 * 6e11 * 6.0**2 < (60.0 + 80.0) * 6.0 / 4
     for position in (-1.0, 0.0, 1.3, 2.7, 6.0, 8.9, 12.0):
-        assert max(train.at(position).extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)
+        assert max(train.state(position).result._pairs_of_extremes()["moment"]["max"]) <= moment["max"].value * (1 + 4e-15)
 
 
 def test_the_end_of_the_beam_as_the_sum_of_its_spans() -> None:

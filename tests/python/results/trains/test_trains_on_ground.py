@@ -89,7 +89,7 @@ def test_where_a_plank_tips():
     # Next to these positions hardly a zone is left, and values grow without bound
     assert result.envelope().extremes["pressure"]["max"].value > 1e6
     with pytest.raises(ValueError, match="position: no equilibrium at position 9 of train man"):
-        result.trains["man"].at(9.0)
+        result.trains["man"].state(9.0)
 
 
 def assert_nothing_beyond(made, result, positions, x):
@@ -107,7 +107,7 @@ def assert_nothing_beyond(made, result, positions, x):
             assert (state.status != "solved" or state.steps[-1].indifferent) == inside
             if inside:
                 continue
-            for name, row in state.extremes().items():
+            for name, row in state._pairs_of_extremes().items():
                 high, low = envelope.extremes[name]["max"], envelope.extremes[name]["min"]
                 slack = 1e-12 * max(abs(high.value), abs(low.value))
                 assert low.value - slack <= row["min"][0] <= row["max"][0] <= high.value + slack
@@ -121,7 +121,7 @@ def assert_nothing_beyond(made, result, positions, x):
                 assert low - slack <= state.steps[-1].reaction[k] <= high + slack
     for name, row in envelope.extremes.items():
         for kind, extreme in row.items():
-            value = found.at(extreme.position, extreme.direction).extremes()[name][kind][0]
+            value = found.state(extreme.position, extreme.direction).extremes[name][kind].value
             # Beside a support a little away from it
             assert value == pytest.approx(extreme.value, rel=1e-6 if name == "shear" else 1e-11, abs=1e-12 * abs(row["max"].value))
 
@@ -191,9 +191,9 @@ def test_events():
     happens = {(event.support, event.foundation, event.event) for event in train.events}
     assert {(0, None, "closes"), (0, None, "opens"), (None, 0, "end leaves"), (None, 0, "end reaches")} <= happens
     closes = next(event for event in train.events if event.event == "closes")
-    assert train.at(closes.position - 1e-6).state == ("open",)
-    assert train.at(closes.position + 1e-6).state == ("closed",)
-    assert train.at(closes.position).reaction[0] == pytest.approx(0.0, abs=1e-10)
+    assert train.state(closes.position - 1e-6).state == ("open",)
+    assert train.state(closes.position + 1e-6).state == ("closed",)
+    assert train.state(closes.position).reaction[0] == pytest.approx(0.0, abs=1e-10)
     # The mirrored train meets the mirrored events in the same order
     mirrored = rail(supports=[{**rail()["supports"][0], "x": 5.0}], trains=[{**rail()["trains"][0], "both_directions": True}])
     back = gapbeam.solve(mirrored).trains["bogie"].traversals[1]

@@ -1,0 +1,75 @@
+"""One of many cases with all that there is to say of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...base.errors import EngineError, SceneError
+from ...engine.beam import Beam, RefusalError
+from ...engine.combinations import Varied
+from ...scene.refusals import refusal
+from ...scene.structs import Scene
+from ..paths.compression_check import compression_of
+from ..result import Result
+from ..state.schemes import starting_scheme
+from ..state.steps import LoadSteps
+from .varied import replace_numbers
+
+
+def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, varied: Varied) -> Result:
+    """Solve one case with all that there is to say of it, whether the beam would buckle or not.
+
+    Parameters
+    ----------
+    scene : Scene
+        The prepared scene.
+    beam : Beam
+        Made of it.
+    rule : {"block", "single"}
+        How contact states are found.
+    factors : numpy.ndarray
+        Of all loads.
+    varied : Varied
+        Numbers of this one case.
+
+    Returns
+    -------
+    Result
+    """
+    if not varied.is_nothing:
+        scene, columns = replace_numbers(scene, beam.columns, varied)
+        try:
+            beam = Beam(columns)
+        except RefusalError as refused:
+            raise refusal(scene, *refused.codes) from None
+    beam = beam.with_factors(factors)
+    result = Result(scene, beam, rule)
+    result.steps = LoadSteps(beam, rule, starting_scheme(beam), 1)
+    fallen = result.steps.solve_all()
+    if fallen is not None:
+        result._refuse("in this load case", fallen[1])
+    for step in result.steps:
+        result.compression = compression_of(result, step)
+    return result
+
+
+def why_not_solved(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, varied: Varied) -> str | None:
+    """Say why a case is not solved.
+
+    Parameters
+    ----------
+    scene, beam, rule, factors, varied
+        As for `result_of_case`.
+
+    Returns
+    -------
+    str or None
+        None where it is solved.
+    """
+    try:
+        result = result_of_case(scene, beam, rule, factors, varied)
+    except (EngineError, SceneError) as error:
+        return str(error)
+    if not scene.analysis.first_order and result.compression is not None and result.compression.is_refused:
+        return str(result.compression.refusal())
+    return result.reason

@@ -1,0 +1,130 @@
+"""The verbs of a result for its parts: envelopes, and one of its trains."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from ..views.columns import Columns, one_of
+from ..views.labelled import Labelled, by_support
+from ..views.shown import Shown
+from .lifted import Lifted, lifted_supports
+
+if TYPE_CHECKING:
+    from ...scene.structs import Scene
+    from ..result import Result
+    from ..state.fields import Fields
+    from ..trains.envelope import TrainEnvelope
+    from .envelope import Curves, Envelope
+
+
+class PartVerbs(Shown):
+    """What is asked of a part of a result in the words of results; values are the largest and the smallest ones.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was solved.
+    status : str
+        That of the result.
+    reason : str or None
+        That of the result.
+    """
+
+    _result: Result
+
+    @property
+    def scene(self) -> Scene:
+        """What was solved."""
+        return self._result.scene
+
+    @property
+    def status(self) -> str:
+        """Outcome of the result."""
+        return self._result.status
+
+    @property
+    def reason(self) -> str | None:
+        """Why it is not solved, or else what is to be known of its outcome."""
+        return self._result.reason
+
+    @property
+    def _ranges(self) -> Envelope | TrainEnvelope:
+        """Where the largest and smallest values are."""
+        return self
+
+    @property
+    def reactions(self) -> Labelled:
+        """Reactions by number and name of the support, each ``{"max": Extreme, "min": Extreme}``."""
+        return self._by_support("reaction")
+
+    @property
+    def openings(self) -> Labelled:
+        """Distance still to go until a support acts, the gap included, as `reactions`."""
+        return self._by_support("opening")
+
+    def _by_support(self, quantity: str) -> Labelled:
+        return by_support(self.scene, quantity, [row[quantity] for row in self._ranges.supports])
+
+    @property
+    def states(self) -> Labelled:
+        """All states that a support is in, a tuple by number and name of the support: ``("closed", "open")``."""
+        seen = list(self._seen_states())
+        return by_support(self.scene, "state", [tuple(sorted(set(column))) for column in zip(*seen, strict=True)])
+
+    def _seen_states(self) -> Any:
+        """States of all supports, one state of the beam after the other."""
+        raise NotImplementedError
+
+    @property
+    def lifted(self) -> list[Lifted]:
+        """One-sided supports without contact, each where its opening is largest."""
+        return lifted_supports(self._result, self._ranges)
+
+    def at(self, x: Any, **where: Any) -> Curves | Fields:
+        """Largest and smallest values anywhere along the beam; or the values in one state.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Places along the beam.
+        **where
+            ``factor``, ``leg``, ``position``, ``combination`` and so on, as for `Result.at`.
+
+        Returns
+        -------
+        Curves or Fields
+            Curves with ``largest`` and ``smallest`` by field; fields of the state that is meant.
+
+        Raises
+        ------
+        ValueError, KeyError
+            As for `Result.at`.
+        """
+        return self._result.at(x, **where) if where else self._curves_at(x)
+
+    def _curves_at(self, x: Any) -> Curves:
+        return self._result.envelope(x=x).fields
+
+    _kinds = ("supports", "fields")
+    meant: ClassVar = {"historyextremes": "extremes, which are those of the envelope", "steps": "the steps of the result"}
+
+    def table(self, kind: str = "supports") -> Columns:
+        """Give a table of the largest and smallest values.
+
+        Parameters
+        ----------
+        kind : {"supports", "fields"}
+            Of the supports, or along the beam.
+
+        Returns
+        -------
+        Columns
+            Columns by name; ``to_pandas()`` makes a DataFrame of them.
+
+        Raises
+        ------
+        ValueError
+            There is no such table.
+        """
+        ranges = self._ranges
+        return Columns((ranges.supports if one_of(kind, self._kinds) == "supports" else ranges).columns())

@@ -1,0 +1,70 @@
+"""Units of the numbers of a scene, as its docstrings tell them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import cache
+
+from ..base.characters import visible
+from .schema import scene_schema
+from .structs import Scene
+
+TABLES = {"beam": "Beam", "sections": "Section", "supports": "Support", "foundation": "Foundation", "trains": "Train",
+          "combinations": "Combination"}  # fmt: skip
+"""Tables of a scene by the key under which they are."""
+ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|rad|\([^)]*\)))*"
+UNIT = re.compile(rf"\(({ONE}(?:, {ONE})*)(?:, from the left end(?: of the beam)?)?\)")
+"""In a description: the unit of a number, or those of a pair."""
+
+
+@cache
+def _units() -> dict[tuple[str, str], tuple[str, ...]]:
+    """Units by table and key, of pairs two."""
+    found = {}
+    for table, one in scene_schema()["$defs"].items():
+        for key, entry in one["properties"].items():
+            unit = UNIT.search(entry.get("description", ""))
+            found[table, key] = tuple(unit[1].split(", ")) if unit else ()
+    return found
+
+
+def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
+    """Give the unit of a number of a scene by the labels of the scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    parts : sequence of (str or int)
+        Keys and numbers of entries from the top of the scene, as of `gapbeam.batches.paths.KeyPath`.
+
+    Returns
+    -------
+    str
+        Empty where it has none, or the scene has no labels.
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene, Units
+    >>> scene = Scene(beam=Beam([4.0], EI=1.0), units=Units("kN", "m"))
+    >>> key_unit(scene, ("beam", "EI", 0)), key_unit(scene, ("supports", 2, "stiffness")), key_unit(scene, ("factors", "wind"))
+    ('kN m^2', 'kN/m', '')
+    """
+    head, *rest = parts
+    table = TABLES.get(str(head), "")
+    keys = [one for one in rest if isinstance(one, str)]
+    if head == "loads":
+        table = type(scene.loads[rest[0]]).__name__
+    if table == "Support" and keys[:1] == ["law"] and len(keys) == 2:
+        table = type(scene.supports[rest[0]].law).__name__
+    pair = _units().get((table, keys[-1] if keys else ""), ())
+    if not pair:
+        return ""
+    at = rest[-1] if isinstance(rest[-1], int) and len(pair) > 1 else 0
+    force, length = visible(scene.units.force), visible(scene.units.length)
+    pattern = pair[min(at, len(pair) - 1)]
+    if ("force" in pattern and not force) or ("length" in pattern and not length):
+        return ""
+    words = {"force": force, "length": length, "*": " "}
+    return re.sub(r"force|length|\*", lambda match: words[match[0]], pattern)

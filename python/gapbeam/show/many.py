@@ -1,0 +1,134 @@
+"""Answers of many cases: those of a prepared beam, and those of a batch."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..base.characters import visible
+from ..batches.batch import Batch
+from ..batches.summary import Summary, distribution
+from ..results import formatting as fmt
+from ..results.cases.solved_cases import Cases
+from ..results.contact import short
+from ..results.envelopes.lifted import Lifted
+from ..scene.structs import Scene
+
+MOST_NAMED = 8
+"""Supports without contact that are named."""
+HISTOGRAMS = ("moment", "shear", "deflection")
+"""Fields of cases whose extremes are drawn."""
+
+
+def cases_answer(cases: Cases) -> list[str]:
+    """Give the answer of cases in a few lines.
+
+    Parameters
+    ----------
+    cases : Cases
+        With an axis of cases.
+
+    Returns
+    -------
+    list of str
+        How many are solved, what has no contact in which part of them, the largest values with their cases.
+    """
+    scene, count, solved = cases.scene, len(cases), int(np.sum(cases.ok))
+    lines = [f"{fmt.title(scene)}: {solved:,} of {fmt.count(count, 'case')} solved"]
+    if cases.reason is not None:
+        lines.append(fmt.sentence(visible(cases.reason)))
+    if not solved:
+        return lines
+    lines += lifted_in_words(scene, cases.lifted)
+    for name in ("moment", "shear", "deflection"):
+        texts = []
+        for kind, best in (("max", np.nanargmax), ("min", np.nanargmin)):
+            one = cases.extremes[name][kind]
+            k = int(best(one.value))
+            texts.append(f"{short(scene, name, float(one.value[k]))} at x = {fmt.number(float(one.x[k]), fmt.DIGITS)} (case {k})")
+        lines.append(f"{f'Largest {name}':<20}{'; '.join(texts)}")
+    return lines
+
+
+def lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
+    """Say which supports have no contact in which part of the cases.
+
+    Parameters
+    ----------
+    scene : Scene
+        Knows their names.
+    lifted : list of Lifted
+        Of the cases.
+
+    Returns
+    -------
+    list of str
+        Sentences; none where no support is one-sided.
+    """
+    if not any(support.side != "both" for support in scene.supports):
+        return []
+    if not lifted:
+        return ["No support lifts off in any case."]
+    lines = []
+    for one in sorted(sorted(lifted, key=lambda one: -one.share)[:MOST_NAMED]):
+        name = fmt.support(scene, one.support)
+        lines.append(f"{name[0].upper()}{name[1:]} has no contact in {100 * one.share:.3g} % of the cases, "
+                     f"opening up to {short(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
+    if len(lifted) > MOST_NAMED:
+        lines.append(f"{len(lifted) - MOST_NAMED:,} more have no contact in fewer cases.")
+    return lines
+
+
+def batch_answer(batch: Batch | Summary) -> list[str]:
+    """Give the answer of a batch in a few lines.
+
+    Parameters
+    ----------
+    batch : Batch or Summary
+        The batch.
+
+    Returns
+    -------
+    list of str
+        How many cases are done and how they ended; of a summary the quantiles of its first results.
+    """
+    where = f" in {batch.path}" if isinstance(batch, Batch) else ""
+    outcomes = ", ".join(f"{count:,} {outcome}" for outcome, count in batch._outcomes.items())
+    lines = [f"Batch{where}: {batch.done:,} of {fmt.count(batch.cases, 'case')} done"]
+    lines += [f"Outcomes: {outcomes}."] if outcomes else []
+    if batch.reason is not None:
+        lines.append(fmt.sentence(visible(batch.reason)))
+    if isinstance(batch, Summary):
+        there = [(name, one) for name, one in batch.columns.items() if one.count]
+        for name, one in there[:MOST_NAMED]:
+            shares = ", ".join(f"{fmt.number(value, 4)} ({100 * share:g} %)" for share, value in one.quantiles.items())
+            lines.append(f"{name:<20}{shares}")
+        lines += [f"... {len(there) - MOST_NAMED:,} more results"] if len(there) > MOST_NAMED else []
+    else:
+        lines.append(f"Results: {', '.join(batch.results[:MOST_NAMED])}" + (" ..." if len(batch.results) > MOST_NAMED else ""))
+    return lines
+
+
+def cases_summary(cases: Cases) -> Summary:
+    """Tell how reactions and extremes of cases are distributed.
+
+    Parameters
+    ----------
+    cases : Cases
+        With an axis of cases.
+
+    Returns
+    -------
+    Summary
+    """
+    table: dict[str, Any] = {
+        f"{name}.{kind}": one.value for name in HISTOGRAMS for kind, one in cases.extremes[name].items()
+    }
+    table |= {f"reaction.{key}": values for key, values in cases.reactions.items()}
+    counts = cases.table("cases")["status"]
+    statuses = {word: counts.count(word) for word in dict.fromkeys(counts)}
+    reasons = {} if cases.reason is None else {next(word for word in counts if word != "solved"): cases.reason}
+    columns = {name: distribution(np.asarray(values, dtype=float)) for name, values in table.items()}
+    units = {name: fmt.shown_unit(cases.scene, name.partition(".")[0]) for name in columns}
+    return Summary(len(cases), len(cases), statuses, reasons, columns, units)
