@@ -4,6 +4,7 @@ const byId = (id) => document.getElementById(id);
 const view = { way: 0, stop: 0, place: 0, playing: null };
 const scale = DATA.ways.some((way) => way.intervals && way.intervals.length) ? new Scale() : null;
 const STOPS = 200, NOISE = 1e-12; // parts of the slider; share of the largest value that is nothing but rounding
+const NEXT_TO_NOTHING = 1e-7; // share of the largest value that a place with five digits cannot tell from 0
 
 /* The places of the slider: both ends of all intervals, so every event, and equal parts between. */
 function stopsOf(way) {
@@ -98,8 +99,9 @@ function showPlace(state) {
   const cells = [`<span>x = <output data-field="x" data-value="${x}">${withUnit("x", x)}</output></span>`];
   for (const { name, words: title } of DATA.panels) {
     if (name === "axial_force" && !state.n) continue;
-    const left = state.value(name, x, true), right = state.value(name, x), jumps = Math.abs(left - right) > 1e-9 * Math.max(...scale.ranges[name].map(Math.abs));
-    const text = jumps ? `${shown(name, left)} | ${withUnit(name, right)}` : withUnit(name, right);
+    const left = state.value(name, x, true), right = state.value(name, x), largest = Math.max(...scale.ranges[name].map(Math.abs));
+    const told = (value) => (Math.abs(value) <= NEXT_TO_NOTHING * largest ? 0 : value), jumps = Math.abs(left - right) > 1e-9 * largest;
+    const text = jumps ? `${shown(name, told(left))} | ${withUnit(name, told(right))}` : withUnit(name, told(right));
     cells.push(`<span>${title} <output data-field="${name}" data-value="${right}" data-left="${left}">${text}</output></span>`);
   }
   byId("readout").innerHTML = cells.join("");
