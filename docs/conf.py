@@ -17,7 +17,7 @@ version = release = version_of("gapbeam")
 
 extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 exclude_patterns = ["_static"]
-suppress_warnings = ["misc.highlighting_failure"]   # JSON with ... in it
+suppress_warnings = ["misc.highlighting_failure", "ref.python"]   # JSON with ... in it; attributes of the same name
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4
 myst_links_external_new_tab = False

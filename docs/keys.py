@@ -34,8 +34,8 @@ def kind_of(entry):
     if entry.get("type") == "object":
         return f"table by name of {kind_of(entry['additionalProperties'])}"
     words = {"string": "text", "boolean": "`true` or `false`", "integer": "whole number"}.get(entry["type"], entry["type"])
-    more = [f"\N{NO-BREAK SPACE}{sign}\N{NO-BREAK SPACE}{entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
-    return words + "".join(more)
+    limits = [f" {sign} {entry[key]}" for key, sign in (("exclusiveMinimum", ">"), ("minimum", "≥")) if key in entry]
+    return words + "".join(limits).replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def link(reference):
@@ -96,6 +96,7 @@ def scene_page():
         "Units are those of the scene: any consistent set, such as kN and m. Signs: [modelling](../modelling.md#signs-and-units).",
         "A key that is not listed here is refused, and the message names the nearest one that is.",
         "The examples are parts of files. What they lack is a beam of two spans on three supports.", "",
+        "![Signs of loads, reactions and moments; sides, gaps and settlements of supports](../signs.svg)", "",
         "This page is made by `python docs/keys.py` from what `gapbeam schema` prints.", "",
     ]  # fmt: skip
     for name, told in SCENE.items():

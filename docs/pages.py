@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+import warnings
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
@@ -61,7 +62,8 @@ def run_page(page):
             problems.append(f"{language} block\n{body}\n{type(error).__name__}: {error}")
         return f"```{language}\n{body}```"
 
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), warnings.catch_warnings():
+        warnings.filterwarnings("error", category=DeprecationWarning, module="__main__")   # pages use no old names
         for name in ("examples", "docs", "tests"):
             Path(name).symlink_to(TOP / name)
         new = BLOCK.sub(renewed, text)

@@ -29,5 +29,6 @@ print(f"head {1e3 * float(result.at(0.0).deflection):.1f} mm, {float(result.at(0
 for force in (40.0, 80.0, 120.0, 160.0):
     again = gb.solve(gb.replace(pile, "loads[0].F", force))
     least = again.extremes["moment"]["min"]
-    print(f"{force:5.0f} kN: head {1e3 * float(again.at(0.0).deflection):6.2f} mm, moment {least.value:7.1f} kN m at {least.x:.2f} m")
+    head = 1e3 * float(again.at(0.0).deflection)
+    print(f"{force:5.0f} kN: head {head:6.2f} mm, moment {least.value:7.1f} kN m at {least.x:.2f} m")
 result.plot("pile.svg")

@@ -23,7 +23,7 @@ WORDS = (
     "",
     "* One span: a simple beam, finely meshed.",
     "* Random: lengths, EI and loads at random, a tenth of the nodes on rigid supports and a tenth on springs.",
-    "* + 1: with a step of refinement, which goes through everything a second time.",
+    "* ending + 1: with a step of refinement, which goes through everything a second time.",
     "",
     "Columns:",
     "",

@@ -29,7 +29,7 @@ A column of TABLE is a key path of the scene (supports.R-104.gap, loads[2].q, be
 Files of results can be read in one line, also while the batch runs: pandas.read_parquet("DIR"),
 polars.read_parquet("DIR/*.parquet"), duckdb: select * from 'DIR/*.parquet'. Without pyarrow they are .npy.
 
-Whatever ends a batch, the same command continues where it was, and the files come out the same to the last byte.
+After any interruption the same command resumes the batch, and the files are the same to the last byte.
 
 Exit status: 0 all cases are solved, 1 not all, 2 refused, 3 failed (cases too, for lack of memory), 130 ended by Ctrl-C, 143 by
 SIGTERM.
@@ -54,8 +54,8 @@ def add_batch(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("--want", metavar="NAMES", help="what is kept of every case, separated by commas: input, reaction, "
                         "opening, couple, error_bound, fields such as moment, or moment@1.5 at a place, limit.factor (default "
                         "input,reaction,opening,deflection,moment)")  # fmt: skip
-    parser.add_argument("--jobs", metavar="N", type=int, help="how many cores work (default all)")
-    parser.add_argument("--dask", metavar="ADDRESS", help="let the workers of a Dask scheduler work instead, such as "
+    parser.add_argument("--jobs", metavar="N", type=int, help="number of cores (default all)")
+    parser.add_argument("--dask", metavar="ADDRESS", help="use the workers of a Dask scheduler instead, such as "
                         "tcp://host:8786")  # fmt: skip
     parser.add_argument("--part", metavar="I/N", help="solve only part I of N, while other commands solve the others into the same "
                         "folder, as of a job array: 1/64 to 64/64")  # fmt: skip

@@ -5,6 +5,7 @@ What a command does not need is not imported: checking a scene loads neither ric
 
 import argparse
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -101,7 +102,9 @@ class Parser(argparse.ArgumentParser):
         message : str
             What is wrong.
         """
-        raise SceneError(f"{message} (see {self.prog} --help)")
+        scene = re.search(r"invalid choice: '([^']*\.(?:toml|json))'", message)
+        raise SceneError(f"a command is missing; did you mean: gapbeam run {scene[1]}" if scene else
+                         f"{message} (see {self.prog} --help)")  # fmt: skip
 
     def print_help(self, file: None = None) -> None:
         """Print the help.
@@ -212,18 +215,18 @@ def _parser() -> argparse.ArgumentParser:
                      "for Excel (.xlsx); needs xlsxwriter: pip install \"gapbeam[excel]\"")  # fmt: skip
     run.add_argument("--plot", metavar="FILE", help="draw beam, deflection, moment, shear, with foundations pressure, of "
                      "combinations and trains their envelope (.png, .pdf or .svg)")  # fmt: skip
-    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (with laws deflections), with foundations zones "
+    run.add_argument("--path", metavar="FILE", help="draw reactions and openings (nonlinear: deflections), with foundations zones "
                      "of contact, over the load factor, every event marked; best with follow = \"events\" (.png, .pdf or "
                      ".svg)")  # fmt: skip
     run.add_argument("--html", metavar="FILE", help="write a page with a slider, tables and checks, to look at, print and sign "
                      "(.html); - is standard output, without report")  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="print no report")
-    run.add_argument("--limits", action="store_true", help="end with 1 where a limit of [limits] is exceeded")
-    run.add_argument("--verbose", action="store_true", help="tell of equations, residuals and run time in the report")
+    run.add_argument("--limits", action="store_true", help="exit with status 1 if a limit of [limits] is exceeded")
+    run.add_argument("--verbose", action="store_true", help="add equations, residuals and run time to the report")
     run.set_defaults(command=_run)
 
     check = commands.add_parser(
-        "check", help="validate a scene and tell what it holds", formatter_class=plain,
+        "check", help="check a scene and say what it holds", formatter_class=plain,
         description="Validate a scene without solving it; print one line on what it holds.",
         epilog=f"{SCENE}\n{SIGNS}\n{STATUSES}",
     )  # fmt: skip

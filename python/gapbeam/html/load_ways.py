@@ -28,8 +28,9 @@ DEEPEST = 6
 """Times that an interval is halved at most."""
 SAME = 1e-9
 """Share of the largest value by which states on both sides of an event differ by rounding."""
-MOST_INTERVALS = 400
-"""Intervals of a way that are drawn."""
+WITH_DOUBLES, WITH_SUPPORTS, MOST_NUMBERS = 9_000, 25_000, 50_000
+"""Numbers on a page up to which all are doubles; up to which those of supports are, all others having seven digits; and up to
+which all events of a load are drawn."""
 
 
 class Way:
@@ -41,12 +42,19 @@ class Way:
         Of the beam.
     largest : dict
         Largest value of every field, by which differences are judged.
+
+    Attributes
+    ----------
+    left_out : int
+        Intervals that are not given, since they would take too many numbers.
     """
 
     def __init__(self, recorder: Recorder, largest: dict[str, float]) -> None:
         self.recorder = recorder
         self.states: list[dict[str, Any]] = []
-        self.intervals: list[dict[str, Any]] = []
+        self.intervals: list[list[Any]] = []
+        self.schemes: dict[str, int] = {}
+        self.left_out = 0
         self._largest = largest
         self._last: dict[str, np.ndarray] = {}
 
@@ -84,7 +92,7 @@ class Way:
             self._last = columns
         return len(self.states) - 1
 
-    def interval(self, from_: float, to: float, nodes: list[int], step: Step, **more: Any) -> None:
+    def interval(self, from_: float, to: float, nodes: list[int], step: Step, leg: int | None = None) -> None:
         """Add an interval in which the same supports act.
 
         Parameters
@@ -95,13 +103,40 @@ class Way:
             States equally far from each other, between which values are interpolated.
         step : Step
             A state inside.
-        **more
-            What else there is to be known.
+        leg : int, optional
+            Which factor of a history the load goes to.
         """
-        self.intervals.append({"from": from_, "to": to, "nodes": nodes, "state": self.recorder.codes(step.state), **more})
+        scheme = self.schemes.setdefault(self.recorder.codes(step.state), len(self.schemes))
+        self.intervals.append([from_, to, scheme, nodes, *([] if leg is None else [leg])])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Give the intervals.
+
+        Returns
+        -------
+        dict
+            ``intervals`` rows of both ends, number of the scheme, numbers of the states, leg; ``schemes`` a digit a support.
+        """
+        return {"intervals": self.intervals, "schemes": list(self.schemes)}
 
 
-def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
+def count_numbers(result: Result) -> int:
+    """Count the numbers that the states of a load take.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+
+    Returns
+    -------
+    int
+    """
+    numbers = 2 * len(result._beam.places.point_x) + 3 * len(result.scene.supports)
+    return numbers * (len(result.steps) if result.path is None else len(result.segments) + 1)
+
+
+def way_of_load(result: Result, words: list[str], together: int) -> dict[str, Any]:
     """Give the way of one load.
 
     Parameters
@@ -110,6 +145,8 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
         Of one load, with steps.
     words : list of str
         Words for the states of supports.
+    together : int
+        Numbers that all loads of the page take.
 
     Returns
     -------
@@ -118,43 +155,46 @@ def way_of_load(result: Result, words: list[str]) -> dict[str, Any]:
         one.
     """
     largest = {name: max(abs(pair[0]) for pair in row.values()) for name, row in result._pairs_of_extremes().items()}
-    way = Way(Recorder(result, words), largest)
+    short = (together > WITH_DOUBLES) + (together > WITH_SUPPORTS)
+    way = Way(Recorder(result, words, short), largest)
     if result.path is None:
         for step in result.steps:
             way.interval(step.factor, step.factor, [way.add(step)], step)
         over = "steps" if len(result.steps) > 1 else "one"
-        return {"over": over, "axis": "load factor", "states": way.states, "intervals": way.intervals, "events": []}
-    _follow(way, result)
+        return {"over": over, "axis": "load factor", "states": way.states, **way.to_dict(), "events": []}
+    _follow(way, result, -(-together // MOST_NUMBERS))
     exact = is_exact(result)
     events = _events(result, way)
-    return {"over": "path" if exact else "states", "axis": "load factor", "states": way.states, "intervals": way.intervals,
-            "events": events}  # fmt: skip
+    return {"over": "path" if exact else "states", "axis": "load factor", "states": way.states, **way.to_dict(), "events": events,
+            "left_out": way.left_out, "short": short}  # fmt: skip
 
 
-def _follow(way: Way, result: Result) -> None:
-    """Go along all segments of a path."""
+def _follow(way: Way, result: Result, every: int) -> None:
+    """Go along the segments of a path: all, or only some."""
     path, along = result.path, 0.0
-    for segment in result.segments[:MOST_INTERVALS]:
+    for k, segment in enumerate(result.segments):
         start, stop = segment.start, segment.stop
         leg = getattr(segment, "leg", 0)
         length = abs(stop - start)
-        more = {"leg": leg} if len(result.scene.analysis.history) > 1 else {}
+        shown = leg if len(result.scene.analysis.history) > 1 else None
 
         def at(share: float, segment: Any = segment, start: float = start, stop: float = stop) -> Step:
             if share == 0.0 and isinstance(path, BranchPath):
                 return path.begin(segment)
             return path.step(segment, start + share * (stop - start) if share < 1.0 else stop)
 
-        if is_exact(result):
+        if (len(result.segments) - 1 - k) % every:
+            way.left_out += 1
+        elif is_exact(result):
             first, last = at(0.0), at(1.0)
             nodes = [way.add(first), way.add(last)]
-            way.interval(along, along + length, nodes, last, **more)
+            way.interval(along, along + length, nodes, last, shown)
         else:
-            _curved(way, at, along, length, more)
+            _curved(way, at, along, length, shown)
         along += length
 
 
-def _curved(way: Way, at: Callable[[float], Step], along: float, length: float, more: dict[str, Any]) -> None:
+def _curved(way: Way, at: Callable[[float], Step], along: float, length: float, leg: int | None) -> None:
     """Go along a segment on which values are curved: by states so close that straight lines between them are right to a pixel."""
 
     def share(u: float) -> float:  # closer at both ends, where the load may turn round
@@ -187,7 +227,7 @@ def _curved(way: Way, at: Callable[[float], Step], along: float, length: float, 
     numbers = [way.add(one[1]) for one in found]
     places = [along + share(one[0]) * length for one in found]
     for k in range(len(found) - 1):
-        way.interval(places[k], places[k + 1], numbers[k : k + 2], found[k][1] if k else found[k + 1][1], **more)
+        way.interval(places[k], places[k + 1], numbers[k : k + 2], found[k][1] if k else found[k + 1][1], leg)
 
 
 def _events(result: Result, way: Way) -> list[dict[str, Any]]:

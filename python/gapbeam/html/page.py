@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parent / "templates"
 MOST_POINTS, FEWER_POINTS, FEWEST_POINTS = 400, 160, 60
 """Places along the beam at which an envelope is drawn, about; fewer while trains pass, fewest while they do so on the ground."""
-SECONDS = "seconds"
-"""What differs from run to run, and is left out."""
+LEFT_OUT = ("seconds", "supports", "contact", "free_spans", "certificate")
+"""Keys of states that are left out of the result: run times differ from run to run, all others stand elsewhere on the page."""
 
 
 class Source(NamedTuple):
@@ -127,6 +127,8 @@ def _result_data(result: Result, points: int) -> dict[str, Any]:
     """As the JSON output, without the seconds and without what is given state by state."""
     data = result.to_data(points, steps=_short_steps)
     data.pop("fields", None)
+    for train in data.get("trains", []):
+        del train["events"]  # the ways have them
     if "envelope" in data:
         data["envelope"] = {key: _without_ties(value) for key, value in data["envelope"].items()}
     return data
@@ -140,10 +142,10 @@ def _without_ties(value: Any) -> Any:
 
 
 def _short_steps(steps: Any) -> list[dict[str, Any]]:
-    """Steps or combinations without their supports, which the ways have, and without run times."""
+    """Steps or combinations without what is left out."""
     found = []
     for step in steps:
-        one = {key: value for key, value in step.items() if key not in (SECONDS, "supports", "contact", "free_spans")}
+        one = {key: value for key, value in step.items() if key not in LEFT_OUT}
         if "steps" in one:
             one["steps"] = _short_steps(one["steps"])
         found.append(one)

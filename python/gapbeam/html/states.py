@@ -20,6 +20,8 @@ OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
 ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 """What is given of a state at many places."""
 DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
+EQUAL = 1e-13
+"""Share of the largest moment by which those on both sides of a joint differ by rounding."""
 FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force"}
 """Fields by the short names of the columns of a state."""
 
@@ -53,10 +55,12 @@ class Recorder:
         Of one load.
     words : list of str
         Words for the states of supports; new ones are added.
+    short : {0, 1, 2}
+        Of how much only seven digits are kept: nothing, what is between the supports, everything.
     """
 
-    def __init__(self, result: Result, words: list[str]) -> None:
-        self._beam, self._words = result._beam, words
+    def __init__(self, result: Result, words: list[str], short: int = 0) -> None:
+        self._beam, self._words, self._short = result._beam, words, short
         self.x = result._beam.places.point_x
         self.grid = places_on_ground(result) if result._beam.ground_layers else None
 
@@ -120,12 +124,15 @@ class Recorder:
         for name in OF_SUPPORTS:
             values = getattr(step, name)
             if name not in ("couple", "set") or values.any():
-                found[name] = values.tolist()
+                found |= {f"{name}_packed": packed(values)} if self._short > 1 else {name: values.tolist()}
         columns = self.columns(step)
         if self.grid is not None:
             found |= on_ground(step)
             return found | {f"{name}_packed": packed(values) for name, values in columns.items()}
-        return found | {name: values.tolist() for name, values in joined_moments(columns).items()}
+        columns = joined_moments(columns)
+        if self._short:
+            return found | {f"{name}_packed": packed(values) for name, values in columns.items()}
+        return found | {name: values.tolist() for name, values in columns.items()}
 
 
 def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -141,7 +148,7 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     dict
     """
     m, left = columns["m"], columns["m_left"]
-    if not np.array_equal(m[1:], left[:-1]):
+    if np.abs(m[1:] - left[:-1]).max(initial=0.0) > EQUAL * np.abs(m).max():
         return columns
     return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
 

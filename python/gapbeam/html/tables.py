@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..results.trains.envelope import TrainEnvelope
 
 WORDS = {"max": "largest", "min": "smallest"}
-MOST_ROWS = 400
+MOST_ROWS = 200
 """Rows of a table; all are in the JSON output."""
 
 

@@ -202,7 +202,7 @@ class TrainWay(Way):
         self.interval(from_, to, [self.number(one) for one, _ in nodes], inside[0].step)
 
     def refine(self, ends: list[float], most: int) -> float:
-        """Add parabolas between states, and halve the worst of them as long as they are wrong by more than a pixel.
+        """Add parabolas and straight lines between states; the worst are halved as long as they are wrong by more than a pixel.
 
         Parameters
         ----------
@@ -218,15 +218,26 @@ class TrainWay(Way):
         """
         queue = [one for pair in pairwise(ends) if (one := self._parabola(*pair)) is not None]
         heapify(queue)
-        while 2 * len(queue) < most and queue and -queue[0][0] > PIXEL:
+        while len(queue) < most // 2 and queue and -queue[0][0] > PIXEL:
             _, from_, middle, to = heappop(queue)
             for one in (self._parabola(from_, middle), self._parabola(middle, to)):
                 if one is not None:
                     heappush(queue, one)
-        worst = -queue[0][0] / PIXEL if queue else 0.0
-        for _, from_, _, to in sorted(queue, key=lambda one: one[1]):
-            self.run(from_, to, 2)
-        return worst
+        lines = sorted(((self._straight(one), one) for one in queue), reverse=True)
+        bent = [pair for pair in lines[: max(most - len(lines), 0)] if pair[0] > PIXEL]  # a parabola takes one state more
+        straight = lines[len(bent) :]
+        runs = [(one[1], one[3], 2) for _, one in bent] + [(one[1], one[3], 1) for _, one in straight]
+        for run in sorted(runs):
+            self.run(*run)
+        return max((*(-one[0] for _, one in bent), *(error for error, _ in straight)), default=0.0) / PIXEL
+
+    def _straight(self, one: tuple[float, float, float, float]) -> float:
+        """Error of a straight line where a parabola may stand."""
+        _, from_, middle, to = one
+        acts = self.loads.acting(middle)
+        first, inside, last = (self.at(position, acts)[1] for position in (from_, middle, to))
+        drawn = {name: (first[name] + last[name]) / 2 for name in inside if name != "reaction"}
+        return self.difference(drawn, {name: inside[name] for name in drawn})
 
     def _parabola(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
         """Error of parabolas between two positions, less than 0 so that the worst comes first; and positions."""
@@ -286,8 +297,9 @@ def way_of_train(
             way.run(from_, to, degree)
     events = [{"at": one.position, **of_event(result.scene, one)} for one in traversal.events]
     return {
-        "over": "positions" if exact else "close positions", "axis": "position", "states": way.states,
-        **way.matrix(), "intervals": way.intervals,
+        "over": "positions" if exact else "close positions", "axis": "position",
+        "states": way.states if beam.ground_layers else len(way.states),
+        **way.matrix(), **way.to_dict(),
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
         "pixels": worst, "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..base.characters import visible
 from .geometry import beam_data, loads_data, supports_data
-from .load_ways import way_of_load
+from .load_ways import count_numbers, way_of_load
 from .train_ways import MOST_NUMBERS, way_of_train
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def collect_ways(
     """
     found = Collected()
     if not result.combinations:
-        _ways_of(found, None, result, envelope, first)
+        _ways_of(found, None, result, envelope, first, 1, count_numbers(result))
         return found
     names = list(result.combinations)
     chosen = set(_governing(envelope) if envelope is not None else names)
@@ -100,8 +100,9 @@ def collect_ways(
     most = max(1, min(MOST_WAYS, MOST_VALUES // numbers) // (1 + 4 * len(result.scene.trains)))
     chosen = sorted(chosen[:most], key=names.index)
     found.left_out = len(names) - len(chosen)
+    together = sum(count_numbers(result.combinations[name]) for name in chosen)
     for name in chosen:
-        _ways_of(found, name, result.combinations[name], envelope, first, len(chosen))
+        _ways_of(found, name, result.combinations[name], envelope, first, len(chosen), together)
     return found
 
 
@@ -115,7 +116,7 @@ def _governing(envelope: Envelope | TrainEnvelope) -> Iterator[str]:
 
 def _ways_of(
     found: Collected, of: str | None, result: Result, envelope: Envelope | TrainEnvelope | None,
-    first: tuple[Of, float | None] | None, shared_by: int = 1,
+    first: tuple[Of, float | None] | None, shared_by: int, together: int,
 ) -> None:  # fmt: skip
     """Add the ways of one load: that of the load, those of its trains, and how it moves where it is unstable."""
     name = visible(of or "")
@@ -136,4 +137,5 @@ def _ways_of(
         found.add((of, None, "motion"), ": ".join(part for part in (name, words) if part), result, motion)
     if result.steps:
         alone = "without trains" if traversals else "as far as it stands" if result.motion else ""
-        found.add((of, None, None), ": ".join(part for part in (name, alone) if part), result, way_of_load(result, found.words))
+        title = ": ".join(part for part in (name, alone) if part)
+        found.add((of, None, None), title, result, way_of_load(result, found.words, together))

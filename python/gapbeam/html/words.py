@@ -38,8 +38,8 @@ EXACT = {
     "states": "Between two events values are curved in the load factor. Drawn are states at most a pixel apart, with straight "
     "lines between them. Events and tables are exact.",
     "positions": "Between two events every value is a polynomial in the position of the train. Drawn are these polynomials.",
-    "close positions": "While the train passes, states at single positions are drawn, with parabolas between them. Tables are "
-    "exact.",
+    "close positions": "While the train passes, states at single positions are drawn, with parabolas or straight lines between "
+    "them. Tables are exact.",
 }  # fmt: skip
 """How exact the pictures are, by `over` of a way."""
 
@@ -107,11 +107,16 @@ def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
     found = [EXACT[kind] for kind in kinds if kind != "one" or len(collected.ways) == 1]
     if "close positions" in kinds:
         worst = max(1.0, *(way.get("pixels", 0.0) for way in collected.ways))
-        found.append(f"The parabolas are right to {fmt.count(math.ceil(worst), 'pixel')}.")
+        found.append(f"These are right to {fmt.count(math.ceil(worst), 'pixel')}.")
     if scene_has_ground:
         found.append("Along a beam on the ground values are given at many places, with straight lines between them.")
     elif kinds:
-        found.append("Along the beam moments, shears and deflections are drawn from their polynomials, with all digits.")
+        found.append("Along the beam moments, shears and deflections are drawn from their polynomials.")
+    if any(way.get("short") for way in collected.ways):
+        found.append("The data are so many that what is drawn has seven digits.")
+    left_out = sum(way.get("left_out", 0) for way in collected.ways)
+    if left_out:
+        found.append(f"The load has so many events that {left_out:,} stretches between two of them are not drawn.")
     if collected.left_out:
         found.append(f"{collected.left_out:,} combinations that do not govern are in the tables, not in the pictures.")
     return found

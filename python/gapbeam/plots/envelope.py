@@ -49,7 +49,7 @@ MOST_CURVED = 1_000
 """Points of a curve up to which it is rounded between them."""
 MOST_STRIPS = 500
 """Changes of what governs that are drawn along a beam."""
-POINTS, POINTS_ALL, MOST_ON_GROUND = 40, 80, 80
+POINTS, POINTS_ALL, MOST_ON_GROUND = 40, 80, 70
 """Divisions of a span, and of a beam, at least."""
 BESIDE = 1e-9
 """How far beside a place a curve is looked at where it may jump, as a share of the beam."""
@@ -121,7 +121,7 @@ def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     jumps = [scene.positions(scene.supports), *_ends_of_ways(result), *([stretch(scene, item)] for item in scene.foundation)]
     jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
     jumps = jumps[(jumps > 0.0) & (jumps < end)]
-    beside = np.concatenate((places, jumps - BESIDE * end, jumps + BESIDE * end))
+    beside = np.concatenate((np.setdiff1d(places, jumps), jumps - BESIDE * end, jumps + BESIDE * end))
     return result.envelope(x=np.unique(beside))
 
 
@@ -131,7 +131,8 @@ def _ends_of_ways(result: Result) -> list[np.ndarray]:
     for train in result.scene.trains:
         ends = [place for place in (train.from_, train.to) if place is not None]
         offsets = np.array([distance for distance, _ in train.axles], dtype=float)
-        found += [place + sign * offsets for place in ends for sign in (1.0, -1.0)]
+        found += [place - offsets for place in ends]
+        found += [place + offsets for place in ends] if train.both_directions else []
     return found
 
 

@@ -39,6 +39,8 @@ TOUCHED = "|"
 """Mark of a place at which the beam only touches the ground."""
 PER_LENGTH, CELLS_PER_LENGTH = 20, 4
 """Points of a polyline, and cells of a curve, in every length of (4 EI/k)^(1/4), within which it bends."""
+FINE = 100
+"""Points on the height of a panel by which labels keep clear of the surface of the ground."""
 CELLS, MANY, MOST_CELLS = 4, 200, 25_000
 """Cells of a span without ground; spans from which on half as many do; cells of a beam at most."""
 
@@ -236,11 +238,14 @@ def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float,
     for item in scene.foundation:
         x, gap = surface(scene, item)
         at = np.linspace(x[0], x[-1], max(2, int(length * (x[-1] - x[0]) / float(scene.span_ends()[-1]))))
-        size = 1.5 * float(np.ptp(cells.values["deflection"]))
+        size = 3.0 * float(np.ptp(np.append(cells.values["deflection"], 0.0)))
         for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
             y = sign * np.interp(at, x, gap)
+            parts = np.maximum(1, np.ceil(np.abs(np.diff(y)) / (size or 1.0) * FINE)).astype(int)  # more where it is steep
+            index = np.concatenate([k + np.arange(count) / count for k, count in enumerate(parts.clip(max=FINE).tolist())])
+            fine_x, fine_y = (np.interp(index, np.arange(len(at)), values) for values in (at, y))
             for off in (0.0, sign * 0.04 * size) if item.side != "both" or gap.any() else ():
-                found += [(float(a), float(b) + off) for a, b in zip(at, y, strict=True) if abs(b) < size]
+                found += [(float(a), float(b) + off) for a, b in zip(fine_x, fine_y, strict=True) if abs(b) < size]
     return found
 
 

@@ -24,6 +24,10 @@ WORTH = 0.02
 """Share of the largest value from which one of a span is written."""
 LETTER, HIGH, OFF, NEAR = 4.6, 8.5, 4.0, 5.0
 """Width of a letter, height of a line, distance from the point, from symbols (points of 1/72 inch)."""
+FAR = 1.8
+"""Lines between a label and its point from which a leader connects them."""
+INWARD = 12.0
+"""Price of a label on the side of the axis: as that of six lines farther off."""
 JUMP = 16
 """Points on a jump."""
 ROUNDS = 8
@@ -102,9 +106,10 @@ class Marks:
                         box = (left, y + up - HIGH / 2, left + wide, y + up + HIGH / 2)
                         yield 2 * level + aside / HIGH + (order != (not outward)) / 2, side, "center", box
                 continue
-            foot = y + away if outward else y - away - HIGH
-            for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
-                yield 2 * level + order / 4, align, "bottom" if outward else "top", (start, foot, start + wide, foot + HIGH)
+            for up in (outward, not outward) if levels > 1 else (outward,):
+                foot, price = y + away if up else y - away - HIGH, 2 * level + INWARD * (up != outward)
+                for order, (align, start) in enumerate((("center", x - wide / 2), ("left", x - 2.0), ("right", x - wide + 2.0))):
+                    yield price + order / 4, align, "bottom" if up else "top", (start, foot, start + wide, foot + HIGH)
 
     def _write(self, value: float, x: float, text: str, must: bool) -> None:
         outward = (value > 0.0) != self.axes.yaxis_inverted()
@@ -135,6 +140,8 @@ class Marks:
             {"center": (box[0] + box[2]) / 2, "left": box[0], "right": box[2]}[align],
             {"center": (box[1] + box[3]) / 2, "bottom": box[1], "top": box[3]}[upright],
         ]) - at  # fmt: skip
+        if abs(anchor[1]) > FAR * HIGH:
+            behind["arrowprops"] = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.4, "shrinkA": 0.0, "shrinkB": 1.5}
         self.axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
         place = (value, x) if self.turned else (x, value)
         raw(self.axes).annotate(text, place, anchor.tolist(), textcoords="offset points", fontsize=7.5, zorder=5, ha=align,

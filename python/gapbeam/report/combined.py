@@ -19,7 +19,7 @@ from .writer import Writer, chosen
 
 if TYPE_CHECKING:
     from ..results.cases.combined import CombinedResult
-    from ..results.envelopes.envelope import Envelope, Extreme
+    from ..results.envelopes.envelope import Extreme
     from ..results.envelopes.ground_envelope import GroundExtreme
     from ..results.envelopes.hints import Hint
     from ..scene.structs import Scene
@@ -30,7 +30,7 @@ MOST_TIES = 2
 """Further combinations with the same value that are named."""
 MOST_ROWS = 24
 """Combinations whose reactions are listed."""
-MOST_SUPPORTS = 40
+MOST_SUPPORTS = 16
 """Supports whose reactions are listed."""
 PLACES = (("max", "largest"), ("min", "smallest"))
 
@@ -128,10 +128,11 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     reaction, opening = (envelope.at_supports[:, AT_SUPPORTS.index(name)] for name in ("reaction", "opening"))
     deflection = np.nanmax(np.abs(envelope.at_supports[:, AT_SUPPORTS.index("deflection")]))
     lifted = opening > NONE * deflection
-    shown, supports = _rows_of(envelope, lifted), _columns_of(reaction, lifted)
+    supports = _columns_of(reaction, lifted)
+    shown = _rows_of(reaction, opening, supports)
     rows = []
     for k in shown:
-        name, one = visible(envelope.sources[k].combination or ""), envelope.result_of(k)
+        name, one = visible(envelope.sources[k].combination or ""), envelope._result_of(k)
         if one.status != "solved":
             rows.append([name, *["-"] * (len(supports) + 2)])
             continue
@@ -163,16 +164,16 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     say.line(" ".join(words), "dim")
 
 
-def _rows_of(envelope: "Envelope", lifted: np.ndarray) -> list[int]:
-    """Choose combinations: those that govern a reaction or an opening, then those with supports without contact."""
-    count = len(envelope.sources)
+def _rows_of(reaction: np.ndarray, opening: np.ndarray, supports: list[int]) -> list[int]:
+    """Choose combinations: those that govern at the supports that are shown, then those in which supports have no contact."""
+    count = len(reaction)
     if count <= MOST_ROWS:
         return list(range(count))
-    numbers = {source: k for k, source in enumerate(envelope.sources)}
-    ends = [row[what][kind].source for row in envelope.supports[:MOST_SUPPORTS]
-            for what, kind in (("opening", "max"), ("reaction", "max"), ("reaction", "min"))]  # fmt: skip
-    ranked = [*(numbers[source] for source in ends), *np.flatnonzero(lifted.any(axis=1)).tolist(), *range(count)]
-    return sorted(list(dict.fromkeys(ranked))[:MOST_ROWS])
+    solved = np.isfinite(reaction).all(axis=1)
+    gone, most, least = (np.where(solved[:, None], values, -np.inf) for values in (opening, reaction, -reaction))
+    ranked = sorted(supports, key=lambda i: -gone[:, i].max())
+    governs = [int(values[:, i].argmax()) for i in ranked for values in (gone, most, least)]
+    return sorted(list(dict.fromkeys([*governs, *np.argsort(-gone.max(axis=1), kind="stable").tolist()]))[:MOST_ROWS])
 
 
 def _columns_of(reaction: np.ndarray, lifted: np.ndarray) -> list[int]:
@@ -267,7 +268,11 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
     largest = {(name, None, kind): one.value for name, row in envelope.extremes.items() for kind, one in row.items()}
     for k, row in enumerate(envelope.supports):
         largest |= {(name, k, kind): one.value for name in ("reaction", "opening") for kind, one in row[name].items()}
-    found = list(beyond(result.hints(), largest))
+    found = [
+        hint for hint in beyond(result.hints(), largest)
+        if fmt.shown(scene, hint.quantity, hint.value)
+        != fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind])
+    ]  # fmt: skip
     if not found:
         say.line("Nothing is greater where all loads but the dead ones have only a part of their factors.")
         return

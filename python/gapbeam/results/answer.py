@@ -114,6 +114,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     for name in ("moment", "shear", "deflection", *(["pressure"] if "pressure" in envelope.extremes else [])):
         both = [envelope.extremes[name][kind] for kind in KINDS]
         both = [one for one in both if one is not None]
+        if not both:
+            continue  # where the beam can move freely its deflections are not unique
         largest = max((abs(one.value) for one in both), default=0.0)
         both = [one for one in both if abs(one.value) > NONE * largest] or both[:1]
         texts = [_one(result, name, one, said(one)) for one in both]

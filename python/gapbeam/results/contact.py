@@ -102,9 +102,9 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         return []
     broken = {event.support for event in result.events if event.event == "breaks"} if not result.combinations else set()
     lost = len((broken & one_sided) - {one.support for one in lifted})
+    x, lines = result.scene.positions(supports), _closed_gaps(result, {one.support for one in lifted})
     if not lifted and not lost:
-        return ["No support lifts off." if len(one_sided) > 1 else "The support that can lift off does not."]
-    x, lines = result.scene.positions(supports), []
+        return [*lines, "No support lifts off." if len(one_sided) > 1 or lines else "The support that can lift off does not."]
     largest = sorted(lifted, key=lambda one: -one.opening)
     for one in sorted(largest[:MOST_NAMED]):
         name = fmt.support(result.scene, one.support)
@@ -118,6 +118,22 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         lines.append(f"The other {left:,} one-sided supports stay in contact." if left > 1
                      else "The other one-sided support stays in contact.")  # fmt: skip
     return lines
+
+
+def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
+    """Say which supports with a gap are reached, where the load is not followed and nothing else tells it."""
+    scene = result.scene
+    if result.combinations or scene.trains or is_followed(result) or not result.steps:
+        return []
+    gaps, states = column_of(scene.supports, "gap"), result.steps[-1].state
+    closed = [k for k, gap in enumerate(gaps) if gap and gap > 0.0 and states[k] != "open" and k not in lifted]
+    if len(closed) > MOST_NAMED:
+        return [f"{len(closed):,} supports close their gaps."]
+    x = scene.positions(scene.supports)
+    return [
+        f"Support {label(scene.supports, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) closes its gap of {short(scene, 'gap', gaps[k])}."
+        for k in closed
+    ]
 
 
 def _how_far(result: Result, one: Lifted) -> str:

@@ -114,7 +114,7 @@ def _displaced(scene: Scene, shortest: float, deflection: float, envelope: Envel
 
 
 def _long(place: str, value: float, shortest: float) -> str:
-    share = f"{abs(value) / shortest:.2g} of the shortest span"
+    share = _share(abs(value) / shortest, "shortest")
     return f"{place} = {fmt.number(value)} is {share}; is it in the unit of the spans?"
 
 
@@ -128,17 +128,21 @@ def _soft(result: Result, longest: float, deflection: float, envelope: Envelope 
             given = np.nan_to_num(reactions / springs, nan=0.0, posinf=0.0)
         if given.max() > limit:
             k = int(given.argmax())
-            share = f"{given[k] / longest:.2g} of the longest span"
+            share = _share(given[k] / longest, "longest")
             return f"supports[{k}].stiffness = {fmt.number(springs[k])} gives by {share}; is it a force per length?"
     steps = result.steps if not result.combinations and not scene.trains else ()
     for zone in joined(steps[-1].contact) if len(steps) else ():
         k = scene.foundation[zone.foundation].k
         if isinstance(k, int | float) and k * limit * (zone.to - zone.from_) < abs(zone.resultant):
             place = f"foundation[{zone.foundation}].k = {fmt.number(k)}"
-            return f"{place} gives by more than {LARGE:g} of the longest span; is it a force per length and length of beam?"
-    share = f"{deflection / longest:.2g} of the longest span"
+            return f"{place} gives by more than a tenth of the longest span; is it a force per length and length of beam?"
+    share = _share(deflection / longest, "longest")
     return (f"beam.EI = {fmt.number(_stiffness(scene))} makes a largest deflection of {share}; are its units those of spans and "
             "loads?")  # fmt: skip
+
+
+def _share(value: float, which: str) -> str:
+    return f"{fmt.number(100.0 * value, 2)} % of the {which} span"
 
 
 def _stiffness(scene: Scene) -> float:

@@ -68,6 +68,7 @@ class Verbs(Shown, States):
     def at(
         self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None, *, leg: int | None = None,
         position: float | None = None, train: str | None = None, direction: str = "right", combination: str | int | None = None,
+        case: int | None = None,
     ) -> Fields:  # fmt: skip
         """Exact values anywhere along the beam.
 
@@ -91,6 +92,8 @@ class Verbs(Shown, States):
             Which way it goes.
         combination : str or int, optional
             Name or number of a combination.
+        case : int, optional
+            Of prepared cases only (`Cases.at`): a result has none.
 
         Returns
         -------
@@ -117,6 +120,8 @@ class Verbs(Shown, States):
         >>> float(result.at(2.0, position=2.0).moment)
         8.0
         """
+        if case is not None:
+            raise ValueError("case: a result has no cases; prepared ones have, gapbeam.prepare(scene).solve([...]).at(x, case=0)")
         if combination is not None:
             one = self.combinations[combination]
             return one.at(x, step, side, factor, leg=leg, position=position, train=train, direction=direction)

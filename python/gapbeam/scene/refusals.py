@@ -82,8 +82,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial"',
-        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear which "
-        "side takes it; put it on one side of the hinge",
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
+        "which side takes it; put it on one side of the hinge",
     }
     return SceneError(path, words[reason]())
 

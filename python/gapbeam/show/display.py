@@ -215,22 +215,32 @@ def to_excel(result: Any, path: str | os.PathLike) -> None:
     write_excel(_whole(result), answer(result), path)
 
 
-def to_html(result: Result, path: str | os.PathLike | None = None) -> str:
+def to_html(result: Any, path: str | os.PathLike | None = None) -> str:
     """Write a result as a page of HTML.
 
     Parameters
     ----------
-    result : Result
-        Of one load or of combinations.
+    result : Result, Envelope or TrainResult
+        Of one load or of combinations; of a part of a result that whole result is shown.
     path : str or os.PathLike, optional
         File to write as well.
 
     Returns
     -------
     str
+
+    Raises
+    ------
+    ValueError
+        These are many cases.
     """
     from ..html.page import html_page
 
+    result = _whole(result)
+    result = result._result if isinstance(result, PartVerbs) else result
+    if not isinstance(result, Result):
+        of = "cases.result(0)" if isinstance(result, Cases) else "gapbeam.solve(batch.scene_of(0))"
+        raise ValueError(f"to_html: a page shows one result, and these are many; take that of a case, {of}.to_html(path)")
     text = html_page(result)
     if path is not None:
         write_files({path: [text]})

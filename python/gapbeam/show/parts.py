@@ -7,6 +7,8 @@ from ..results.answer import values_in_words
 from ..results.contact import contact_in_words
 from ..results.envelopes.verbs import PartVerbs
 from ..results.trains.trains import TrainResult
+from ..results.views.columns import Columns
+from .notebook import SHOWN
 
 
 def part_answer(part: PartVerbs) -> list[str]:
@@ -45,7 +47,9 @@ def part_report(part: PartVerbs) -> str:
     str
     """
     lines = part_answer(part)
-    for kind in part._kinds:
-        if kind != "fields" and (table := part.table(kind)).count:
-            lines += ["", kind.capitalize(), repr(table)]
+    supports = part.table("supports")
+    if supports.count:
+        lines += ["", "Supports", repr(Columns({name: supports[name] for name in SHOWN if name in supports}))]
+    if "events" in part._kinds and (events := part.table("events")).count:
+        lines += ["", "Events", repr(events)]
     return "\n".join([*lines, ""])

@@ -66,7 +66,7 @@ METHODS = (
     "nodal mixed: every mesh point a node (deflection and moment unknown), by the engine's 2x2 block elimination.",
     "fused kernel: the same by its kernel for plain beams, without reactions.",
     "dgbsv: the same by LAPACK.",
-    "+ 1, + 2: steps of refinement. Residuals are in plain double with differences first (those of the kernel with "
+    "ending + 1, + 2: steps of refinement. Residuals are in plain double with differences first (those of the kernel with "
     "the remainders of the divisions).",
     "dd: residuals in double-double.",
     "displacement: cubic Hermite elements and banded Cholesky (dpbtrf), what most programs do.",

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import zipfile
 
 import gapbeam
 import pytest
@@ -116,6 +117,8 @@ def test_bad_scenes_write_nothing(capsys, scene, tmp_path, command, old, new, me
         ("--plot", "a.docx", ".png, .pdf or .svg"),
         ("--plot", "a", ".png, .pdf or .svg"),
         ("--plot", "-", ".png, .pdf or .svg"),
+        ("--xlsx", "-", "ends in .xlsx"),
+        ("--xlsx", "a.xls", "ends in .xlsx"),
         ("--json", "", "name of a file"),
         ("--json", ".", "name of a file"),
     ],
@@ -194,6 +197,20 @@ def test_no_equilibrium(capsys, tipping, tmp_path):
     assert "not written" in err
 
 
+def test_tables_for_excel(capsys, scene, tipping, tmp_path, monkeypatch):
+    pytest.importorskip("xlsxwriter")
+    assert main(["run", str(scene), "--quiet", "--xlsx", str(tmp_path / "a.xlsx")]) == 0
+    with zipfile.ZipFile(tmp_path / "a.xlsx") as book:
+        words = book.read("xl/sharedStrings.xml").decode()
+    assert "Two spans" in words
+    assert "<t>reaction</t>" in words
+    assert main(["run", str(tipping), "--xlsx", str(tmp_path / "b.xlsx")]) == 1
+    assert not (tmp_path / "b.xlsx").exists()
+    assert "b.xlsx is not written" in capsys.readouterr()[1]
+    monkeypatch.setattr(gapbeam.cli.command, "find_spec", lambda _: None)
+    assert 'pip install "gapbeam[excel]"' in refused(capsys, "run", scene, "--xlsx", tmp_path / "c.xlsx")
+
+
 def test_no_equilibrium_quietly(capsys, tipping):
     assert main(["run", str(tipping), "--quiet"]) == 1
     out, err = capsys.readouterr()
@@ -264,3 +281,8 @@ def test_reader_that_leaves_early_costs_no_file(request, tmp_path, name, status)
         assert process.stderr.read() == b""
     assert process.returncode == status
     assert json.loads((tmp_path / "a.json").read_text())["status"] in ("solved", "no-equilibrium")
+
+
+def test_a_scene_without_a_command_is_answered(capsys):
+    assert main(["beam.toml"]) == 2
+    assert capsys.readouterr().err == "gapbeam: error: a command is missing; did you mean: gapbeam run beam.toml\n"

@@ -102,7 +102,7 @@ def test_events_are_stops_that_one_clicks(browser, look_at):
     assert "Support D (x = 18) lifts off." in find(browser, "#caption").text
     time.sleep(0.5)
     assert find(browser, "#spoken").get_attribute("textContent") == find(browser, "#caption").text
-    browser.find_elements(By.CSS_SELECTOR, "#events .jump")[0].click()
+    browser.find_elements(By.CSS_SELECTOR, "#events [data-jump]")[0].click()
     assert float(find(browser, "#now").get_attribute("data-value")) == events[0].factor
     find(browser, "#next").click()
     assert float(find(browser, "#now").get_attribute("data-value")) == events[1].factor
@@ -180,7 +180,8 @@ def test_everything_has_a_name_for_who_listens(browser, look_at):
     look_at(combined())
     unnamed = browser.execute_script(
         "return Array.from(document.querySelectorAll('button, input, select, svg'))"
-        ".filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || (one.labels && one.labels.length))).map((one) => one.outerHTML)"
+        ".filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || (one.labels && one.labels.length)))"
+        ".map((one) => one.outerHTML)"
     )
     ids = browser.execute_script("return Array.from(document.querySelectorAll('[id]'), (one) => one.id)")
     missing = browser.execute_script(

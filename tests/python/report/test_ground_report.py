@@ -196,8 +196,8 @@ def test_json_and_csv_have_the_pressure(on_rail):
     assert [span["sag"] for span in data["steps"][-1]["free_spans"]] == [span.sag for span in on_rail.steps[-1].free_spans]
     assert list(data["extremes"]["pressure"]) == ["max", "min"]
     header, *rows = csv.reader(io.StringIO(to_csv(on_rail)))
-    assert header[-1] == "pressure [kN/m]"
-    assert [float(row[-1]) for row in rows] == data["fields"]["pressure"]
+    assert header[-2:] == ["pressure [kN/m]", "curvature [1/m]"]
+    assert [float(row[-2]) for row in rows] == data["fields"]["pressure"]
 
 
 def test_fields_bend_where_zones_end(on_rail):

@@ -70,9 +70,9 @@ def test_json_holds_one_line_a_support(result):
 def test_csv_is_the_table_of_the_fields(result):
     header, *rows = csv.reader(io.StringIO(to_csv(result, points=10)))
     fields = result.fields(points=10)
-    assert header == ["x [m]", "deflection [m]", "rotation [rad]", "moment [kN m]", "shear [kN]"]
+    assert header == ["x [m]", "deflection [m]", "rotation [rad]", "moment [kN m]", "shear [kN]", "curvature [1/m]"]
     table = np.array(rows, dtype=float).T
-    for name, column in zip(("x", "deflection", "rotation", "moment", "shear"), table, strict=True):
+    for name, column in zip(("x", "deflection", "rotation", "moment", "shear", "curvature"), table, strict=True):
         np.testing.assert_array_equal(column, getattr(fields, name))
 
 
@@ -83,7 +83,7 @@ def test_csv_has_axial_columns_only_with_axial_loads():
     scene["loads"].append({"type": "axial", "node": 2, "F": 3.0})
     result = gapbeam.solve(scene)
     header = to_csv(result).partition("\n")[0]
-    assert header.endswith("shear [kN],axial_force [kN],axial_displacement [m]")
+    assert header.endswith("shear [kN],axial_force [kN],axial_displacement [m],curvature [1/m]")
     text = report_text(result)
     assert "axial force [kN]" in text
     assert "axial forces" not in text.partition("left out")[2].partition("\n\n")[0]

@@ -40,6 +40,49 @@ def test_nothing_lifts():
     assert repr(result).splitlines()[1] == "No support lifts off."
 
 
+def test_a_gap_that_closes_is_told():
+    made = spans([scenes.uniform(2.0)])
+    made["supports"][1]["gap"] = 0.002
+    assert repr(gapbeam.solve(made)).splitlines()[1:3] == ["Support 1 (x = 6) closes its gap of 2 mm.", "No support lifts off."]
+    made["analysis"] = {"follow": "events"}
+    lines = repr(gapbeam.solve(made)).splitlines()
+    assert lines[1].startswith("Support 1 (x = 6) closes its gap of 2 mm at ")
+    assert lines[1].endswith(" % of the load.")
+
+
+def test_what_breaks_is_told_with_its_reaction():
+    law = {"type": "brittle", "stiffness": 5e5, "limit": 90.0}
+    made = scenes.scene([3.0, 2.0], [scenes.at(0), scenes.at(1, side="below", law=law),
+                                     scenes.at(2, side="below", gap=0.04, stiffness=400.0)],
+                        [scenes.force(5.0, 80.0)], EI=8e3, analysis={"follow": "events", "at_limit": "jump"})  # fmt: skip
+    made["units"] = UNITS
+    lines = report_text(gapbeam.solve(made)).splitlines()
+    assert lines[1].startswith("Limit load at 70.")
+    assert lines[1].rstrip().endswith("% of the load: support 1 (x = 3) breaks (90 kN).")
+    assert not any("stays in contact" in line for line in lines)  # the pin is lost
+    assert any(line.strip().startswith("0.70") and "support 1 (x = 3) breaks (90 kN)" in line for line in lines)
+
+
+def test_sums_of_reactions_stand_above_those_of_loads():
+    made = scenes.scene([4.0, 4.0], [scenes.at(0, rotation="fixed"), scenes.at(2), scenes.at(0, direction="axial")],
+                        [scenes.uniform(2.0, case="dead"), {"type": "linear", "q": [0.0, 3.0], "from": 2.0},
+                         {"type": "moment", "x": 3.0, "M": 7.0}, {"type": "axial", "node": 2, "F": 5.0}],
+                        EI=1e4, EA=1e6, analysis={"steps": 2})  # fmt: skip
+    made["units"] = UNITS
+    text = report_text(gapbeam.solve(made)).splitlines()
+    reactions, loads = (line.rstrip() for line in text if line.startswith("Sum of "))
+    # 2 x 8 + 3 x 6 / 2, and 2 x 8 x 4 + 9 x 6 + 7
+    assert reactions == "Sum of reactions  25 kN   moment about x = 0  125 kN m   along the beam  5 kN"
+    assert loads.split() == ["Sum", "of", "loads", "25", "kN", "125", "kN", "m", "5", "kN"]
+
+
+def test_rounding_is_written_as_zero():
+    supports = [scenes.at(0), scenes.at(1), scenes.at(2)]
+    made = scenes.scene([500.0, 600.0, 150.0], supports, [scenes.force(250.0, -2500.0)], EI=1.3e11)
+    text = report_text(gapbeam.solve(made))
+    assert "e-1" not in text.partition("Error bound")[0]
+
+
 def test_a_combination_is_named():
     combinations = [{"name": "heavy", "factors": {"dead": 1.0, "live": 1.0}}, {"name": "empty", "factors": {"dead": 1.0}}]
     result = gapbeam.solve(spans([scenes.uniform(2.0, case="dead"), scenes.force(3.0, 160.0)], combinations=combinations))
@@ -92,9 +135,9 @@ def test_a_pressure_per_area_needs_a_width():
         (spans([scenes.force(3.0, -1.0)]), "loads[0].F = -1 acts upward; loads are positive downward."),
         (spans([scenes.uniform(0.0)]), "all values of loads are 0"),
         (spans([scenes.uniform(2.0)], combinations=[{"name": "a", "factors": {"live": 1.0}, "settlements": {"1": 15.0}}]),
-         "combinations a.settlements.1 = 15 is 2.5 of the shortest span"),
+         "combinations a.settlements.1 = 15 is 250 % of the shortest span"),
         (simple([scenes.at(0), scenes.at(1), scenes.at(0, side="below", gap=0.2)]),
-         "supports[2].gap = 0.2 is 0.033 of the shortest span"),
+         "supports[2].gap = 0.2 is 3.3 % of the shortest span"),
         (simple([scenes.at(0), scenes.at(1, stiffness=5.0)]), "supports[1].stiffness = 5 "),
         ({**simple([]), "foundation": [{"k": 3.0, "side": "below"}]}, "foundation[0].k = 3 "),
         (simple([scenes.at(0), scenes.at(1), scenes.at(0, side="below", gap=0.004)]), None),

@@ -191,6 +191,28 @@ def test_old_calls_say_what_to_write(things):
         assert things["summary"].asdict() == things["summary"].to_dict()
 
 
+def test_the_old_name_of_further_settlements():
+    prepared = gapbeam.prepare(scene())
+    with pytest.warns(DeprecationWarning, match="extra_settlement"):
+        old = prepared.solve([1.0, 1.0], settlements={"B": 0.01})
+    assert old == prepared.solve([1.0, 1.0], extra_settlement={"B": 0.01})
+    with pytest.warns(DeprecationWarning, match="extra_settlement"):
+        assert prepared.result([1.0, 1.0], settlements={"B": 0.01}).reactions["B"] == pytest.approx(old.reactions["B"])
+    assert repr(prepared).startswith("Prepared(Beam without a title: 3 spans, 4 supports, 2 loads)")
+
+
+@pytest.mark.filterwarnings("error::DeprecationWarning")
+@pytest.mark.parametrize("name", ["result", "combined", "over trains", "cases", "summary"])
+def test_the_package_itself_uses_no_old_names(things, name):
+    one = things[name]
+    assert repr(one)
+    assert one.report()
+    assert one.plot().axes
+    assert one.to_json()
+    if name in ("result", "combined", "over trains"):
+        assert one.to_html()
+
+
 def test_a_train_demands_a_position(things):
     train = things["train"]
     for wrong in (lambda: train.at(7.3), lambda: train.at(7.3, "right"), lambda: train.at()):
@@ -216,6 +238,16 @@ def test_a_train_that_tips_the_beam():
     with pytest.raises(gapbeam.UnsolvedError, match="positions 4 to 6"):
         train.raise_for_status()
     assert "Positions" in repr(train) or "positions" in repr(train)
+
+
+def test_a_train_on_a_beam_that_is_free_to_move():
+    free = gapbeam.solve({
+        "beam": {"spans": [4.0], "EI": 1e4}, "supports": [{"x": 2.0}],
+        "trains": [{"name": "man", "axles": [[0.0, 1.0]], "from": 2.0, "to": 2.0}],
+    }).trains["man"]  # fmt: skip
+    assert free.ok
+    assert free.reason.startswith("positions 2 to 2: the beam can move freely")
+    assert "deflection" not in repr(free)
 
 
 def test_cases_are_arrays_by_case(things):
@@ -251,6 +283,20 @@ def test_cases_are_arrays_by_case(things):
     assert cases[[0, 2]] == cases[np.array([True, False, True])]
     assert cases[-1] == cases[2]
     assert pickle.loads(pickle.dumps(cases))[1].reactions["B"] == cases.reactions["B"][1]
+
+
+def test_a_page_is_of_one_result(things):
+    for name in ("cases", "batch", "summary"):
+        with pytest.raises(ValueError, match="a page shows one result"):
+            things[name].to_html()
+    assert things["envelope"].to_html().startswith("<!DOCTYPE html>")
+
+
+def test_keywords_of_others_are_refused_in_words(things):
+    with pytest.raises(ValueError, match="a result has no cases"):
+        things["result"].at(3.0, case=1)
+    with pytest.raises(ValueError, match="factor: every case is one state"):
+        things["cases"].at(3.0, factor=0.5)
 
 
 def test_cases_that_are_not_there(things):
@@ -321,7 +367,7 @@ def test_batches_and_their_summaries(things):
     assert summary.extremes["moment"]["max"].quantiles[0.5] == np.sort(batch.extremes["moment"]["max"].value)[1]
     assert summary.table()["result"] == [name for name, one in summary.columns.items() if one.count]
     assert batch.table("cases")["case"].tolist() == [0, 1, 2]
-    assert batch.plot("moment.max").axes[0].get_title() == "moment.max"
+    assert batch.plot("moment.max").axes[0].get_xlabel() == "largest moment [kN m]"
     with pytest.raises(ValueError, match="solve the case"):
         batch.extremes["moment"]["max"].concurrent  # noqa: B018
 

@@ -1,8 +1,9 @@
 /* The picture of a state: the model with loads, supports and reactions, and a panel for every field. */
 
 const WIDTH = 1000, LEFT = 84, RIGHT = 28, PANEL = 148, TITLE = 30, FOOT = 20;
-const MODEL = { loads: 94, lift: 34, labels: 88, level: 28, levels: 4 };
+const MODEL = { loads: 122, lift: 34, labels: 88, level: 28, levels: 4 };
 const TURNED = 46; // pixels between supports below which their numbers are turned
+const MOST_DRAWN = 400; // supports and loads that are drawn one by one
 const MOST_NAMED = 60; // supports whose numbers are written
 
 function number(value, digits = 5) {
@@ -115,7 +116,7 @@ function along(state, scale, from, to, below) {
 }
 
 function drawLoads(state, scale, y, axis) {
-  const parts = [], loads = DATA.loads[state.way.loads], top = axis - MODEL.lift - 24;
+  const parts = [], loads = DATA.loads[state.way.loads].slice(0, MOST_DRAWN), taken = [], top = axis - MODEL.lift - 58;
   const factorOf = (one) => (one.dead ? 1 : state.factor), label = loads.length <= 14;
   for (const one of loads) {
     const factor = factorOf(one);
@@ -128,19 +129,20 @@ function drawLoads(state, scale, y, axis) {
       const unit = one.type === "curvature" ? "" : ` ${DATA.units.uniform[0]}`;
       const text = `${one.type === "curvature" ? "\u03ba " : ""}${from === to ? from : `${from} to ${to}`}${unit}`;
       if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
-    } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label));
+    } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));
     else {
       const x = scale.x(one.x), at = y(one.x, false), turn = Math.sign(factor * one.value);
       if (one.type === "moment") {
         parts.push(`<path class="couple" d="M${x - 11 * turn},${at} A11,11 0 0 ${turn > 0 ? 1 : 0} ${x + 11 * turn},${at}"/>`,
           path([[x + 11 * turn - 4, at - 3], [x + 11 * turn + 4, at - 3], [x + 11 * turn, at + 4]], "force head", true));
       } else parts.push(line(x - 26 * turn, at - 12, x, at - 12, "force"), path([[x - 7 * turn, at - 16], [x - 7 * turn, at - 8], [x, at - 12]], "force head", true));
-      if (label) parts.push(words(x, at - 17, withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value), "load"));
+      const text = withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value);
+      if (label) parts.push(words(x + 16, at + 24, text, "load", 'style="text-anchor:start"'));
     }
   }
-  state.axles.forEach(([x, force], i) => {
-    if (x >= 0 && x <= scale.end) parts.push(drawForce(scale, x, force, y(x, false), state.axles.length <= 6, "axle", 11 * (i % 2)));
-  });
+  for (const [x, force] of state.axles) {
+    if (x >= 0 && x <= scale.end) parts.push(drawForce(scale, x, force, y(x, false), state.axles.length <= 6 && taken, "axle"));
+  }
   for (const [from, to, q] of state.bands) {
     const [left, right] = [from, to].map((x) => scale.x(Math.min(Math.max(x, 0), scale.end)));
     if (right > left) parts.push(path([[left, top], [left, top - (14 * q) / scale.uniform], [right, top - (14 * q) / scale.uniform], [right, top]], "band axle", true));
@@ -148,9 +150,15 @@ function drawLoads(state, scale, y, axis) {
   return parts.join("");
 }
 
-function drawForce(scale, x, force, at, label, name = "force", higher = 0) {
+/* A force with its value, which goes higher as long as it would cover another one. */
+function drawForce(scale, x, force, at, taken, name = "force") {
   const length = 14 + 26 * (Math.abs(force) / scale.force), sign = Math.sign(force) || 1;
-  const text = label ? words(scale.x(x), at - 8 - length - higher, withUnit("reaction", force), "load") : "";
+  let text = "", foot = at - 8 - length;
+  if (taken) {
+    while (taken.some(([left, low]) => Math.abs(left - scale.x(x)) < 52 && Math.abs(low - foot) < 11)) foot -= 11;
+    taken.push([scale.x(x), foot]);
+    text = words(scale.x(x), foot, withUnit("reaction", force), "load");
+  }
   return arrow(scale.x(x), sign > 0 ? at - 4 : at - 4 - length, sign * length, name) + text;
 }
 
@@ -160,6 +168,7 @@ function drawSupports(state, scale, y, axis, changed) {
   const spacing = spacingOf(supports);
   const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24;
   supports.forEach((one, k) => {
+    if (across > MOST_DRAWN && state.words[k] !== "open" && k % Math.ceil(across / MOST_DRAWN)) return;
     const x = scale.x(one.x), at = y(one.x, false), above = one.side < 0, branch = /^branch (\d+)/.exec(state.words[k]);
     const open = state.words[k] === "open", idle = open || (branch && Math.abs(state.reaction[k]) <= 1e-9 * scale.reaction);
     if (one.axial) {
@@ -242,10 +251,10 @@ function drawMotion(way, share, axis) {
   return parts.join("");
 }
 
-/* The whole picture of a state. */
+/* The whole picture of a state, the line of the place below everything. */
 function picture(state, scale, changed) {
   const axis = MODEL.loads + MODEL.lift, bottom = axis + MODEL.lift + MODEL.labels;
-  const parts = [drawModel(state, scale, axis, changed)];
+  const parts = ['<g id="cursor"></g>', drawModel(state, scale, axis, changed)];
   const panels = DATA.panels.filter(({ name }) => name !== "axial_force" || state.n);
   panels.forEach((panel, i) => parts.push(drawPanel(state, scale, panel, bottom + i * PANEL)));
   return { svg: parts.join(""), height: bottom + panels.length * PANEL + 6 };

@@ -10,12 +10,13 @@ function unpack(text) {
 }
 
 /* The columns of a state of a way, each an array; moments left of joints stand beside those right of them. */
-function decoded(way, state) {
+function decoded(way, number) {
+  const state = way.states[number];
   if (state.columns) return state.columns;
   const columns = {};
   if (way.packed) { // of all states, one after the other
     way.numbers = way.numbers || unpack(way.packed);
-    let at = way.states.indexOf(state) * way.columns.reduce((sum, [, count]) => sum + count, 0);
+    let at = number * way.columns.reduce((sum, [, count]) => sum + count, 0);
     for (const [name, count] of way.columns) columns[name] = way.numbers.subarray(at, (at += count));
   }
   for (const [key, value] of Object.entries(state)) {
@@ -28,6 +29,13 @@ function decoded(way, state) {
   }
   state.columns = columns;
   return columns;
+}
+
+/* The rows of intervals, and states of trains, as objects. */
+for (const way of DATA.ways) {
+  if (!way.intervals) continue;
+  way.intervals = way.intervals.map(([from, to, scheme, nodes, leg]) => ({ from, to, state: way.schemes[scheme], nodes, leg }));
+  if (typeof way.states === "number") way.states = Array.from({ length: way.states }, () => ({}));
 }
 
 /* Weights of Lagrange's polynomial through equally spaced nodes; share goes from 0 to 1. */
@@ -52,12 +60,13 @@ class State {
     const share = interval.to > interval.from ? (at - interval.from) / (interval.to - interval.from) : 0;
     const nodes = interval.nodes.map((k) => way.states[k]);
     const mixed = weights(nodes.length, share);
-    this.exactNode = mixed.indexOf(1) >= 0 && mixed.filter((one) => one !== 0).length === 1 ? nodes[mixed.indexOf(1)] : null;
-    const columns = nodes.map((one) => decoded(way, one));
+    const only = mixed.filter((one) => one !== 0).length === 1 ? mixed.indexOf(1) : -1;
+    this.exactNode = only < 0 ? null : nodes[only];
+    const columns = interval.nodes.map((k) => decoded(way, k));
     for (const key of new Set(columns.flatMap(Object.keys))) {
       const all = columns.map((one) => one[key]);
       const filled = all.find((one) => one);
-      this[key] = this.exactNode ? decoded(way, this.exactNode)[key] || filled.map(() => 0)
+      this[key] = this.exactNode ? columns[only][key] || filled.map(() => 0)
         : Array.from(filled, (_, i) => all.reduce((sum, one, j) => sum + (one ? mixed[j] * one[i] : 0), 0));
     }
     const factors = nodes.map((one) => one.factor);

@@ -20,7 +20,7 @@ function stopsOf(way) {
   for (const event of way.events) {
     let best = 0;
     stops.forEach((stop, i) => { if (Math.abs(stop.at - event.at) <= Math.abs(stops[best].at - event.at)) best = i; });
-    event.stop = best;
+    event.stop = Math.abs(stops[best].at - event.at) <= 1e-9 * total ? best : -1; // -1: so many events that it is not drawn
   }
   return stops;
 }
@@ -75,7 +75,7 @@ function show() {
   const here = way.events.filter((one) => one.stop === view.stop);
   const { svg: parts, height } = picture(state, scale, new Set(here.map((one) => one.support)));
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${height}`);
-  svg.innerHTML = `<title id="picture-title">Beam, deflection, moment and shear</title>${parts}<g id="cursor"></g>`;
+  svg.innerHTML = `<title id="picture-title">Beam, deflection, moment and shear</title>${parts}`;
   const text = inWords(state, here);
   svg.setAttribute("aria-label", text);
   const now = way.axis === "position" ? `position ${withUnit("x", state.at)}` : `load factor ${number(state.factor)}`;
@@ -116,7 +116,6 @@ function fillSupports(state) {
       const cell = row.children[i];
       if (of === "state") {
         cell.textContent = `${state.words[k] === "open" ? "\u25cb" : state.words[k] === "bilateral" ? "\u25b2" : "\u25cf"} ${DATA.said[DATA.words.indexOf(state.words[k])]}`;
-        cell.dataset.value = "";
       } else if (DATA.units[of] && of !== "x") {
         const value = state[of] ? state[of][k] : 0, largest = Math.max(0, ...(state[of] || []).map(Math.abs));
         cell.textContent = shown(of, Math.abs(value) <= NOISE * largest ? 0 : value);
@@ -138,13 +137,13 @@ function choose(k, stop = null) {
   slider.max = stops.length - 1;
   const single = stops.length < 2;
   document.querySelectorAll(".slides").forEach((one) => { one.hidden = single && (one.id !== "play" || DATA.ways.length < 2); });
-  byId("marks").innerHTML = (way.events || []).map((one, i) => `<button type="button" class="mark" data-event="${i}" tabindex="-1" style="left:${(100 * one.stop) / Math.max(1, stops.length - 1)}%" title="${escaped(`${way.axis} ${number(one.factor ?? one.at)}: ${one.words}`)}" aria-label="${escaped(one.words)}"></button>`).join("");
+  byId("marks").innerHTML = (way.events || []).map((one, i) => one.stop < 0 ? "" : `<button type="button" class="mark" data-event="${i}" tabindex="-1" style="left:${(100 * one.stop) / Math.max(1, stops.length - 1)}%" title="${escaped(`${way.axis} ${number(one.factor ?? one.at)}: ${one.words}`)}" aria-label="${escaped(one.words)}"></button>`).join("");
   goTo(stop ?? (way.intervals ? (way.axis === "position" ? Math.floor(stops.length / 2) : stops.length - 1) : Math.floor(stops.length / 2)));
 }
 
 function nextEvent(sign) {
   const way = DATA.ways[view.way];
-  const places = [0, ...(way.events || []).map((one) => one.stop), stopsOf(way).length - 1].sort((a, b) => a - b);
+  const places = [0, ...(way.events || []).map((one) => one.stop).filter((one) => one >= 0), stopsOf(way).length - 1].sort((a, b) => a - b);
   const there = sign > 0 ? places.find((one) => one > view.stop) : places.reverse().find((one) => one < view.stop);
   if (there !== undefined) goTo(there);
 }
@@ -213,10 +212,15 @@ document.addEventListener("click", (event) => {
   if (button.dataset.jump) {
     const [way, k] = button.dataset.jump.split(" ").map(Number);
     stopsOf(DATA.ways[way]);
-    choose(way, DATA.ways[way].events[k].stop);
+    if (DATA.ways[way].events[k].stop >= 0) choose(way, DATA.ways[way].events[k].stop);
     byId("moving").scrollIntoView({ block: "nearest" });
   }
 });
 document.documentElement.classList.add("scripted");
-view.place = 0.5;
 choose(DATA.first.way, DATA.first.at === null ? null : Math.max(0, stopsOf(DATA.ways[DATA.first.way]).findIndex((one) => one.at === DATA.first.at)));
+if (scale) { // the place is at first that of the largest moment
+  const state = stateNow() || new State(DATA.ways.find((one) => one.intervals), DATA.ways.find((one) => one.intervals).intervals[0], 0);
+  const [one, other] = state.extremes("moment", scale.step);
+  view.place = (Math.abs(one.value) >= Math.abs(other.value) ? one : other).x / (scale.end || 1);
+  show();
+}

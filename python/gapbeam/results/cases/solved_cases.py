@@ -140,7 +140,7 @@ class Cases(CaseVerbs):
                 arrays[name] = arrays[name][0]
         return _unpickled, (arrays, self._asked, single)
 
-    def at(self, x: ArrayLike, side: str = "right", *, case: int | None = None) -> Fields:
+    def at(self, x: ArrayLike, side: str = "right", *, case: int | None = None, **others: Any) -> Fields:
         """Exact values anywhere along the beam, of all cases in few calls of the engine.
 
         Parameters
@@ -151,6 +151,8 @@ class Cases(CaseVerbs):
             Which value is taken where a field jumps.
         case : int, optional
             The number of one case; default all.
+        **others
+            ``factor``, ``combination`` and so on are refused: every case is one state.
 
         Returns
         -------
@@ -171,6 +173,8 @@ class Cases(CaseVerbs):
         array([[1.5, 2. ],
                [4.5, 6. ]])
         """
+        if others:
+            raise ValueError(f"{next(iter(others))}: every case is one state at its own factors; leave it out, or give case = 0")
         if case is not None:
             return self[whole("case", case)].at(x, side)
         places = np.array(numbers("x", x))

@@ -38,12 +38,13 @@ class TrainVerbs(PartVerbs):
 
     @property
     def reason(self) -> str | None:
-        """At which positions the beam does not stand, and why."""
+        """At which positions the beam does not stand, and why; or else at which it is free to move."""
         return self._lost[1]
 
     @cached_property
     def _lost(self) -> tuple[str, str | None]:
-        return lost_positions({self.name: self}) or ("solved", None)
+        free = next((f"positions {gap.from_:.6g} to {gap.to:.6g}: {gap.reason}" for gap in self.unstable_positions), None)
+        return lost_positions({self.name: self}) or ("solved", free)
 
     @cached_property
     def _ranges(self) -> TrainEnvelope:

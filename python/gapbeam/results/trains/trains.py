@@ -294,7 +294,8 @@ class Trains(Mapping[str, TrainResult]):
     def __getitem__(self, name: str) -> TrainResult:
         """Give a train by its name."""
         if name not in self._by_name:
-            raise KeyError(no_such("train", name, self._by_name) if self._by_name else f"the scene has no trains, so none {name!r}")
+            without = f"the scene has no trains, so none {name!r}: give it some, trains = [...]"
+            raise KeyError(no_such("train", name, self._by_name) if self._by_name else without)
         return self._by_name[name]
 
     def __iter__(self) -> Iterator[str]:

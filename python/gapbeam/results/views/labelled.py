@@ -145,6 +145,8 @@ class Labelled(Sequence):
 def _word(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"{value.size:,} values"
+    if isinstance(value, dict):
+        return f"({', '.join(f'{kind} {fmt.number(one.value)}' for kind, one in value.items() if one is not None)})"
     if isinstance(value, tuple):
         return " or ".join(map(str, value))
     return fmt.number(value) if isinstance(value, float) else value if isinstance(value, str) else repr(value)

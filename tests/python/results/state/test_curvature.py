@@ -62,7 +62,7 @@ def test_extremes_are_those_of_many_places(seed):
     result = gapbeam.solve(random_scene(random.Random(seed)))
     if result.status != "solved":
         pytest.skip("not solved")
-    places = np.concatenate([result.fields(points=200).x, [result._pairs_of_extremes()["curvature"][kind][1] for kind in ("max", "min")]])
+    places = np.concatenate([result.fields(points=200).x, [one.x for one in result.extremes["curvature"].values()]])
     both = np.concatenate([result.at(places, side=side).curvature for side in ("left", "right")])
     extremes = result._pairs_of_extremes()["curvature"]
     size = max(abs(both).max(), 1e-300)
