@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from .batches.batch import Batch
     from .batches.function import function
     from .batches.run import batch
-    from .report.result_schema import result_schema
+    from .results.result_schema import result_schema
     from .scene import scene_schema
 
     __version__: str
@@ -96,7 +96,7 @@ __all__ = [
 
 LATER = {
     "Batch": "batches.batch", "batch": "batches.run", "function": "batches.function", "sample": "batches.sample",
-    "result_schema": "report.result_schema", "scene_schema": "scene.schema",
+    "result_schema": "results.result_schema", "scene_schema": "scene.schema",
 }  # fmt: skip
 """Files of names that are imported when they are asked for."""
 

@@ -119,7 +119,8 @@ def test_curves_say_where_they_come_from():
     header, *rows = csv.reader(io.StringIO(to_csv(result, points=4)))
     assert [name.partition(" ")[0] for name in header] == list(columns)
     assert [float(row[header.index("moment_min")]) for row in rows] == curves.smallest["moment"].tolist()
-    assert [row[-1] for row in rows] == columns["pressure_min_combination"]
+    for name in ("pressure_min_combination", "curvature_min_combination"):
+        assert [row[list(columns).index(name)] for row in rows] == columns[name]
 
 
 def test_curves_while_trains_pass_have_positions():
