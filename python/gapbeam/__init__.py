@@ -26,7 +26,8 @@ def __getattr__(name: str) -> object:
     if find_spec(f"{__name__}.{name}"):
         return import_module(f"{__name__}.{name}")
     interface = import_module(f"{__name__}.interface")
-    globals().update({key: getattr(interface, key) for key in ("__all__", *interface.__all__)})
+    later = {*interface.LATER, "__version__"}
+    globals().update({key: getattr(interface, key) for key in ("__all__", *interface.__all__) if key == name or key not in later})
     if name not in globals():
         raise AttributeError(interface.no_such_name(name))
     return globals()[name]

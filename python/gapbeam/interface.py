@@ -1,19 +1,15 @@
-"""The names that ``import gapbeam`` offers."""
+"""The names that ``import gapbeam`` offers; what few programs use is imported when it is asked for."""
 
-from importlib.metadata import version
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 from .base.errors import EngineError, GapbeamError, SceneError, Status, UnsolvedError
 from .base.hints import missing
-from .batches import sample
-from .batches.batch import Batch
-from .batches.function import function
-from .batches.run import batch
 from .results.cases.cases import Prepared, prepare
 from .results.cases.combined import CombinedResult
 from .results.cases.solved_cases import Cases
 from .results.envelopes.envelope import Envelope
 from .results.result import Result
-from .results.result_schema import result_schema
 from .results.state.fields import Fields
 from .results.state.step import Step
 from .results.state.system import System
@@ -39,11 +35,19 @@ from .scene import (
     Units,
     read_scene,
     replace,
-    scene_schema,
 )
 from .show import display
 
-__version__ = version("gapbeam")
+if TYPE_CHECKING:
+    from .batches import sample
+    from .batches.batch import Batch
+    from .batches.function import function
+    from .batches.run import batch
+    from .results.result_schema import result_schema
+    from .scene import scene_schema
+
+    __version__: str
+
 Shown.display = display
 
 __all__ = [
@@ -90,6 +94,12 @@ __all__ = [
     "solve",
 ]
 
+LATER = {
+    "Batch": "batches.batch", "batch": "batches.run", "function": "batches.function", "sample": "batches.sample",
+    "result_schema": "results.result_schema", "scene_schema": "scene.schema",
+}  # fmt: skip
+"""Files of names that are imported when they are asked for."""
+
 MEANT = {
     "pointload": "gapbeam.ForceLoad", "nodalload": "gapbeam.ForceLoad", "concentratedload": "gapbeam.ForceLoad",
     "point": "gapbeam.ForceLoad", "force": "gapbeam.ForceLoad", "pointforce": "gapbeam.ForceLoad",
@@ -111,6 +121,16 @@ MEANT = {
     "error": "gapbeam.GapbeamError",
 }  # fmt: skip
 """What to write for words of other programs, in lower case without underscores."""
+
+
+def __getattr__(name: str) -> object:
+    """Import what was left for later."""
+    if name == "__version__":
+        return import_module("importlib.metadata").version("gapbeam")
+    if name not in LATER:
+        raise AttributeError(no_such_name(name))
+    module = import_module(f"{__package__}.{LATER[name]}")
+    return module if name == "sample" else getattr(module, name)
 
 
 def no_such_name(name: str) -> str:

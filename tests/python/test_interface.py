@@ -45,3 +45,11 @@ def test_other_names():
 def test_objects_belong_to_their_modules():
     assert pickle.loads(pickle.dumps(gapbeam.Beam([1.0], EI=2.0))) == gapbeam.Beam([1.0], EI=2.0)
     assert gapbeam.solve.__module__ == "gapbeam.results.stepping"
+
+
+def test_what_few_programs_use_is_imported_when_it_is_asked_for():
+    there = fresh("import sys, gapbeam; gapbeam.solve; print(*sys.modules)").stdout.split()
+    heavy = {"rich", "matplotlib", "jinja2", "pyarrow", "scipy", "concurrent.futures", "importlib.metadata", "gapbeam.batches.run"}
+    assert "gapbeam.results.stepping" in there
+    assert not heavy & set(there)
+    assert "numpy" not in fresh("import sys, gapbeam; print(*sys.modules)").stdout.split()

@@ -14,6 +14,7 @@ from typing import Any
 import msgspec
 
 from ..base.errors import SceneError
+from ..base.progress import shown_progress
 from ..engine.quantities import BENDING
 from ..results.state.arguments import whole
 from ..scene.reading import read_beam
@@ -70,7 +71,8 @@ def batch(
     part : (int, int), optional
         Solve only a part, (3, 10) the third of ten, while others solve the rest into the same folder, as on other machines.
     progress : callable, optional
-        Called with the number of cases that are done and that of all, from time to time.
+        Called with the number of cases that are done and that of all, from time to time. Default: a line on a terminal, after a
+        second.
 
     Returns
     -------
@@ -95,7 +97,9 @@ def batch(
     >>> done.read(["reaction.pier"])["reaction.pier"].round(3)
     array([37.5  , 42.222, 24.722])
     """
-    return run_batch(scene, table, out, want, jobs, executor, retry_failed, chunk, part, progress, by_processes=False)
+    with shown_progress("cases", progress is None) as shown_one:
+        progress = progress or shown_one
+        return run_batch(scene, table, out, want, jobs, executor, retry_failed, chunk, part, progress, by_processes=False)
 
 
 def run_batch(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ..base.errors import SceneError
+from ..base.progress import shown_progress
 from .exits import FAILED, NO_SOLUTION, SOLVED, say
 from .outputs import Outputs, source, until_closed
 
@@ -86,7 +86,7 @@ def _batch(arguments: argparse.Namespace) -> int:
     part = None if arguments.part is None else _part(arguments.part)
     want = None if arguments.want is None else [name.strip() for name in arguments.want.split(",")]
     scene = arguments.scene if os.path.isdir(arguments.scene) else source(arguments.scene)
-    with _executor(arguments) as executor, _progress(not arguments.quiet) as progress:
+    with _executor(arguments) as executor, shown_progress("cases", not arguments.quiet) as progress:
         clock = _Clock(progress)
         done = run_batch(
             scene, arguments.table, arguments.out, want, arguments.jobs, executor, arguments.retry_failed, None, part, clock,
@@ -121,28 +121,6 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
         if arguments.jobs is None:
             arguments.jobs = max(sum(client.ncores().values()), 1)
         yield client.get_executor()
-
-
-@contextmanager
-def _progress(wanted: bool) -> Iterator[Callable[[int, int], None] | None]:
-    """A bar with rate and time left, on a terminal."""
-    if not wanted or sys.stderr is None or not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (BarColumn(), TextColumn("{task.fields[count]}  {task.fields[rate]}"), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("", total=1, count="", rate="")
-        clock = _Clock()
-
-        def progress(done: int, total: int) -> None:
-            clock(done, total)
-            rate = f"{clock.rate:,.0f} a second" if clock.cases else ""
-            bar.update(task, completed=done, total=total, count=f"{done:,} of {total:,} cases", rate=rate)
-
-        yield progress
 
 
 def _summarize(arguments: argparse.Namespace) -> int:

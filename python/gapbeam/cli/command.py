@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, NoReturn
 from ..base.characters import visible
 from ..base.errors import GapbeamError, SceneError, SceneFileError, Status
 from ..base.memory import reserve
+from ..base.progress import shown_progress
 from .batch import add_batch
 from .exits import FAILED, INTERRUPTED, NO_SOLUTION, REFUSED, SOLVED, say
 from .outputs import Outputs, source, until_closed
@@ -25,6 +26,8 @@ from .proofs import add_proofs
 from .studies import add_studies, refuse_moved
 
 if TYPE_CHECKING:
+    from ..results.cases.combined import CombinedResult
+    from ..results.result import Result
     from ..scene.structs import Scene
 
 #: Bytes of the address space that loading numpy and the engine takes, every further thread of OpenBLAS, their buffers, and
@@ -273,10 +276,33 @@ def _run(arguments: argparse.Namespace) -> int:
     if scene.combinations and "--path" in outputs:
         raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
                          "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
-    result = solve(scene)
+    with shown_progress("solving", not arguments.quiet):
+        result = solve(scene)
     solved = result.status == "solved"
-    from ..report.json_csv import csv_parts, json_parts, to_json
     from ..report.text import print_report
+
+    with shown_progress("writing files", not arguments.quiet and not outputs.on_standard_output):
+        contents = _contents(arguments, outputs, result)
+        outputs.write(contents)
+    if not arguments.quiet and not outputs.on_standard_output:
+        with until_closed():  # after the files: the reader of the report, such as head, may leave early
+            print_report(result, verbose=arguments.verbose)
+    elif not solved:
+        say(NO_SOLUTION, result.reason)
+    for option in ("--csv", "--xlsx", "--path"):
+        if option in outputs and option not in contents:
+            say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
+    exceeded = [name for name, one in result.utilisations.items() if one.ratio > 1.0] if arguments.limits else []
+    if exceeded:
+        say(NO_SOLUTION, f"beyond its limit: {', '.join(exceeded)}")
+    return SOLVED if solved and not exceeded else NO_SOLUTION
+
+
+def _contents(
+    arguments: argparse.Namespace, outputs: Outputs, result: "Result | CombinedResult"
+) -> dict[str, bytes | Iterable[str]]:
+    """Make what the options ask for."""
+    from ..report.json_csv import csv_parts, json_parts, to_json
 
     if "--plot" in outputs or "--path" in outputs:
         reserve(FOR_PICTURES)
@@ -305,19 +331,7 @@ def _run(arguments: argparse.Namespace) -> int:
         from ..html.page import Source, html_page
 
         contents["--html"] = [html_page(result, None if arguments.scene == "-" else Source.of_file(arguments.scene))]
-    outputs.write(contents)
-    if not arguments.quiet and not outputs.on_standard_output:
-        with until_closed():  # after the files: the reader of the report, such as head, may leave early
-            print_report(result, verbose=arguments.verbose)
-    elif not solved:
-        say(NO_SOLUTION, result.reason)
-    for option in ("--csv", "--xlsx", "--path"):
-        if option in outputs and option not in contents:
-            say(NO_SOLUTION, f"{outputs[option]} is not written: there is nothing to show without equilibrium")
-    exceeded = [name for name, one in result.utilisations.items() if one.ratio > 1.0] if arguments.limits else []
-    if exceeded:
-        say(NO_SOLUTION, f"beyond its limit: {', '.join(exceeded)}")
-    return SOLVED if solved and not exceeded else NO_SOLUTION
+    return contents
 
 
 def _check(arguments: argparse.Namespace) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -74,6 +73,8 @@ def _check(arguments: argparse.Namespace) -> int:
     except ImportError:
         return say(REFUSED, "not decided: the checker needs python-flint; pip install python-flint")
     sys.stdout.flush()
+    import subprocess
+
     return subprocess.run([sys.executable, os.fspath(found), arguments.proof], check=False).returncode
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from ..base.errors import SceneError
+from ..base.progress import shown_progress
 from .exits import SOLVED
 from .outputs import Outputs, source, until_closed
 
@@ -94,10 +95,11 @@ def _study_accuracy(arguments: argparse.Namespace) -> int:
     if min([arguments.largest, *(arguments.parts or [])]) < 1:
         raise SceneError("--parts and --largest", "expected positive numbers")
     remark = ""
-    if arguments.scene:
-        comparisons, remark = scene_comparisons(source(arguments.scene), arguments.parts or PARTS)
-    else:
-        comparisons = list(families(arguments.family, arguments.largest))
+    with shown_progress("comparing"):
+        if arguments.scene:
+            comparisons, remark = scene_comparisons(source(arguments.scene), arguments.parts or PARTS)
+        else:
+            comparisons = list(families(arguments.family, arguments.largest))
     if not comparisons:
         raise SceneError("--largest", f"no mesh has as few as {arguments.largest} elements")
 
