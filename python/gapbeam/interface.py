@@ -8,12 +8,12 @@ from .batches import sample
 from .batches.batch import Batch
 from .batches.function import function
 from .batches.run import batch
-from .report.result_schema import result_schema
 from .results.cases.cases import Prepared, prepare
 from .results.cases.combined import CombinedResult
 from .results.cases.solved_cases import Cases
 from .results.envelopes.envelope import Envelope
 from .results.result import Result
+from .results.result_schema import result_schema
 from .results.state.fields import Fields
 from .results.state.step import Step
 from .results.state.system import System

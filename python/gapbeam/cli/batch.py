@@ -52,7 +52,7 @@ def add_batch(commands: argparse._SubParsersAction) -> None:
     parser.add_argument("table", metavar="TABLE", nargs="?", help="a .csv or .parquet file; none with a folder of scenes")
     parser.add_argument("--out", metavar="DIR", help="the folder for the results")
     parser.add_argument("--want", metavar="NAMES", help="what is kept of every case, separated by commas: input, reaction, "
-                        "opening, couple, error_bound, fields such as moment, or moment@1.5 at a place, limit.factor (default "
+                        "opening, couple, error_bound, fields such as moment, or moment@1.5 at a point, limit.factor (default "
                         "input,reaction,opening,deflection,moment)")  # fmt: skip
     parser.add_argument("--jobs", metavar="N", type=int, help="number of cores (default all)")
     parser.add_argument("--dask", metavar="ADDRESS", help="use the workers of a Dask scheduler instead, such as "

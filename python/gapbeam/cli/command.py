@@ -353,7 +353,7 @@ def _schema(arguments: argparse.Namespace) -> int:
     import json
 
     if arguments.results:
-        from ..report.result_schema import result_schema as schema
+        from ..results.result_schema import result_schema as schema
     else:
         from ..scene.schema import scene_schema as schema
 

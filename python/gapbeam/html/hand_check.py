@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 DIGITS = 6
 """Of a number that is added by hand."""
-MOST_ROWS = 60
+MOST_ROWS = 150
 """Rows that are written out; what is more is drawn together."""
 POINTS = 5
 """Gauss points of a part of the ground."""

@@ -56,6 +56,9 @@ class Collected:
         way : dict
             States, intervals, events; or a motion.
         """
+        if way.get("intervals") == []:  # no position has a unique answer
+            reason = next((one["words"] for one in way.get("lost", ())), "no state can be drawn")
+            way = {"motion": [], "reason": visible(reason), "axis": "motion"}
         supports = supports_data(result.scene, result._beam.places.levels)
         shared = {
             "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),

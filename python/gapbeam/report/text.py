@@ -72,8 +72,9 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         _doubts(say, result)
     if verbose:
         write_system(say, result)
+    if verbose and result.steps:
         _steps(say, result)
-    else:
+    elif result.steps:
         _solver(say, result)
 
 

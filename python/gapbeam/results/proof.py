@@ -140,8 +140,10 @@ def _snapped(places: Sequence[float], beam: Beam) -> np.ndarray:
 
 
 def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
-    """The scene with every key that says something, laws as points, and places that are one as one number."""
+    """The scene with every key that changes a result, laws as points, and places that are one as one number."""
     data = {"title": scene.title, **{key: msgspec.to_builtins(getattr(scene, key)) for key in ("units", "beam")}}
+    for shown_only in ("width", "direction"):
+        del data["beam"][shown_only]
     data["beam"]["hinges"] = _snapped(scene.beam.hinges, beam).tolist()
     for key in ("sections", "supports", "foundation", "loads"):
         items = map(msgspec.to_builtins, getattr(scene, key))

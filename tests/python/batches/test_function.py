@@ -62,8 +62,8 @@ def test_numbers_are_those_of_solve(names):
         step, fields = result.steps[-1], result.at([15.0, 3.0])
         extremes = result.extremes["moment"]
         right = [
-            extremes["max"].value, extremes["max"].x, extremes["min"].value, step.reaction[3], step.reaction[0], step.opening[1], step.couple[3],
-            fields.deflection[0], fields.shear[1], step.opening[2] > 0.0, step.opening[1] > 0.0,
+            extremes["max"].value, extremes["max"].x, extremes["min"].value, step.reaction[3], step.reaction[0],
+            step.opening[1], step.couple[3], fields.deflection[0], fields.shear[1], step.opening[2] > 0.0, step.opening[1] > 0.0,
         ]  # fmt: skip
         np.testing.assert_allclose(values[:-1], right, rtol=1e-9, atol=1e-9)
         assert 0.0 <= values[-1] < 1e-8

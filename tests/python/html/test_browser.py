@@ -3,6 +3,7 @@
 import shutil
 import tempfile
 import time
+from pathlib import Path
 
 import gapbeam
 import numpy as np
@@ -19,10 +20,7 @@ from selenium.webdriver.common.keys import Keys  # noqa: E402
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 OPTIONS = ("headless", "no-sandbox", "disable-gpu", "disable-quic", "no-first-run", "disable-background-networking",
            "disable-component-update", "disable-sync", "disable-dev-shm-usage", "window-size=1100,1400")  # fmt: skip
-pytestmark = [
-    pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="no Chromium on this machine"),
-    pytest.mark.xdist_group("browser"),
-]
+pytestmark = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="no Chromium on this machine")
 VALUES = """
 const [k, at, places] = arguments, way = DATA.ways[k];
 const interval = way.intervals.find((one) => one.from <= at && at <= one.to), state = new State(way, interval, at);
@@ -203,6 +201,7 @@ def test_combinations_are_chosen_and_the_worst_comes_first(browser, look_at):
     assert column(browser, "reaction") == result.combinations["rest"].steps[-1].reaction.tolist()
 
 
+FAULTS = Path(__file__).resolve().parents[2] / "faults"
 MANY_LOADS = {
     "beam": gapbeam.Beam(spans=[6.0, 6.0, 6.0], EI=[1e4, 2e4, 1e4], GA=3e4, hinges=[14.0]),
     "supports": [*pages.SUPPORTS[:3], gapbeam.Support(node=3, rotation=2e3)],
@@ -252,6 +251,11 @@ def test_on_the_ground_states_are_at_most_a_pixel_apart(browser, look_at):
         for row, name in zip(found, ("deflection", "moment", "shear"), strict=True):
             assert np.abs(np.array(row) - getattr(there, name)).max() <= largest[name] / 100.0
     assert "at most a pixel apart" in find(browser, "#moving").text
+
+
+def test_a_train_without_any_state_says_why(browser, look_at):
+    look_at(FAULTS / "B3_neutral_positions.json")
+    assert "no equilibrium: the part between the left end and the hinge" in find(browser, "#caption").text
 
 
 def test_a_beam_that_cannot_stand_is_shown_moving(browser, look_at):

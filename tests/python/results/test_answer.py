@@ -100,6 +100,11 @@ def test_a_beam_that_cannot_stand_says_why():
     result = gapbeam.solve(spans([scenes.force(3.0, -1.0)]))
     assert result.lifted == []
     assert repr(result).splitlines()[1].startswith("No equilibrium.")
+    for verbose in (False, True):  # there is no step to tell of
+        text = report_text(result, verbose=verbose)
+        assert "The mechanism" in text
+        assert ("equations" in text) == verbose
+        assert "0 steps" not in text
 
 
 def test_limits_are_used_so_far(tmp_path, capsys):

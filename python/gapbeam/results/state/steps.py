@@ -85,6 +85,8 @@ class Steps(Pickled, Sequence[Step]):
         count = len(self)
         if not count and self.outcome[1] is not None:
             raise NoStepError(*self.outcome)
+        if isinstance(index, str):
+            raise TypeError(f'step: expected a whole number, got "{index}"')
         index = whole("step", index)
         if not -count <= index < count:
             raise IndexError(f"there is no load step {index}; their numbers go from 0 to {count - 1}, or from -{count} to -1")

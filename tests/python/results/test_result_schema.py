@@ -27,6 +27,23 @@ LIMITED = {
     "analysis": {"follow": "events"},
 }
 
+SEESAW = {
+    "beam": {"spans": [4.0, 4.0], "EI": 1e4},
+    "supports": [{"node": 1, "side": "below"}, {"node": 2, "side": "below"}],
+    "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}],
+    "trains": [{"axles": [[0.0, 30.0]]}],
+}
+FREE = {"beam": {"spans": [4.0], "EI": 1e4},
+        "supports": [{"x": 2.0, "side": "below"}], "loads": [{"type": "force", "x": 2.0, "F": 1.0}]}
+RIGID = {
+    "beam": {"spans": [1.0, 1.0], "EI": float("inf")},
+    "supports": [{"node": 0}, {"node": 1}, {"node": 2}],
+    "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}],
+    "combinations": [{"name": "weight", "factors": {"dead": 1.0}}],
+}
+OTHERS = {"unstable": MECHANISM, "axial": PULLED, "limits": LIMITED, "tipping under a train": SEESAW, "free to move": FREE,
+          "without a unique answer": RIGID}  # fmt: skip
+
 
 def check(result):
     data = json.loads(to_json(result, 3))
@@ -53,7 +70,7 @@ def test_examples_follow_it(path):
     check(gapbeam.solve(path))
 
 
-@pytest.mark.parametrize("scene", [MECHANISM, PULLED, LIMITED], ids=["unstable", "axial", "limits"])
+@pytest.mark.parametrize("scene", OTHERS.values(), ids=OTHERS)
 def test_other_outcomes_follow_it(scene):
     check(gapbeam.solve(scene))
 

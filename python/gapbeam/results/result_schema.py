@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..engine.quantities import QUANTITIES
-from ..results.data import SCHEMA
+from .data import SCHEMA
 
 WORDS = {
     "Schema": [SCHEMA],
@@ -92,12 +92,12 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "equilibrium": ("number", "Residual of equilibrium."),
         "compatibility": ("number", "Residual of compatibility."),
         "complementarity": ("number", "Residual of contact: opening times reaction."),
-        "error_bound": ("number", "Bound of the relative error of deflections and reactions."),
-        "error_bound_deflection": ("number", "Bound for deflections."),
-        "error_bound_rotation": ("number", "Bound for rotations."),
-        "error_bound_moment": ("number", "Bound for moments."),
-        "error_bound_shear": ("number", "Bound for shear forces."),
-        "error_bound_reaction": ("number", "Bound for reactions."),
+        "error_bound": ("number | null", "Bound of the relative error of deflections and reactions; null: none is known."),
+        "error_bound_deflection": ("number | null", "Bound for deflections; null: none is known."),
+        "error_bound_rotation": ("number | null", "Bound for rotations; null: none is known."),
+        "error_bound_moment": ("number | null", "Bound for moments; null: none is known."),
+        "error_bound_shear": ("number | null", "Bound for shear forces; null: none is known."),
+        "error_bound_reaction": ("number | null", "Bound for reactions; null: none is known."),
     }),
     "StepState": ("One state of the beam.", STATE),
     "Event": ("A change of the contact state at its exact load factor.", {
