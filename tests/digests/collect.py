@@ -20,7 +20,9 @@ import gapbeam
 import numpy as np
 
 # Words may change, and clocks do
-NOT_NUMBERS = {"title", "reason", "message", "messages", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema"}
+NOT_NUMBERS = {
+    "title", "reason", "message", "messages", "remarks", "hints", "warnings", "words", "seconds", "version", "gapbeam", "schema",
+}  # fmt: skip
 GROUND_LAWS = {"plastic", "hardening", "hyperbolic", "tanh", "cubic"}  # in C and Fortran 77
 MOST_NODES = 200  # there
 NO_EQUILIBRIUM = 1
