@@ -113,6 +113,8 @@ def envelope_figure(result: Result) -> Figure:
 def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     """Make the envelope at so many places that its curves look smooth; where something jumps, on both sides."""
     scene = result.scene
+    if scene.trains and not result.has_envelope:
+        return None
     points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result._beam), MOST_ON_GROUND))
     points = int(max(2, min(points, MOST_POINTS // len(scene.beam.spans))))
     if not scene.trains:
@@ -142,9 +144,9 @@ def _headline(result: Result, sources: list[Any]) -> str:
     if result.combinations:
         total, solved = len(result.names), result.statuses.count("solved")
         text = f"Envelope of {fmt.count(total, 'combination')}"
-        if solved < total and not result.scene.trains:
+        if solved < total and not (result.scene.trains and sources):
             text = f"Envelope of {solved:,} of {fmt.count(total, 'combination')}, the others are not solved"
-    if result.scene.trains:
+    if result.scene.trains and sources:
         names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
         text += cut_text(f" while trains pass: {names}", 85)
     return text + "; the strips tell which one governs" * (len({source_name(one) for one in sources}) > 1)
