@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.answer import holds_values
 from ..results.formatting import stretch
 from ..results.trains.envelope import places_along
 from ..scene.loads import ForceLoad
@@ -27,7 +28,7 @@ from .labels import text_width
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import Marks
-from .panels import MOST_POINTS, PANELS, counts, cut_text
+from .panels import MOST_POINTS, PANELS, counts, cut_text, outcome
 from .save import literal
 from .sheet import Sheet, along, heading_height
 from .states import legend_handles, plain_states
@@ -124,7 +125,8 @@ def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
     jumps = jumps[(jumps > 0.0) & (jumps < end)]
     beside = np.concatenate((np.setdiff1d(places, jumps), jumps - BESIDE * end, jumps + BESIDE * end))
-    return result.envelope(x=np.unique(beside))
+    envelope = result.envelope(x=np.unique(beside))
+    return envelope if holds_values(envelope) else None
 
 
 def _ends_of_ways(result: Result) -> list[np.ndarray]:
@@ -140,7 +142,7 @@ def _ends_of_ways(result: Result) -> list[np.ndarray]:
 
 def _headline(result: Result, sources: list[Any]) -> str:
     """Say what the picture is of."""
-    text = "Largest and smallest values"
+    text = "Largest and smallest values" if sources else outcome(result)
     if result.combinations:
         total, solved = len(result.names), result.statuses.count("solved")
         text = f"Envelope of {fmt.count(total, 'combination')}"

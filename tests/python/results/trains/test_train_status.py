@@ -113,3 +113,21 @@ def test_combinations_of_which_none_has_an_answer_can_be_shown(tmp_path, capsys)
     gapbeam.read_scene(scene).to_toml(path)
     assert main(["run", str(path), "--quiet", "--plot", str(tmp_path / "rigid.svg"), "--html", str(tmp_path / "rigid.html")]) == 1
     assert "statics" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("combined", [False, True])
+def test_a_train_under_which_the_beam_always_falls_can_be_shown(tmp_path, combined):
+    """Nothing is said of supports then."""
+    heavy = plank(trains=[{"name": "man", "axles": [[0.0, 5.0]], "from": 2.9, "to": 3.0}])
+    if combined:
+        heavy["combinations"] = [{"name": "a", "factors": {"dead": 1.0, "live": 1.0}}]
+    result = gapbeam.solve(heavy)
+    assert result.status == "no-equilibrium"
+    assert result.envelope().extremes["moment"] == {"max": None, "min": None}
+    for shown in (result, result.envelope()):
+        assert "lifts off" not in repr(shown) + shown.report()
+        assert "of 1 combination" in repr(shown) or "tips" in repr(shown)
+        assert shown.lifted == []
+    words = " ".join(text.get_text() for text in result.plot().texts)
+    assert ("Envelope of 0 of 1 combination" if combined else "tips about") in words
+    assert "tips about" in result.to_html(tmp_path / "page.html")
