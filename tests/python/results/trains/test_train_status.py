@@ -128,6 +128,8 @@ def test_a_train_under_which_the_beam_always_falls_can_be_shown(tmp_path, combin
         assert "lifts off" not in repr(shown) + shown.report()
         assert "of 1 combination" in repr(shown) or "tips" in repr(shown)
         assert shown.lifted == []
+    assert set(result.envelope().states.to_dict().values()) == {()}
+    assert "nan" not in result._repr_html_().partition("<img")[0]
     words = " ".join(text.get_text() for text in result.plot().texts)
     assert ("Envelope of 0 of 1 combination" if combined else "tips about") in words
     assert "tips about" in result.to_html(tmp_path / "page.html")
