@@ -255,8 +255,8 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
-    """Say where a factor between governs."""
-    say.heading("Factors between")
+    """Say where a load factor between 0 and 1 governs."""
+    say.heading("Load factors between 0 and 1")
     if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the loading history, values are "
                  "not linear between events.")  # fmt: skip
@@ -274,7 +274,7 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
         != fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind])
     ]  # fmt: skip
     if not found:
-        say.line("Nothing is greater where all loads but the dead ones have only a part of their factors.")
+        say.line("No extreme is exceeded at a smaller load factor. Dead loads act in full there; all others are scaled by it.")
         return
     names = labels(scene.supports)
     words = dict(PLACES)
