@@ -93,7 +93,7 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
     Examples
     --------
     >>> meant_by_value("beam.EI", "1e4 kN m^2", "a number")
-    '; numbers have no units: write 1e4, in the units of the scene'
+    '; numbers have no units: write 1e4 if the scene has kN m^2, else convert it'
     """
     key = place.rpartition(".")[2]
     if not isinstance(value, str | bool):
@@ -106,4 +106,5 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return ""
     if not found["unit"]:
         return f"; write {value.strip()} without quotes"
-    return f"; numbers have no units: write {value[: found.start('unit')].strip()}, in the units of the scene"
+    figure, unit = value[: found.start("unit")].strip(), found["unit"].strip()
+    return f"; numbers have no units: write {figure} if the scene has {unit}, else convert it"
