@@ -13,6 +13,7 @@ from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..scene.names import labels
 from .ground import free_span_headings
 from .over_path import write_over_path
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import Writer, chosen
@@ -193,8 +194,7 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
-             "each other.", "dim")  # fmt: skip
+    say.line(f"{positive_fields(scene)} Combinations with equal values stand beside each other.", "dim")
 
 
 def _supports(say: Writer, result: "CombinedResult") -> None:

@@ -21,6 +21,7 @@ from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import LONGEST, Writer, chosen
@@ -243,7 +244,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
         rows.append([fmt.shown_heading(scene, quantity), *texts])
     x = fmt.with_unit(scene, "x", "at x")
     say.table(["", "largest", x, "smallest", x], rows, left=(0,))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
+    say.line(positive_fields(result.scene), "dim")
 
 
 def _steps(say: "Writer", result: "Result") -> None:

@@ -214,3 +214,11 @@ def test_steps_and_residuals(result):
     text = report_text(result, verbose=True).partition("Residuals against run time")[2]
     for words in ("solves", "time", "equilibrium", "compatibility", "complementarity", "0.125"):
         assert words in text
+
+
+def test_the_signs_of_an_upright_beam_are_those_of_its_picture():
+    made = scenes.scene([2.0], [scenes.at(0), scenes.at(1)], [scenes.force(1.0, 3.0)])
+    made["beam"]["direction"] = "down"
+    text = report_text(gapbeam.solve(made))
+    assert "Deflection to the right, moment with tension on the right" in text
+    assert "Deflection downward" not in text
