@@ -13,6 +13,7 @@ from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..scene.names import labels
 from .ground import free_span_headings
 from .over_path import write_over_path
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import Writer, chosen
@@ -193,8 +194,7 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
-             "each other.", "dim")  # fmt: skip
+    say.line(f"{positive_fields(scene)} Combinations with equal values stand beside each other.", "dim")
 
 
 def _supports(say: Writer, result: "CombinedResult") -> None:
@@ -255,8 +255,8 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
-    """Say where a factor between governs."""
-    say.heading("Factors between")
+    """Say where a load factor between 0 and 1 governs."""
+    say.heading("Load factors between 0 and 1")
     if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the loading history, values are "
                  "not linear between events.")  # fmt: skip
@@ -274,7 +274,7 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
         != fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind])
     ]  # fmt: skip
     if not found:
-        say.line("Nothing is greater where all loads but the dead ones have only a part of their factors.")
+        say.line("No extreme is exceeded at a smaller load factor. Dead loads act in full there; all others are scaled by it.")
         return
     names = labels(scene.supports)
     words = dict(PLACES)

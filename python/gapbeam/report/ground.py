@@ -10,7 +10,7 @@ from ..results.event_words import state_in_words
 from ..results.state.ground import Contact, FreeSpan, joined
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
-from .scheme import symbol
+from .contact_history import symbol
 from .writer import LONGEST, Writer
 
 if TYPE_CHECKING:

@@ -18,9 +18,10 @@ from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import bound_in_words, write_combined
+from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
-from .scheme import event_table, legend, merged, scheme_table, symbol
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import LONGEST, Writer, chosen
@@ -160,11 +161,11 @@ def _history(say: "Writer", result: "Result") -> None:
     supports = result.scene.supports
     if all(state == "bilateral" for state in result.steps[-1].state):
         return
-    # Of steps with the same scheme the first and the last do
+    # Of steps with the same contact state the first and the last do
     runs = merged(result.steps.history())
     history = [(factor, states) for first, last, states in runs for factor in (first, last)]
     say.heading("Contact state over the load")
-    headings, rows = scheme_table(history, say.width, say.plain)
+    headings, rows = contact_table(history, say.width, say.plain)
     say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
     states = {state for _, states in history for state in states}
     numbering = "Supports are numbered from 0 as in the scene."
@@ -243,7 +244,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
         rows.append([fmt.shown_heading(scene, quantity), *texts])
     x = fmt.with_unit(scene, "x", "at x")
     say.table(["", "largest", x, "smallest", x], rows, left=(0,))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
+    say.line(positive_fields(result.scene), "dim")
 
 
 def _steps(say: "Writer", result: "Result") -> None:

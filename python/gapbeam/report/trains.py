@@ -10,6 +10,7 @@ from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
 from ..scene.trains import LEFT
 from .ground import free_span_headings
+from .signs import positive_fields
 from .writer import Writer, chosen
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
                 rows.append([name, words, *texts, *_source(result, one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result)], rows, (0, 1, 4, 5))
     say.line("Positions are those of the first axle. Others: positions or trains with the same value. Where a field jumps the "
-             "larger side counts. Deflection downward, sagging moment, clockwise rotation: positive.", "dim")  # fmt: skip
+             f"larger side counts. {positive_fields(scene)}", "dim")  # fmt: skip
 
 
 def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:

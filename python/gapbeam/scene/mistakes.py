@@ -159,6 +159,8 @@ class _Repair:
             if isinstance(owner, dict) and path[end - 1] in owner and path[:end] not in self._done:
                 self._done.add(path[:end])
                 del owner[path[end - 1]]
+                if path[end - 1] == "side":
+                    owner["side"] = "below"  # the default, "both", takes no gap
                 return True
         self._done.add(path[:2])
         spans = self._data["beam"].get("spans") if isinstance(self._data.get("beam"), dict) else None

@@ -290,7 +290,7 @@ def test_a_factor_between_governs():
     made["combinations"] = [{"name": "all", "factors": {"live": 1.0}}]
     result = gapbeam.solve(made)
     assert hint.value in [one.value for one in result.hints()]
-    assert " 0.75 " in report_text(result, 120).split("Factors between")[1]
+    assert " 0.75 " in report_text(result, 120).split("Load factors between 0 and 1")[1]
     assert hint.value > result.envelope().extremes["moment"]["max"].value
 
 
