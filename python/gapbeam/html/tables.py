@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..base.characters import visible
+from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.contact import source_in_words
 from ..results.event_words import state_in_words
@@ -76,7 +76,7 @@ def _cut(table: TableData) -> str:
 
 
 def _number(value: float, text: str | None = None) -> Cell:
-    return Cell((fmt.number(value, fmt.DIGITS) if text is None else text).replace("-", "\N{MINUS SIGN}"), float(value))
+    return Cell(with_minus_signs(fmt.number(value, fmt.DIGITS) if text is None else text), float(value))
 
 
 def _shown(result: Result, quantity: str, value: float) -> Cell:

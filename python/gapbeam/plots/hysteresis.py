@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..base.characters import with_minus_signs
 from ..base.hints import no_such
 from ..results import formatting as fmt
 from ..results.paths.branches import BranchPath
 from ..scene.names import labels
 from ..scene.wording import shown
 from .branches import KINK, MARKERS, Trace
-from .key import MINUS
 from .panels import cut_text
 from .save import literal
 from .sheet import positive
@@ -108,7 +108,7 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     axes.tick_params(labelsize=8)
     axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
     if len(cycles) > MOST_CYCLES:
-        unit, total = fmt.unit(scene, "moment"), fmt.number(sum(cycle.energy for cycle in cycles), 4).replace("-", MINUS)
+        unit, total = fmt.unit(scene, "moment"), with_minus_signs(fmt.number(sum(cycle.energy for cycle in cycles), 4))
         axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} {unit} in all".replace("  ", " "))
     picture.legend(loc="outside lower center", ncols=1 if len(cycles) < 3 else 2, fontsize=8, frameon=False)
     return literal(picture)
@@ -182,12 +182,12 @@ def _words(result: Result, cycle: Cycle, number: int) -> str:
     """Name a cycle with its energy."""
     history = [*result.scene.analysis.history]
     unit = fmt.unit(result.scene, "moment")
-    energy = f"{fmt.number(cycle.energy, 4)} {unit}".rstrip().replace("-", MINUS)
+    energy = with_minus_signs(f"{fmt.number(cycle.energy, 4)} {unit}".rstrip())
     if not history:
         return f"to load factor {fmt.number(result.steps[-1].factor, 4)}: energy {energy}"
     legs = [leg for leg in cycle.legs if 0 <= leg < len(history)]
     begin = history[legs[0] - 1] if legs and legs[0] else 0.0
-    way = " to ".join(fmt.number(factor, 4) for factor in (begin, *(history[leg] for leg in legs))).replace("-", MINUS)
+    way = with_minus_signs(" to ".join(fmt.number(factor, 4) for factor in (begin, *(history[leg] for leg in legs))))
     return f"{'cycle' if cycle.closed else 'part'} {number + 1} (load factor {way}): energy {energy}"
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..scene.names import labels
 from .sheet import is_upright
@@ -25,7 +26,6 @@ NONE = 1e-9
 LYING = "\N{LEFTWARDS ARROW}\N{RIGHTWARDS ARROW}", "\N{ANTICLOCKWISE OPEN CIRCLE ARROW}\N{CLOCKWISE OPEN CIRCLE ARROW}"
 UPRIGHT = "\N{UPWARDS ARROW}\N{DOWNWARDS ARROW}", LYING[1][::-1]
 """Arrows along the beam and around, each the negative one first."""
-MINUS = "\N{MINUS SIGN}"
 
 
 class Told(NamedTuple):
@@ -166,7 +166,7 @@ class EnvelopeValues:
                     continue  # that it opens says so
                 text = with_unit(self._scene, name, value) if few or name == "opening" else fmt.number(value, DIGITS)
                 source = self._key.source(self._rows[k][name]["max" if kind == "open" else kind])
-                line = f"{begin}{kind} {text}".replace("-", MINUS)
+                line = with_minus_signs(f"{begin}{kind} {text}")
                 short = source and " at " not in f" {source}"
                 where = openings if kind == "open" else words
                 where += [f"{line}, {source}"] if short else [line, *[source] * bool(source)]
@@ -200,7 +200,7 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
         found["spring"] = f"spring {fmt.number(support.stiffness, DIGITS)} {_per_length(scene)}".rstrip()
     if not isinstance(support.rotation, str) and support.rotation:
         found["rotation"] = f"rotational spring {fmt.number(support.rotation, DIGITS)} {_turning(scene)}".rstrip()
-    return {kind: words.replace("-", MINUS) for kind, words in found.items()}
+    return {kind: with_minus_signs(words) for kind, words in found.items()}
 
 
 def with_unit(scene: Scene, quantity: str, value: float) -> str:
