@@ -62,7 +62,7 @@ def summary_figure(summary: "Summary") -> Figure:
 def _draw(axes: Axes, summary: "Summary", name: str, one: "Distribution") -> None:
     unit, factor = summary.units.get(name, ("", 1.0))
     axes.stairs(one.counts / one.count, one.edges, fill=True, color=SHADE)
-    axes.set_xlabel(_words(name) + (f" [{unit}]" if unit else ""), fontsize=7.5)
+    axes.set_xlabel(fmt.heading(_words(name), unit), fontsize=7.5)
     axes.tick_params(labelsize=7)
     axes.locator_params(axis="both", nbins=4)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: with_minus_signs(fmt.number(factor * value, 4))))

@@ -157,9 +157,8 @@ def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
         if found:
             most = max(found, key=lambda one: abs(one.value))
             state = getattr(most.state, "result", None)
-            unit, factor = fmt.shown_unit(scene, name)
-            value = with_minus_signs(f"{fmt.number(factor * most.value, 4)} {unit}".rstrip())
-            place = with_minus_signs(f"{fmt.number(most.position, 4)} {fmt.unit(scene, 'x')}".strip())
+            value = with_minus_signs(fmt.value(scene, name, most.value, 4))
+            place = with_minus_signs(fmt.value(scene, "x", most.position, 4))
             words = f"Drawn: {source_name(most)} at position {place}, from which the largest {name} comes: {value}."
             if state is None:
                 return None, ""

@@ -132,7 +132,7 @@ def path_figure(result: Result) -> Figure:
             draw_extremes(axes, result, states, dots)
         unit, factor = fmt.shown_unit(scene, name)
         words = {"x": "x of contact", "opening": "opening"}.get(name) or f"{name}, {positive(scene, name)}"
-        _frame(axes, f"{words} [{unit}]" if unit else words, last=not above)
+        _frame(axes, fmt.heading(words, unit), last=not above)
         if factor != 1.0:
             axes.yaxis.set_major_formatter(lambda value, _, by=factor: with_minus_signs(fmt.number(by * value)))
         if name in tables:

@@ -205,8 +205,7 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
 
 def with_unit(scene: Scene, quantity: str, value: float) -> str:
     """Write a value with its unit, displacements in mm where lengths are in m."""
-    unit, factor = fmt.shown_unit(scene, quantity)
-    return f"{fmt.number(factor * value, DIGITS)} {unit}".rstrip()
+    return fmt.value(scene, quantity, value, DIGITS)
 
 
 def _per_length(scene: Scene) -> str:

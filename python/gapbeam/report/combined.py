@@ -148,8 +148,8 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
         ends = fmt.without_noise(best(reaction, axis=0).tolist())
         rows.append([words, *(fmt.number(ends[i], fmt.DIGITS) for i in supports), "", ""])
-    unit, names = fmt.unit(scene, "reaction"), labels(scene.supports)
-    say.heading("Reactions by combination" + (f" [{unit}]" if unit else ""))
+    names = labels(scene.supports)
+    say.heading(fmt.with_unit(scene, "reaction", "Reactions by combination"))
     say.table_by_name(["", *(names[i] for i in supports), "sum", "loads"], rows)
     length, _ = fmt.shown_unit(scene, "opening")
     mark = f"; {up} no contact, with its opening{f' in {length}' if length else ''}" if lifted.any() else ""

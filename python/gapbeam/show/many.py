@@ -11,7 +11,6 @@ from ..batches.batch import Batch
 from ..batches.summary import Summary, distribution
 from ..results import formatting as fmt
 from ..results.cases.solved_cases import Cases
-from ..results.contact import short
 from ..results.envelopes.lifted import Lifted
 from ..scene.structs import Scene
 
@@ -46,7 +45,8 @@ def cases_answer(cases: Cases) -> list[str]:
         for kind, best in (("max", np.nanargmax), ("min", np.nanargmin)):
             one = cases.extremes[name][kind]
             k = int(best(one.value))
-            texts.append(f"{short(scene, name, float(one.value[k]))} at x = {fmt.number(float(one.x[k]), fmt.DIGITS)} (case {k})")
+            place = fmt.number(float(one.x[k]), fmt.DIGITS)
+            texts.append(f"{fmt.value(scene, name, float(one.value[k]))} at x = {place} (case {k})")
         lines.append(f"{f'Largest {name}':<20}{'; '.join(texts)}")
     return lines
 
@@ -74,7 +74,7 @@ def lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
     for one in sorted(sorted(lifted, key=lambda one: -one.share)[:MOST_NAMED]):
         name = fmt.support(scene, one.support)
         lines.append(f"{name[0].upper()}{name[1:]} has no contact in {100 * one.share:.3g} % of the cases, "
-                     f"opening up to {short(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
+                     f"opening up to {fmt.value(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
     if len(lifted) > MOST_NAMED:
         lines.append(f"{len(lifted) - MOST_NAMED:,} more have no contact in fewer cases.")
     return lines
