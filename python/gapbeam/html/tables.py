@@ -12,6 +12,7 @@ from ..results import formatting as fmt
 from ..results.contact import source_in_words
 from ..results.event_words import state_in_words
 from ..results.state.ground import joined
+from ..results.views.extreme import IN_WORDS
 from ..scene.names import label, labels
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
 
-WORDS = {"max": "largest", "min": "smallest"}
 MOST_ROWS = 200
 """Rows of a table; all are in the JSON output."""
 
@@ -105,7 +105,7 @@ def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
     for name, row in fmt.reported(envelope.extremes).items():
         for kind, one in row.items():
             if one is not None:
-                words = f"{WORDS[kind]} {fmt.shown_heading(result.scene, name)}"
+                words = f"{IN_WORDS[kind]} {fmt.shown_heading(result.scene, name)}"
                 source = Cell(source_in_words(one, result.scene))
                 rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), source])
     head = ["", "value", fmt.shown_heading(result.scene, "x", "at x"), "from"]
@@ -129,7 +129,7 @@ def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> Tab
         rows.append(row)
     head = ["support"]
     for quantity, kind in chosen:
-        head += [fmt.shown_heading(result.scene, quantity, f"{WORDS[kind]} {quantity}"), "from"]
+        head += [fmt.shown_heading(result.scene, quantity, f"{IN_WORDS[kind]} {quantity}"), "from"]
     return TableData("support-extremes", "Largest and smallest values at the supports", head, rows)
 
 
@@ -138,10 +138,10 @@ def _combinations(result: Result) -> TableData:
     fields = [name for name in ("moment", "shear", "deflection") if f"{name}_max" in columns]
     head = ["combination", "status"]
     for name in fields:
-        head += [fmt.shown_heading(result.scene, name, f"{WORDS[kind]} {name}") for kind in WORDS]
+        head += [fmt.shown_heading(result.scene, name, f"{IN_WORDS[kind]} {name}") for kind in IN_WORDS]
     rows = []
     for k, (name, status) in enumerate(zip(columns["combination"], columns["status"], strict=True)):
-        values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in WORDS]
+        values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in IN_WORDS]
         rows.append([Cell(visible(name)), Cell(status), *values])
     return TableData("combinations", "Combinations", head, rows)
 

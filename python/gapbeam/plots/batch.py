@@ -9,6 +9,7 @@ from matplotlib.ticker import FuncFormatter
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..results.views.extreme import IN_WORDS
 from .save import literal
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ MOST = 12
 ACROSS = 3
 SHADE, LIMIT = "#9CC3E0", "#B84A00"
 """Colours of the histograms, and of limits."""
-WHICH = {"max": "largest", "min": "smallest"}
 CUT = 5.0
 """How many times higher than the next a bar is that is cut."""
 CHARACTERS = 110
@@ -109,8 +109,8 @@ def _words(name: str) -> str:
     ('opening of west', 'largest moment', 'reaction of support 2')
     """
     quantity, _, support = name.partition(".")
-    if support in WHICH:
-        return f"{WHICH[support]} {quantity.replace('_', ' ')}"
+    if support in IN_WORDS:
+        return f"{IN_WORDS[support]} {quantity.replace('_', ' ')}"
     if support:
         return f"{quantity} of {f'support {support}' if support.isdigit() else support}"
     return name.replace("_", " ")

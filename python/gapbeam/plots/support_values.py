@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..results.views.extreme import KINDS
 from ..scene.names import labels
 from .sheet import is_upright
 
@@ -135,7 +136,7 @@ class EnvelopeValues:
         self._scene, self._key, self._names = scene, key, labels(scene.supports)
         self._rows = envelope.supports
         count = len(scene.supports)
-        pairs = ((name, kind) for name in ("reaction", "opening") for kind in ("max", "min"))
+        pairs = ((name, kind) for name in ("reaction", "opening") for kind in KINDS)
         self._values = {pair: self._rows.values(*pair) if count else np.zeros(0) for pair in pairs}
         high, low = self._values["reaction", "max"], self._values["reaction", "min"]
         self.up, self.down = np.maximum(_across(scene, high), 0.0), np.maximum(-_across(scene, low), 0.0)
@@ -150,7 +151,7 @@ class EnvelopeValues:
         held = {self._scene.supports[k].side for k in across} & {"below", "both"}
         for k in indices:
             support = self._scene.supports[k]
-            high, low = (float(self._values["reaction", kind][k]) for kind in ("max", "min"))
+            high, low = (float(self._values["reaction", kind][k]) for kind in KINDS)
             lines = [("max", "reaction", high)] if high > self._small or (support.side != "above" and high > low) else []
             if low < -self._small or (support.side != "above" and high > self._small):
                 lines.append(("min", "reaction", low))

@@ -15,11 +15,11 @@ from . import formatting as fmt
 from .contact import contact_in_words, ground_in_words, source_in_words
 from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
-from .envelopes.tables import KINDS
 from .event_words import limits_of_load_in_words
 from .plausibility import doubts_of_scene, doubts_of_signs
 from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
+from .views.extreme import KINDS
 
 if TYPE_CHECKING:
     from .envelopes.envelope import Envelope

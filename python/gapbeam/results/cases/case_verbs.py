@@ -21,7 +21,7 @@ from ..envelopes.tables import support_places
 from ..state.arguments import whole
 from ..state.step import name_states
 from ..views.columns import Columns, one_of
-from ..views.extreme import SYMBOLS, Extreme, Extremes, Source
+from ..views.extreme import KINDS, SYMBOLS, Extreme, Extremes, Source
 from ..views.labelled import Labelled, by_support
 from ..views.shown import Shown
 from .case_result import result_of_case, why_not_solved
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 AT_ONCE = 64
 """Cases whose fields are found at the places of all of them."""
-KINDS = ("max", "min")
 
 
 class CaseExtreme(Extreme):
