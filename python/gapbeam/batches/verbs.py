@@ -11,7 +11,7 @@ import numpy as np
 
 from ..results.envelopes.lifted import Lifted
 from ..results.views.columns import Columns, one_of
-from ..results.views.extreme import KINDS, Extreme, Extremes, Source
+from ..results.views.extreme import Extreme, Extremes, Source
 from ..results.views.labelled import Labelled
 from ..results.views.shown import Shown
 
@@ -119,7 +119,7 @@ class ManyVerbs(Shown):
         found: dict[str, dict[str, Any]] = {}
         for name in self._there:
             field, _, kind = name.partition(".")
-            if kind in KINDS:
+            if kind in ("max", "min"):
                 found.setdefault(field, {})[kind] = self._extreme(field, name)
         return found
 
