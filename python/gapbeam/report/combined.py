@@ -10,6 +10,7 @@ from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..results.envelopes.lifted import NONE
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
+from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
 from .ground import free_span_headings
 from .over_path import write_over_path
@@ -33,7 +34,6 @@ MOST_ROWS = 24
 """Combinations whose reactions are listed."""
 MOST_SUPPORTS = 16
 """Supports whose reactions are listed."""
-PLACES = (("max", "largest"), ("min", "smallest"))
 
 
 def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False) -> None:
@@ -149,8 +149,8 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
         ends = fmt.without_noise(best(reaction, axis=0).tolist())
         rows.append([words, *(fmt.number(ends[i], fmt.DIGITS) for i in supports), "", ""])
-    unit, names = fmt.unit(scene, "reaction"), labels(scene.supports)
-    say.heading("Reactions by combination" + (f" [{unit}]" if unit else ""))
+    names = labels(scene.supports)
+    say.heading(fmt.with_unit(scene, "reaction", "Reactions by combination"))
     say.table_by_name(["", *(names[i] for i in supports), "sum", "loads"], rows)
     length, _ = fmt.shown_unit(scene, "opening")
     mark = f"; {up} no contact, with its opening{f' in {length}' if length else ''}" if lifted.any() else ""
@@ -189,8 +189,8 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
     for quantity, row in fmt.reported(envelope.extremes).items():
-        values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
-        for (kind, words), value in zip(PLACES, values, strict=True):
+        values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
+        for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
@@ -210,7 +210,7 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
             rows.append(["..."] * (6 if one_sided else 4))
             continue
         name, row = names[k], envelope.supports[k]
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
             texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
             if one_sided:
@@ -233,7 +233,7 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
     names, found = fmt.numbered(scene.foundation), result.envelope().foundations
     rows = []
     for name, row in zip(names, found, strict=True):
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["resultant"][kind]
             rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)])
     say.table(["", "", fmt.stacked(scene, "resultant"), "combination"], rows, left=(0, 1, 3))
@@ -277,11 +277,10 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
         say.line("No extreme is exceeded at a smaller load factor. Dead loads act in full there; all others are scaled by it.")
         return
     names = labels(scene.supports)
-    words = dict(PLACES)
     rows = [
         [
-            _of(hint, names, scene), words[hint.kind], fmt.shown(scene, hint.quantity, hint.value), fmt.number(hint.x, fmt.DIGITS),
-            visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
+            _of(hint, names, scene), IN_WORDS[hint.kind], fmt.shown(scene, hint.quantity, hint.value),
+            fmt.number(hint.x, fmt.DIGITS), visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
             fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind]),
         ]
         for hint in found

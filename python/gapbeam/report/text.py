@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
-from ..results.contact import short
 from ..results.envelopes.over_path import is_followed
 from ..results.equilibrium import balance_in_words
 from ..results.event_words import state_in_words
@@ -150,7 +149,7 @@ def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
     scene = result.scene
     texts = [
         f"{fmt.support(scene, k)} on {state_in_words(landing.state[k])}, deflection "
-        f"{short(scene, 'deflection', landing.deflection[k])}"
+        f"{fmt.value(scene, 'deflection', landing.deflection[k])}"
         for k in which[:10]
     ]
     more = f", and {len(which) - 10} more" if len(which) > 10 else ""
@@ -222,7 +221,7 @@ def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
     step, x = result.steps[-1], result.scene.positions(result.scene.supports)
     names = labels(result.scene.supports)
     held = [
-        f"{names[k]} (x = {fmt.number(x[k], fmt.DIGITS)}, couple {short(result.scene, 'couple', step.couple[k])})"
+        f"{names[k]} (x = {fmt.number(x[k], fmt.DIGITS)}, couple {fmt.value(result.scene, 'couple', step.couple[k])})"
         for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
         if state == "open" and support.rotation not in ("free", 0.0)
     ]

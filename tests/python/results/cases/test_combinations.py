@@ -396,7 +396,7 @@ def test_the_command_writes_all_of_it(tmp_path, monkeypatch, capsys):
     assert list(json.loads((tmp_path / "all.json").read_text())["envelope"]) == ["supports", "extremes", "fields"]
     assert (tmp_path / "all.csv").read_text().startswith("x,deflection_max")
     assert ">R-4<" in (tmp_path / "all.svg").read_text()
-    assert "snow [wind +]" in (tmp_path / "all.svg").read_text().replace("\N{NO-BREAK SPACE}", " ")
+    assert "B = snow [wind +]" in (tmp_path / "all.svg").read_text().replace("\N{NO-BREAK SPACE}", " ")
     assert main(["check", "rack.json"]) == 0
     assert "3 loads; 3 combinations" in capsys.readouterr().out
     assert main(["run", "rack.json", "--path", "path.svg"]) == 2
