@@ -24,7 +24,8 @@ module gapbeam_tolerances
     !> rounding, and too little to cost pieces. Read by beam/fields and lanes/lane_roots
     real(wp), parameter :: extreme_margin = 1.0e-6_wp
     !> Weak springs of the proximal iteration relative to the softest stiffness present: a third of the digits, so that two rounds
-    !> leave nothing but rounding. Read by contact/scheme and contact/ground_energy, and by result/lane_spans for cases side by side
+    !> leave nothing but rounding. Read by contact/contact_state and contact/ground_energy, and by result/lane_spans for cases side
+    !> by side
     real(wp), parameter :: proximal_ratio = 10.0_wp**(-precision(1.0_wp)/3)
     !> Splits a number into two halves of its bits (Dekker 1971, Numer. Math. 18, 224). Read by all that form exact products:
     !> chain/residual, chain/elements, lanes/lane_residual

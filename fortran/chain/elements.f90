@@ -1,4 +1,4 @@
-!> A beam of many elements as plain arrays, every element end a node, solved at the speed of memory.
+!> A finely meshed beam as plain arrays, every element end a node: one linear system, solved at the speed of memory.
 !>
 !> For fine meshes, and for programs that have such arrays already. Elements are assembled in small blocks that stay in the
 !> first-level cache, right before the sweeps of gapbeam_kernel need them. Memory is passed through once each way:

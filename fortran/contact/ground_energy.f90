@@ -1,8 +1,8 @@
 !> The least energy of a beam on one-sided ground, on a mesh: Newton's method with a line search.
 !>
 !> With the ground at the nodes of the mesh (gapbeam_ground_nodes) the energy is convex and has a Lipschitz continuous gradient. A
-!> model of it with the forces and slopes of the ground at hand, and with the supports as they are, is solved by gapbeam_scheme;
-!> along the way to its solution the slope of the energy never falls, and costs no more than the forces of the ground. Going to
+!> model of it with the forces and slopes of the ground at hand, and with the supports as they are, is solved by
+!> gapbeam_contact_state; along the way to its solution the slope of the energy never falls, and costs no more than the forces of the ground. Going to
 !> where it vanishes, or nearly so, the energy falls by a share of what it can in every round: from any start this ends at the
 !> least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995). Where the model runs away along a motion of the beam,
 !> the same search tells how far; if nothing stops it, there is no equilibrium.
@@ -18,7 +18,7 @@ module gapbeam_ground_energy
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_mesh, only: mesh_type
     use gapbeam_ground_nodes, only: point_type, press, list_points, make_beam
@@ -61,7 +61,7 @@ contains
         logical, intent(out) :: exhausted
         !> Solved or no equilibrium, with the motion of the nodes of the beam without ground
         type(outcome_type), intent(out) :: outcome
-        !> As for find_scheme, or not settled
+        !> As for find_contact_state, or not settled
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: beam
         type(workspace_type) :: work
@@ -169,7 +169,7 @@ contains
             acting(:size(closed)) = closed
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)
-            call find_scheme(beam, factor, rule_block, acting, work, outcome, error)
+            call find_contact_state(beam, factor, rule_block, acting, work, outcome, error)
             solves = solves + work%solves
         end subroutine solve_model
 

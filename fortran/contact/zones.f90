@@ -1,6 +1,6 @@
 !> Zones of contact, and of the pieces of the ground's laws, found by Newton's method.
 !>
-!> On given zones the beam is solved, with its one-sided supports by the search of gapbeam_scheme; the places where its
+!> On given zones the beam is solved, with its one-sided supports by the search of gapbeam_contact_state; the places where its
 !> deflection crosses the contact lines are the ends of the next zones. An end that is off by e leaves an unbalanced load of the
 !> order e**2, so this is Newton's method for the whole problem, whose energy is convex: near the solution the ends converge
 !> quadratically without any equation of their own (docs/method.md, section 12). Zones appear, vanish, merge and split by
@@ -10,7 +10,7 @@ module gapbeam_zones
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches
     use gapbeam_zone_fields, only: fields_at_ends, take_fields, way_of_fields
@@ -55,7 +55,7 @@ contains
         logical, intent(out) :: settled
         !> By which share of the stretches beside it an end moved last
         real(wp), intent(out) :: moved
-        !> As for find_scheme
+        !> As for find_contact_state
         type(error_type), allocatable, intent(out) :: error
         type(zones_type) :: found, asked, last, last_asked, mark
         real(wp) :: before
@@ -152,7 +152,7 @@ contains
         end if
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, factor, work)
-        call find_scheme(grounded%beam, factor, rule, closed, work, outcome, error)
+        call find_contact_state(grounded%beam, factor, rule, closed, work, outcome, error)
         solves = solves + work%solves
         work%solves = solves
     end subroutine solve_on_zones

@@ -1,7 +1,7 @@
 ! The library for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only default
 ! kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library for everyone else.
 !
-! BEAM is the handle of a prepared beam (gapbeam_handle): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
+! BEAM is the handle of a prepared beam (gapbeam_beam_handle): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
 ! NM supports of the scene, NB axial bars. Arrays over supports and bars have one entry more than there are: f2py takes none
 ! that is empty. Units are the engine's where nothing else is said. STATUS as in gapbeam_error: 0 solved, 1 no equilibrium, above
 ! 10 an error with its MESSAGE and nothing else set.
@@ -13,7 +13,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     use gapbeam_error, only: error_type
     use gapbeam_scene, only: model_type
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
-    use gapbeam_handle, only: new_handle, listen, report
+    use gapbeam_beam_handle, only: new_handle, listen, report
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
@@ -70,7 +70,7 @@ end subroutine gbmake
 
 ! End the calls with a beam that are at work, and those to come (ENDS = 1), until they may go on again (0)
 subroutine gbstop(beam, ends)
-    use gapbeam_handle, only: handle_type, handle_of, stop_calls, listen
+    use gapbeam_beam_handle, only: handle_type, handle_of, stop_calls, listen
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ends
@@ -86,7 +86,7 @@ end subroutine gbstop
 
 ! Free a beam
 subroutine gbdrop(beam)
-    use gapbeam_handle, only: drop_handle
+    use gapbeam_beam_handle, only: drop_handle
     implicit none
     integer(8), intent(in) :: beam
 
@@ -96,7 +96,7 @@ end subroutine gbdrop
 ! Another beam: the loads of a case, all live, each times its factor, and nothing dead
 subroutine gbcopy(beam, nd, factor, copy, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, copy_handle, drop_handle, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, copy_handle, drop_handle, report
     use gapbeam_cases, only: take_case
     implicit none
     integer(8), intent(in) :: beam
@@ -123,7 +123,7 @@ end subroutine gbcopy
 
 ! Sizes of a beam, and its units
 subroutine gbsize(beam, sizes, units)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     implicit none
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
@@ -148,7 +148,7 @@ end subroutine gbsize
 
 ! Which supports of the scene those of the engine are
 subroutine gbnumb(beam, ns, number, laws)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ns
@@ -173,7 +173,7 @@ end subroutine gbnumb
 ! What there is along a beam, in the scene's units
 subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, &
                   snode, level)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_units, only: rotation_unit, moment_unit
     use gapbeam_assembled_model, only: point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_assemble_supports, only: contact_level
@@ -230,7 +230,7 @@ end subroutine gbplac
 ! Another beam: the same with the laws of its supports as they have become
 subroutine gblaws(beam, ns, laws, copy, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, copy_handle
+    use gapbeam_beam_handle, only: handle_type, handle_of, copy_handle
     use gapbeam_assemble_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam

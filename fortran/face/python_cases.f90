@@ -3,7 +3,7 @@
 ! Condense the loads of a beam one by one, for GBCASE
 subroutine gbshar(beam, status)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_cases, only: split_loads
     implicit none
     integer(8), intent(in) :: beam
@@ -24,7 +24,7 @@ end subroutine gbshar
 
 ! Room for cases, kept from call to call; calls at the same time need one each. 0 where memory ends
 subroutine gbroom(room)
-    use gapbeam_handle, only: new_room
+    use gapbeam_beam_handle, only: new_room
     implicit none
     integer(8), intent(out) :: room
 
@@ -33,7 +33,7 @@ end subroutine gbroom
 
 ! Free it
 subroutine gbleav(room)
-    use gapbeam_handle, only: drop_room
+    use gapbeam_beam_handle, only: drop_room
     implicit none
     integer(8), intent(in) :: room
 
@@ -43,7 +43,7 @@ end subroutine gbleav
 ! Solve NC cases of loads; every load counts with its factor
 subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor, supp, span, rule, closed, w, ml, mr, react, &
                   solves, status)
-    use gapbeam_handle, only: handle_type, handle_of, room_of
+    use gapbeam_beam_handle, only: handle_type, handle_of, room_of
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none
     ! The beam, and room of its own (GBROOM)
@@ -106,7 +106,7 @@ end subroutine gbcase
 ! Solve one case of a beam with loads, every search from all supports closed, at the least cost of a call
 subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     use gapbeam_error, only: gapbeam_no_memory
-    use gapbeam_handle, only: handle_type, handle_of, room_of
+    use gapbeam_beam_handle, only: handle_type, handle_of, room_of
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none
     ! As for GBCASE

@@ -3,7 +3,7 @@
 ! Certify NC cases
 subroutine gbccrt(beam, nn, ns, nd, nv, np, nf, nc, factor, supp, span, modul, rule, given, closed, w, ml, mr, react, cert, known, &
                   status)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_case_certificates, only: certify_cases
     implicit none
     integer(8), intent(in) :: beam

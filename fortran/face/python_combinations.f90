@@ -5,11 +5,11 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
                   extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block
-    use gapbeam_lane_cases, only: fits_lanes, find_schemes
+    use gapbeam_lane_cases, only: fits_lanes, find_contact_states
     implicit none
     integer(8), intent(in) :: beam
     ! One more than there are: supports of the engine, loads, supports of the scene, places; combinations
@@ -62,7 +62,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     solves = 0
     found = 0
     if (rule == rule_block .and. np == 1 .and. nf == 1 .and. fits_lanes(handle%lowered)) then
-        call find_schemes(handle%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
+        call find_contact_states(handle%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
     end if
     do i = 1, nc
         if (nv > 1) varied%supports => supp(:, :nv - 1, i)

@@ -4,7 +4,7 @@
 ! Find the extremes of the fields of NC cases that GBCASE has solved, and the fields at NX places (one more than there are)
 subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, rule, closed, w, ml, mr, want, extr, place, piece, &
                   dist, field, status, there)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_lane_spans, only: fits_spans
     use gapbeam_case_extremes, only: has_lane_extremes, extremes_of_cases
     implicit none

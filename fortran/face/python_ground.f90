@@ -3,7 +3,7 @@
 ! Follow the load from factor 0 to 1
 subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_ground_path, only: follow_on_ground
     implicit none
@@ -51,7 +51,7 @@ end subroutine gbgpth
 
 ! The events and segments of a path that GBGPTH found, which is freed with that
 subroutine gbgpte(beam, ns, ne, nk, at, which, from, closed)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     implicit none
     integer(8), intent(in) :: beam
     ! Supports of the engine, events, segments, one more than there are
@@ -109,7 +109,7 @@ end subroutine gbgget
 ! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
 subroutine gbgrun(beam, state, ng, ny, number, about, values, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_ground_zones, only: run_type, ground_runs
     implicit none
@@ -151,7 +151,7 @@ end subroutine gbgrun
 ! How the zones of contact of a state become those of another one of the same ground under other loads
 subroutine gbgdif(most, beam, state, other, after, same, number, which, x, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
     implicit none

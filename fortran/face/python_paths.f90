@@ -4,9 +4,9 @@
 subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &
                   message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_memory, only: for_following
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: reserve_for
     use gapbeam_path, only: follow_path, path_type
     use gapbeam_state, only: detail_of, name_range
@@ -71,7 +71,7 @@ end subroutine gbpath
 ! Follow the load through factors in turn, by the path itself
 subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_history, only: follow_history
     use gapbeam_state, only: name_range
     implicit none
@@ -108,7 +108,7 @@ end subroutine gbhist
 
 ! What GBHIST found
 subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors, which, motion, others, scheme)
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_history, only: laws_at
     use gapbeam_polyline, only: node_support_type
     implicit none

@@ -4,7 +4,7 @@
 ! Find the contact state at one load factor and solve it
 subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, state, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, solve_and_keep, state_of
     use gapbeam_support_values, only: support_values
     implicit none
@@ -104,7 +104,7 @@ end subroutine gbsdro
 ! Check a solved state
 subroutine gbcert(beam, state, residu, bound, known, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of
     use gapbeam_certificate, only: certificate_type
     use gapbeam_state, only: certify_state
@@ -139,7 +139,7 @@ end subroutine gbcert
 ! Recover the fields at the pieces
 subroutine gbreco(beam, state, fields, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of, recover_and_keep
     implicit none
     integer(8), intent(in) :: beam, state
@@ -170,7 +170,7 @@ end subroutine gbfdro
 ! Fields at NX places of the scene, in its units; where they jump right (LEFT = 0) or left of the place
 subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_query, only: find_pieces
     implicit none
     integer(8), intent(in) :: beam
@@ -202,7 +202,7 @@ end subroutine gbfind
 ! Quantities at distances from the left ends of pieces, in the scene's units
 subroutine gbvalu(beam, state, fields, nq, nx, which, piece, dist, value, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     use gapbeam_query, only: fields_in_pieces
     implicit none
@@ -236,7 +236,7 @@ end subroutine gbvalu
 ! Maximum and minimum of quantities and their places, in the scene's units; WHICH as for GBVALU
 subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     use gapbeam_query, only: extremes_of_pieces
     implicit none
@@ -269,7 +269,7 @@ end subroutine gbextr
 subroutine gblarg(beam, state, fields, value)
     use gapbeam_fields, only: find_extremes
     use gapbeam_quantities, only: bending_count, bounded_count
-    use gapbeam_handle, only: handle_type, handle_of
+    use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     implicit none
     integer(8), intent(in) :: beam, state, fields

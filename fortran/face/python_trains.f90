@@ -6,7 +6,7 @@
 ! Move a train over a beam
 subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, sizes, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_train_handle, only: new_train
     implicit none
     integer(8), intent(in) :: beam
@@ -86,7 +86,7 @@ end subroutine gbtget
 ! Extremes while a train goes over a beam
 subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports, support_sides, support_ties, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_train, only: track_type
     use gapbeam_train_handle, only: train_handle_type, train_of, pack_extremes
     use gapbeam_train_envelope, only: envelope_type, find_envelope
@@ -133,7 +133,7 @@ end subroutine gbtenv
 ! Largest and smallest values at places of the beam while a train goes over it
 subroutine gbtcur(beam, train, nx, nb, piece, dist, value, position, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_train, only: track_type
     use gapbeam_train_handle, only: train_handle_type, train_of
     use gapbeam_train_curves, only: find_curves
@@ -166,7 +166,7 @@ end subroutine gbtcur
 ! Influence lines of a scheme at a place of the beam
 subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, value, status, message)
     use gapbeam_error, only: error_type
-    use gapbeam_handle, only: handle_type, handle_of, report
+    use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_train_handle, only: train_handle_type, train_of
     use gapbeam_train_influence, only: find_influence
     implicit none

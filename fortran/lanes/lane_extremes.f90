@@ -107,11 +107,17 @@ contains
         integer, intent(in) :: n
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
         real(wp), intent(inout) :: best(lanes, 6)
-        real(wp) :: x, s, qa, qb, change, length
+        real(wp) :: x, s, qa, qb, change, length, divisor(lanes)
         integer :: j, l
 
         do j = 1, n
             length = pieces%length(j)
+            ! In a loop of its own: compilers divide by both before they choose
+            !$omp simd private(change)
+            do l = 1, lanes
+                change = loads(l, j, 1) - loads(l, j, 2)
+                divisor(l) = change + merge(0.0_wp, 1.0_wp, abs(change) > 0.0_wp)
+            end do
             !$omp simd private(x, s, qa, qb, change)
             do l = 1, lanes
                 qa = loads(l, j, 1)
@@ -119,8 +125,7 @@ contains
                 change = qa - qb
                 ! Of one sign they are no farther apart
                 s = merge(1.0_wp, 0.0_wp, abs(change) > larger(abs(qa), abs(qb)))
-                ! Not by merge, for compilers divide before they choose
-                x = length*(qa/(change + merge(0.0_wp, 1.0_wp, abs(change) > 0.0_wp)))
+                x = length*(qa/divisor(l))
                 s = merge(x, 0.0_wp, s > 0.5_wp)
                 x = starts(l, j, 4) - s*(qa - 0.5_wp*(s*(change/length)))
                 call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))

@@ -134,7 +134,7 @@ contains
                 if (any(proximal_weight > 0.0_wp)) pack%spring(:, :) = pack%spring + spread(proximal_weight, 2, n + 1)
                 call sweep_chain(beam, pack%links, n, pack%left, pack%right, pack%force, pack%couple, pack%held, pack%known, &
                                  pack%spring, pack%room, pack%turning, pack%w, pack%ml, pack%mr, moves)
-                ! A scheme that moves is solved once more, with weak springs, as by gapbeam_scheme
+                ! A scheme that moves is solved once more, with weak springs, as by gapbeam_contact_state
                 proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, stiffness_lanes)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
                 call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &

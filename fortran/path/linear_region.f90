@@ -15,7 +15,7 @@ module gapbeam_linear_region
     use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
-    use gapbeam_scheme_quad, only: find_scheme, outcome_type
+    use gapbeam_contact_state_quad, only: find_contact_state, outcome_type
     use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, zero_of, falls, rises
     implicit none
     private
@@ -54,7 +54,7 @@ contains
         type(region_type), intent(out) :: region
         !> No equilibrium above the factor, with the motion
         type(outcome_type), intent(out) :: outcome
-        !> As for find_scheme
+        !> As for find_contact_state
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
         real(wp) :: scale_of_factor, trial, from
@@ -68,7 +68,7 @@ contains
         do
             region%closed(:) = start
             call set_loads(beam, trial, work)
-            call find_scheme(beam, trial, rule_block, region%closed, work, outcome, error)
+            call find_contact_state(beam, trial, rule_block, region%closed, work, outcome, error)
             region%solves = region%solves + work%solves
             if (allocated(error)) return
             if (outcome%status == gapbeam_solved) then

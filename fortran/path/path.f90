@@ -23,12 +23,12 @@ module gapbeam_path
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_affine_response, only: response_type, value_at, width_at, falls, stays_at_zero
     use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_refined, only: detail_type, refine_beam
     use gapbeam_extended_precision, only: decide_scheme, reserve_for, rule_given
-    use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_affine_response_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_linear_region, only: find_region
     use gapbeam_path_events, only: path_type, add_event, note_changes, event_opens, event_closes, event_turns
@@ -279,7 +279,7 @@ contains
         trial = factor + enter_next_interval*max(abs(factor), limit - factor)
         call new_workspace(beam, work)
         call set_loads(beam, trial, work)
-        call find_scheme(beam, trial, rule_block, after, work, outcome, error)
+        call find_contact_state(beam, trial, rule_block, after, work, outcome, error)
         stretch%solves = stretch%solves + work%solves
         if (allocated(error) .or. outcome%status /= gapbeam_solved .or. outcome%indifferent) return
         call find_doubtful(beam, after, work, doubtful)

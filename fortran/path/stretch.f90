@@ -1,4 +1,4 @@
-!> An interval of the load path with one contact state, updated while supports change.
+!> An interval of the load path (no stretch of the beam) with one contact state, updated while supports change.
 !> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp

@@ -6,7 +6,7 @@ module gapbeam_cases
     use gapbeam_link, only: link_type, piece_load_type, condense_loads
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
     use gapbeam_units, only: moment_unit

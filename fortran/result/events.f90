@@ -4,7 +4,7 @@ module gapbeam_events
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type, event_turns
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change

@@ -9,7 +9,7 @@ module gapbeam_history
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_affine_response_quad, only: drop_live
-    use gapbeam_scheme_quad, only: outcome_type
+    use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
     use gapbeam_extended_precision, only: reserve_for
     use gapbeam_region_responses, only: outgoing_type, rise, fall, turn

@@ -4,7 +4,7 @@ module gapbeam_history_start
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_scheme_quad, only: outcome_type
+    use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: find_region, region_type
     use gapbeam_scene, only: gapbeam_both
     use gapbeam_assembled_model, only: assembled_type

@@ -17,7 +17,7 @@ module gapbeam_lane_cases
     use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
     implicit none
     private
-    public :: lane_room_type, fits_lanes, solve_in_lanes, find_schemes
+    public :: lane_room_type, fits_lanes, solve_in_lanes, find_contact_states
 
     !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
     !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
@@ -200,7 +200,7 @@ contains
 
     !> Find the contact states of many combinations (gapbeam_combinations) of a beam that fits. Those that are doubtful are left to
     !> their own searches, with the start that they have
-    subroutine find_schemes(assembled, factors, settlements, supports, closed, solves)
+    subroutine find_contact_states(assembled, factors, settlements, supports, closed, solves)
         type(assembled_type), intent(in) :: assembled
         !> As for combine, shape (nload, ncase), (nsupport, ncase), (3, nsupport, ncase); nsupport 0: their own
         real(wp), intent(in) :: factors(:, :), settlements(:, :), supports(:, :, :)
@@ -239,7 +239,7 @@ contains
         call solve_in_lanes(assembled, loads, factors, values, own_spans, room, closed, not_wanted, not_wanted, not_wanted, &
                             not_wanted, solves, done)
         where (.not. done) solves = 0
-    end subroutine find_schemes
+    end subroutine find_contact_states
 
     !> Room for cases of a beam
     subroutine make_room(assembled, loads, number, with_own_spans, room)

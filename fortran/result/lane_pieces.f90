@@ -1,4 +1,4 @@
-!> Pieces of the links as fortran/lanes takes them
+!> Pieces of the links as the solver of eight cases takes them (fortran/lanes)
 module gapbeam_lane_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: sum_type, add, total

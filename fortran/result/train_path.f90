@@ -18,7 +18,7 @@ module gapbeam_train_path
     use gapbeam_law_margins, only: may_change
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_extended_precision, only: decide_scheme, detail_type
     use gapbeam_words, only: shown
@@ -254,7 +254,7 @@ contains
                 if (closely) then
                     call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, trial_work, outcome, error)
                 else
-                    call find_scheme(track%beam, 1.0_wp, rule_block, closed, trial_work, outcome, error)
+                    call find_contact_state(track%beam, 1.0_wp, rule_block, closed, trial_work, outcome, error)
                 end if
                 traversal%solves = traversal%solves + trial_work%solves
                 right = .not. allocated(error)
@@ -345,7 +345,7 @@ contains
                 call place_train(track, train, interval, now + share*(k/3.0_wp - first_share)*(interval%to - now))
                 call set_loads(track%beam, 1.0_wp, work)
                 if (status == not_unique) then
-                    call find_scheme(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
+                    call find_contact_state(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)
                     stays = .not. allocated(error) .and. outcome%indifferent
                 else
                     call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, work, outcome, error)

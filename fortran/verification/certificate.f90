@@ -28,7 +28,7 @@ module gapbeam_certificate
     use gapbeam_band_quad, only: band_ok
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
-    use gapbeam_scheme_quad, only: find_scheme, outcome_type
+    use gapbeam_contact_state_quad, only: find_contact_state, outcome_type
     use gapbeam_recover_quad, only: recover_beam
     implicit none
     private
@@ -74,7 +74,7 @@ contains
         real(wp), intent(in) :: length_error(:)
         !> How good it is; bounds and residuals infinite where quadruple precision does not confirm the state
         type(certificate_type), intent(out) :: certificate
-        !> As for find_scheme
+        !> As for find_contact_state
         type(error_type), allocatable, intent(out) :: error
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: work
@@ -94,7 +94,7 @@ contains
             if (state /= band_ok) certificate = not_confirmed
             if (state /= band_ok) return
         else
-            call find_scheme(fine, real(factor, qp), rule_block, acting, work, outcome, error)
+            call find_contact_state(fine, real(factor, qp), rule_block, acting, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) certificate = not_confirmed
             if (outcome%status /= gapbeam_solved) return

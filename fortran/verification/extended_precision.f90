@@ -17,7 +17,7 @@ module gapbeam_extended_precision
     use gapbeam_rules, only: find_doubtful, find_wrong
     use gapbeam_system, only: solve_and_refine
     use gapbeam_band, only: band_ok
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
@@ -27,7 +27,8 @@ module gapbeam_extended_precision
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
-    use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, &
+        fine_outcome_type => outcome_type
     use gapbeam_ill_scaled_signs, only: flip_ill_scaled
     use gapbeam_refined, only: detail_type, refine_loaded_beam
     use gapbeam_ledger, only: ledger_type, words_for
@@ -61,7 +62,7 @@ contains
         !> The beam, and what its links are made of
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
-        !> As for find_scheme
+        !> As for find_contact_state
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
         logical, intent(inout) :: closed(:)
@@ -76,7 +77,7 @@ contains
         integer :: known
 
         known = min(rule, rule_given)
-        call find_scheme_in_doubles(beam, detail, factor, known, closed, work, outcome, error)
+        call find_contact_state_in_doubles(beam, detail, factor, known, closed, work, outcome, error)
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call audit_beam(beam, closed, outcome%undecided .or. rule == rule_extended, outcome%indifferent, &
                         merge(given_leeway, 1.0_wp, known == rule_given), work%answers, work%shear, work%reaction, work, ledger)
@@ -104,7 +105,7 @@ contains
     end subroutine decide_scheme
 
     !> Find a contact state and its solution
-    subroutine find_scheme_in_doubles(beam, detail, factor, rule, closed, work, outcome, error)
+    subroutine find_contact_state_in_doubles(beam, detail, factor, rule, closed, work, outcome, error)
         !> As for decide_scheme
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
@@ -129,7 +130,7 @@ contains
                 return
             end if
         end if
-        call find_scheme(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
+        call find_contact_state(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
         if (allocated(error)) then
             if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
             in_doubt = .true.
@@ -146,7 +147,7 @@ contains
         end if
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         call move_alloc(undecided, outcome%undecided)
-    end subroutine find_scheme_in_doubles
+    end subroutine find_contact_state_in_doubles
 
     !> Solve a scheme that is known from the path of the load. At the factor of an event, rounded to a double, a search could as
     !> well end on the other side of it
@@ -284,14 +285,14 @@ contains
         call reserve_for(for_refining, beam, detail, error)
         if (allocated(error)) return
         call refine_loaded_beam(beam, detail, real(factor, qp), fine, fine_work)
-        call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
+        call find_fine_contact_state(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
         work%solves = work%solves + fine_work%solves
         do try = 1, 2
             ! Rigid stretches may touch more supports than they need: whether there is an answer must not depend on the start
             if (.not. statics_cannot_tell(error)) exit
             deallocate (error)
             closed(:) = try == 1 .or. always_closed(beam%supports)
-            call find_fine_scheme(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
+            call find_fine_contact_state(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
             work%solves = work%solves + fine_work%solves
         end do
         if (allocated(error)) return

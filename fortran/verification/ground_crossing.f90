@@ -12,7 +12,7 @@ module gapbeam_ground_crossing
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
         fine_grounded_type => grounded_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_zones_quad, only: polish_zones
     use gapbeam_zone_margin_quad, only: fine_change_type => change_type, find_fine_margin => find_margin
     use gapbeam_refined_ground, only: refine_zones

@@ -16,7 +16,7 @@ module gapbeam_ground_solver
     use gapbeam_mesh_zones, only: zones_of_mesh
     use gapbeam_ground_energy, only: find_least_energy
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_law, only: both
     use gapbeam_law_kinematics, only: is_blocked
     use gapbeam_refined, only: detail_type
@@ -26,7 +26,7 @@ module gapbeam_ground_solver
         fine_grounded_type => grounded_type
     use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_scheme_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
     use gapbeam_ground_start, only: ground_start_type, rough
     use gapbeam_ground_ties, only: stands_on_edge, may_move

@@ -5,7 +5,7 @@ module gapbeam_ground_start
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zones, only: settle_zones, polish_zones
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private

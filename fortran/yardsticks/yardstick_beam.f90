@@ -6,7 +6,7 @@ module yardstick_beam
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: beam_type, answer_type, method_type, find_scheme
+    public :: beam_type, answer_type, method_type, find_contact_state
     public :: is_rigid, node_load, shear_reactions
     public :: solved, singular, no_scheme
 
@@ -59,7 +59,7 @@ module yardstick_beam
 contains
 
     !> Switch all wrong supports until none is wrong, starting with all of them closed
-    subroutine find_scheme(method, beam, answer, closed, solves, status)
+    subroutine find_contact_state(method, beam, answer, closed, solves, status)
         !> How every scheme is solved
         class(method_type), intent(inout) :: method
         !> The beam and where its answer goes
@@ -95,7 +95,7 @@ contains
         end do
         status = merge(solved, no_scheme, solves <= most_solves)
         if (status == solved) call method%finish(beam, closed, answer, status)
-    end subroutine find_scheme
+    end subroutine find_contact_state
 
     !> Is the deflection of a node known
     elemental function is_rigid(stiffness, closed) result(rigid)

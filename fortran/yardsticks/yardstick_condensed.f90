@@ -7,7 +7,7 @@ module yardstick_condensed
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_model, only: chain_type => beam_type, node_support_type, new_beam
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_search, only: rule_block
     use gapbeam_recover, only: recover_beam
     use yardstick_beam, only: beam_type, answer_type, solved, singular
@@ -82,7 +82,7 @@ contains
         call new_workspace(chain, work)
         call set_loads(chain, 1.0_wp, work)
         acting(:) = .true.
-        call find_scheme(chain, 1.0_wp, rule_block, acting, work, outcome, error)
+        call find_contact_state(chain, 1.0_wp, rule_block, acting, work, outcome, error)
         solves = work%solves
         closed = .false.
         status = singular

@@ -3,7 +3,7 @@
 ! Solve one beam of N elements by one method
 subroutine ysbeam(method, refine, precis, react, n, length, ei, q, side, stiff, level, force, clampl, clampr, &
                   repeat, w, m, r, closed, solves, status)
-    use yardstick_beam, only: beam_type, answer_type, find_scheme
+    use yardstick_beam, only: beam_type, answer_type, find_contact_state
     use yardstick_mixed, only: mixed_type
     use yardstick_displacement, only: displacement_type
     use yardstick_condensed, only: solve_condensed
@@ -59,12 +59,12 @@ subroutine ysbeam(method, refine, precis, react, n, length, ei, q, side, stiff, 
     displacement%incremental = method == 3
     do turn = 1, repeat
         if (method <= 1) then
-            call find_scheme(mixed, beam, answer, acting, solves, status)
+            call find_contact_state(mixed, beam, answer, acting, solves, status)
         else if (method == 4) then
             call solve_condensed(beam, answer, acting, solves, status)
         else
             if (turn > 1) call displacement%restart()
-            call find_scheme(displacement, beam, answer, acting, solves, status)
+            call find_contact_state(displacement, beam, answer, acting, solves, status)
         end if
     end do
     closed = merge(1, 0, acting)

@@ -7,7 +7,7 @@ from pathlib import Path
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.report.scheme import merged
+from gapbeam.report.contact_history import merged
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SCENES = sorted(EXAMPLES.glob("*.toml"))

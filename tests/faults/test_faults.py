@@ -391,7 +391,7 @@ def test_forces_where_the_beam_can_move_freely():
     assert extremes["deflection"] == extremes["rotation"] == {"max": None, "min": None}
     largest = extremes["moment"]["max"]
     assert (largest.value, largest.x, largest.position) == pytest.approx((42.5, 10.9, 10.9), rel=1e-12)
-    assert set(largest.concurrent) == {"shear"}
+    assert set(largest.concurrent) == {"shear", "curvature"}
     assert [extremes["shear"][kind].value for kind in ("max", "min")] == pytest.approx([50.0, -50.0], rel=1e-12)
     assert result.envelope().supports[0]["reaction"]["max"].value == pytest.approx(50.0, rel=1e-12)
     curves = result.envelope(x=[10.0, 11.75]).fields

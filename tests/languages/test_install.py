@@ -165,7 +165,8 @@ def test_all_spellings_of_the_codes_agree(installed, header, tmp_path):
 
 def fields_of(header):
     """Columns of C arrays, which Fortran counts from 1."""
-    return set(constants(re.search(r"enum gapbeam_field \{(.*?)\};", header, re.DOTALL)[1]))
+    enums = re.findall(r"enum gapbeam_(?:field|quantity) \{(.*?)\};", header, re.DOTALL)
+    return {name for enum in enums for name in constants(enum)}
 
 
 def test_page_names_every_routine(header):

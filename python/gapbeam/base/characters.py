@@ -1,4 +1,4 @@
-"""Characters that are not seen and change how a line of text looks, or begin a formula in a table."""
+"""Characters that are not seen and change how a line of text looks, or begin a formula in a table; minus signs."""
 
 import re
 
@@ -30,6 +30,31 @@ def visible(text: str) -> str:
     ('50 % of $F$ [kN]', 'beam\\n\\x1b[31m')
     """
     return UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
+
+
+HYPHEN = re.compile(r"(?<!\w)-")
+"""Not that of a name, and not that of an exponent."""
+
+
+def with_minus_signs(text: str) -> str:
+    """Write minus signs proper, in pictures and pages.
+
+    Parameters
+    ----------
+    text : str
+        With numbers.
+
+    Returns
+    -------
+    str
+        Hyphens of names and of exponents stay.
+
+    Examples
+    --------
+    >>> with_minus_signs("R-104: -2.5e-09 kN")
+    'R-104: \N{MINUS SIGN}2.5e-09 kN'
+    """
+    return HYPHEN.sub("\N{MINUS SIGN}", text)
 
 
 FORMULA = ("=", "+", "-", "@")

@@ -15,9 +15,10 @@ import numpy as np
 from ..base.characters import visible
 from ..base.errors import GapbeamError
 from ..results.state.step import BOUNDED
+from ..results.views.extreme import KINDS
 from .paths import KeyPath, varies_by_case
 from .prepared import PreparedCases
-from .scene_cases import AT_SUPPORTS, ERRORS, KINDS, LIMIT, SOLVED, FolderCases, SceneCases
+from .scene_cases import AT_SUPPORTS, ERRORS, LIMIT, SOLVED, FolderCases, SceneCases
 from .tables import Rows
 
 STATUS = "S20"

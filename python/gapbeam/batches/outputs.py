@@ -71,11 +71,11 @@ def find_outputs(scene: Scene, beam: Beam, names: Sequence[str]) -> tuple[Output
         There is no such output.
     """
     known = [name for name in (*known_results(scene, beam), LIFTED) if name != "input"]
-    return tuple(_output(scene, name, known) for name in names)
-
-
-def _output(scene: Scene, name: str, known: Sequence[str]) -> Output:
     supports = labels(scene.supports)
+    return tuple(_output(scene, supports, name, known) for name in names)
+
+
+def _output(scene: Scene, supports: Sequence[str], name: str, known: Sequence[str]) -> Output:
     column, quantity = name.strip(), re.split(r"[.@\[]", name.strip(), maxsplit=1)[0]
     numbered = NUMBERED.fullmatch(column)
     if numbered and quantity in (*AT_SUPPORTS, LIFTED):

@@ -11,6 +11,7 @@ import numpy as np
 from ..base.errors import EngineError, SceneError
 from ..results.result import Result
 from ..results.stepping import solve
+from ..results.views.extreme import KINDS
 from ..scene.structs import Scene
 from .load_steps import at_once
 from .paths import with_values
@@ -27,7 +28,6 @@ ERRORS = "error_bound"
 """Bounds of the errors of one state."""
 LIMIT = "limit.factor"
 """Load factor at which the load cannot go on, where it is followed; there is none where it reaches its end."""
-KINDS = ("max", "min")
 
 
 def place_of(name: str) -> float:

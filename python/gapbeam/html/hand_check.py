@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.equilibrium import resultants_of_loads
 from ..scene.names import label
@@ -109,7 +110,7 @@ def sums_data(result: Result, step: Step) -> dict[str, Any]:
     )  # fmt: skip
     return {
         "rows": [list(row) for row in columns], "force": force, "moment": moment, "sizes": sizes,
-        "totals": ["0" if value == 0.0 else with_signs(f"{value:.1e}") for value in (force, moment)],
+        "totals": ["0" if value == 0.0 else with_minus_signs(f"{value:.1e}") for value in (force, moment)],
         "left": [leaves(value, sizes[name]) for name, value in (("force", force), ("moment", moment))],
         "written": [written(one.force for one in shown), written(one.moment for one in shown)],
         "ground": bool(result._beam.ground_layers),
@@ -138,22 +139,7 @@ def written(values: Any, most: int = 16) -> str:
     texts = [fmt.number(value, DIGITS) for value in values if value]
     if not texts or len(texts) > most:
         return ""
-    return with_signs(" ".join([texts[0], *(f"- {one[1:]}" if one.startswith("-") else f"+ {one}" for one in texts[1:])]))
-
-
-def with_signs(text: str) -> str:
-    """Write minus signs, but for those of exponents.
-
-    Parameters
-    ----------
-    text : str
-        With hyphens.
-
-    Returns
-    -------
-    str
-    """
-    return text.replace("-", "\N{MINUS SIGN}").replace("e\N{MINUS SIGN}", "e-")
+    return with_minus_signs(" ".join([texts[0], *(f"- {one[1:]}" if one.startswith("-") else f"+ {one}" for one in texts[1:])]))
 
 
 def leaves(value: float, size: float) -> str:
@@ -170,4 +156,4 @@ def leaves(value: float, size: float) -> str:
     """
     if value == 0.0:
         return "exactly 0"
-    return f"{with_signs(f'{value:.1e}')}, which is {abs(value) / size:.0e} of the sum of all sizes"
+    return f"{with_minus_signs(f'{value:.1e}')}, which is {abs(value) / size:.0e} of the sum of all sizes"

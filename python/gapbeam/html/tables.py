@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..base.characters import visible
+from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.contact import source_in_words
 from ..results.event_words import state_in_words
 from ..results.state.ground import joined
+from ..results.views.extreme import IN_WORDS
 from ..scene.names import label, labels
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
 
-WORDS = {"max": "largest", "min": "smallest"}
 MOST_ROWS = 200
 """Rows of a table; all are in the JSON output."""
 
@@ -76,16 +76,11 @@ def _cut(table: TableData) -> str:
 
 
 def _number(value: float, text: str | None = None) -> Cell:
-    return Cell((fmt.number(value, fmt.DIGITS) if text is None else text).replace("-", "\N{MINUS SIGN}"), float(value))
+    return Cell(with_minus_signs(fmt.number(value, fmt.DIGITS) if text is None else text), float(value))
 
 
 def _shown(result: Result, quantity: str, value: float) -> Cell:
     return _number(value, fmt.shown(result.scene, quantity, value)) if np.isfinite(value) else Cell("")
-
-
-def _heading(result: Result, quantity: str, words: str) -> str:
-    unit = fmt.shown_unit(result.scene, quantity)[0]
-    return f"{words} [{unit}]" if unit else words
 
 
 def _supports(result: Result) -> TableData:
@@ -96,7 +91,7 @@ def _supports(result: Result) -> TableData:
     step = result.steps[-1] if len(result.steps) else None
     if step is not None and step.couple.any():
         quantities.append("couple")
-    head = ["support", _heading(result, "x", "x"), "side", "state", *(_heading(result, name, name) for name in quantities)]
+    head = ["support", fmt.shown_heading(scene, "x"), "side", "state", *(fmt.shown_heading(scene, name) for name in quantities)]
     table, quiet = [], {} if step is None else {of: fmt.without_noise(getattr(step, of)) for of in quantities}
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
@@ -110,10 +105,10 @@ def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
     for name, row in fmt.reported(envelope.extremes).items():
         for kind, one in row.items():
             if one is not None:
-                words = f"{WORDS[kind]} {_heading(result, name, name.replace('_', ' '))}"
+                words = f"{IN_WORDS[kind]} {fmt.shown_heading(result.scene, name)}"
                 source = Cell(source_in_words(one, result.scene))
                 rows.append([Cell(words), _shown(result, name, one.value), _number(one.x), source])
-    head = ["", "value", _heading(result, "x", "at x"), "from"]
+    head = ["", "value", fmt.shown_heading(result.scene, "x", "at x"), "from"]
     if not any(row[3].text for row in rows):
         head, rows = head[:3], [row[:3] for row in rows]
     return TableData("extremes", "Largest and smallest values along the beam", head, rows,
@@ -134,7 +129,7 @@ def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> Tab
         rows.append(row)
     head = ["support"]
     for quantity, kind in chosen:
-        head += [_heading(result, quantity, f"{WORDS[kind]} {quantity}"), "from"]
+        head += [fmt.shown_heading(result.scene, quantity, f"{IN_WORDS[kind]} {quantity}"), "from"]
     return TableData("support-extremes", "Largest and smallest values at the supports", head, rows)
 
 
@@ -143,10 +138,10 @@ def _combinations(result: Result) -> TableData:
     fields = [name for name in ("moment", "shear", "deflection") if f"{name}_max" in columns]
     head = ["combination", "status"]
     for name in fields:
-        head += [_heading(result, name, f"{WORDS[kind]} {name}") for kind in WORDS]
+        head += [fmt.shown_heading(result.scene, name, f"{IN_WORDS[kind]} {name}") for kind in IN_WORDS]
     rows = []
     for k, (name, status) in enumerate(zip(columns["combination"], columns["status"], strict=True)):
-        values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in WORDS]
+        values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in IN_WORDS]
         rows.append([Cell(visible(name)), Cell(status), *values])
     return TableData("combinations", "Combinations", head, rows)
 
@@ -161,7 +156,7 @@ def _events(result: Result, ways: list[dict[str, Any]]) -> TableData:
             rows.append([*([Cell(way["title"])] if several else []), _number(at, fmt.number(at, 10)), Cell(one["words"]), *place])
             jumps.append((k, i))
     axis = "position of the train" if result.scene.trains else "load factor"
-    head = [*(["way"] if several else []), axis, "event", _heading(result, "x", "x")]
+    head = [*(["way"] if several else []), axis, "event", fmt.shown_heading(result.scene, "x")]
     return TableData("events", "Events", head, rows, "Click the number to see the state.", jumps)
 
 
@@ -180,6 +175,6 @@ def _zones(result: Result) -> TableData:
         for span in step.free_spans:
             ends = [_number(value) for value in (span.from_, span.to, span.to - span.from_)]
             add("free span", span.foundation, [*ends, Cell(""), _shown(result, "sag", span.sag)])
-    head = ["", "foundation", *(_heading(result, "x", words) for words in ("from", "to", "length")),
-            _heading(result, "resultant", "resultant"), _heading(result, "sag", "sag")]  # fmt: skip
+    head = ["", "foundation", *(fmt.shown_heading(scene, "x", words) for words in ("from", "to", "length")),
+            fmt.shown_heading(scene, "resultant"), fmt.shown_heading(scene, "sag")]  # fmt: skip
     return TableData("zones", "Contact with the ground at the end of the load", head, rows)

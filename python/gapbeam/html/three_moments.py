@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from .hand_check import DIGITS, leaves, with_signs
+from .hand_check import DIGITS, leaves
 from .states import ROW
 
 if TYPE_CHECKING:
@@ -80,8 +81,9 @@ def three_moments_data(result: Result, step: Step) -> dict[str, Any] | None:
     size = sum(map(abs, parts)) + sum(abs(value) for _, _, value, _ in terms[1:]) or 1.0
     there = {words for words, *_ in terms}
     return {
-        "support": fmt.support(result.scene, support), "x": list(map(_number, x.tolist())), "lines": list(map(with_signs, lines)),
-        "sides": sides, "written": [with_signs(_number(value)) for value in sides], "left": leaves(sides[0] - sides[1], size),
+        "support": fmt.support(result.scene, support), "x": list(map(_number, x.tolist())),
+        "lines": list(map(with_minus_signs, lines)),
+        "sides": sides, "written": [with_minus_signs(_number(value)) for value in sides], "left": leaves(sides[0] - sides[1], size),
         "size": size, "EI": _number(one.EI), "ratio": _number(one.EI / other.EI), "load": LOAD in there,
         "curvature": CURVATURE in there, "shear": SHEAR in there,
     }  # fmt: skip

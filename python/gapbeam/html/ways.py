@@ -1,4 +1,4 @@
-"""All that a page moves: the load of a scene, its combinations, its trains."""
+"""Everything that the slider of a page can show: the loading history of a scene, its combinations, its trains."""
 
 from __future__ import annotations
 

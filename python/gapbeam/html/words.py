@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from ..results import formatting as fmt
-from ..results.contact import short
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -85,7 +84,7 @@ def bounds_in_words(result: Result, step: Step) -> list[str]:
         unit = fmt.unit(scene, name)
         where = "at any support" if name == "reaction" else "anywhere along the beam"
         found.append(f"No {name} is wrong by more than {bound:.1e} {unit} {where}.".replace("  ", " ")
-                     + (f" The largest is {short(scene, name, largest[name])}." if name in largest else ""))  # fmt: skip
+                     + (f" The largest is {fmt.value(scene, name, largest[name])}." if name in largest else ""))  # fmt: skip
     return found
 
 

@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from .key import MINUS
+from ..results.views.extreme import IN_WORDS
 from .save import literal
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ MOST = 12
 ACROSS = 3
 SHADE, LIMIT = "#9CC3E0", "#B84A00"
 """Colours of the histograms, and of limits."""
-WHICH = {"max": "largest", "min": "smallest"}
 CUT = 5.0
 """How many times higher than the next a bar is that is cut."""
 CHARACTERS = 110
@@ -62,10 +62,10 @@ def summary_figure(summary: "Summary") -> Figure:
 def _draw(axes: Axes, summary: "Summary", name: str, one: "Distribution") -> None:
     unit, factor = summary.units.get(name, ("", 1.0))
     axes.stairs(one.counts / one.count, one.edges, fill=True, color=SHADE)
-    axes.set_xlabel(_words(name) + (f" [{unit}]" if unit else ""), fontsize=7.5)
+    axes.set_xlabel(fmt.heading(_words(name), unit), fontsize=7.5)
     axes.tick_params(labelsize=7)
     axes.locator_params(axis="both", nbins=4)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: fmt.number(factor * value, 4).replace("-", MINUS)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: with_minus_signs(fmt.number(factor * value, 4))))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _percent(value)))
     axes.spines[["top", "right"]].set_visible(False)
     words = []
@@ -81,7 +81,7 @@ def _draw(axes: Axes, summary: "Summary", name: str, one: "Distribution") -> Non
         if name.startswith("opening.") and limit == 0.0:
             continue  # said already
         axes.axvline(limit, color=LIMIT, linewidth=1.0, linestyle="--")
-        words.append(f"above {fmt.number(factor * limit, 4)}: {_percent(count / one.count)}".replace("-", MINUS))
+        words.append(with_minus_signs(f"above {fmt.number(factor * limit, 4)}: {_percent(count / one.count)}"))
     axes.set_title("\n".join(words), fontsize=7.5, loc="right", color=LIMIT)
 
 
@@ -94,7 +94,7 @@ def _notes(summary: "Summary", drawn: "dict[str, Distribution]", alike: list[str
         values = []
         for name in alike[:MOST]:
             unit, factor = summary.units.get(name, ("", 1.0))
-            value = fmt.number(factor * summary.columns[name].least, 4).replace("-", MINUS)
+            value = with_minus_signs(fmt.number(factor * summary.columns[name].least, 4))
             values.append(f"{_words(name)} = {value} {unit}".rstrip())
         words.append(f"the same in every case: {', '.join(values)}{', ...' * (len(alike) > MOST)}")
     return textwrap.wrap("; ".join(words), CHARACTERS)
@@ -109,8 +109,8 @@ def _words(name: str) -> str:
     ('opening of west', 'largest moment', 'reaction of support 2')
     """
     quantity, _, support = name.partition(".")
-    if support in WHICH:
-        return f"{WHICH[support]} {quantity.replace('_', ' ')}"
+    if support in IN_WORDS:
+        return f"{IN_WORDS[support]} {quantity.replace('_', ' ')}"
     if support:
         return f"{quantity} of {f'support {support}' if support.isdigit() else support}"
     return name.replace("_", " ")

@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from ..results.formatting import stretch
 from .reactions import arrow_lane, draw_reactions
 from .sheet import is_upright
-from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, plain_kinds
+from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, area, mirrored, plain_kinds
 from .support_labels import SupportTexts
 from .turned import Turned, is_turned, shifted
 
@@ -183,7 +183,7 @@ def draw_contacts(
     for (state, sign), points in groups.items():
         x, y = np.transpose(points)
         symbol = SYMBOLS[state]
-        axes.scatter(x, y, marker=_mirrored(symbol.path, sign), s=_area(5.0), facecolors=symbol.face,
+        axes.scatter(x, y, marker=mirrored(symbol.path, sign), s=area(5.0), facecolors=symbol.face,
                      edgecolors=symbol.edge, linewidths=0.75 * symbol.width, zorder=4, label=f"contact {state}")  # fmt: skip
     return [point for points in groups.values() for point in points]
 
@@ -203,16 +203,6 @@ def _group(support: "Support", state: str) -> str:
     if support.direction == "axial":
         return "axial"
     return state if support.side == "both" else f"{state} {support.side}"
-
-
-def _area(height: float) -> float:
-    """Give the size matplotlib wants for a symbol whose largest coordinate of 1 is to be `height` points."""
-    return (2.0 * height) ** 2
-
-
-def _mirrored(path: Path, sign: float) -> Path:
-    """Mirror a symbol upward where `sign` is negative."""
-    return Path(path.vertices * (1.0, sign), path.codes)
 
 
 def _girder(axes: Axes | Turned, scene: "Scene") -> None:
@@ -247,7 +237,7 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
                 continue
         elif support.rotation != "free" and support.rotation:
             outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
-            axes.scatter([x], [0.0], marker=_SPIRAL, s=_area(7.0), facecolors="none", edgecolors="black", zorder=6,
+            axes.scatter([x], [0.0], marker=_SPIRAL, s=area(7.0), facecolors="none", edgecolors="black", zorder=6,
                          linewidths=0.9, transform=shifted(axes, outward), label="rotational spring")  # fmt: skip
         for sign in (1.0, -1.0):
             if support.side == ("above" if sign > 0 else "below"):
@@ -264,18 +254,18 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
             settled[math.copysign(1.0, support.settlement)].append((x, -y if support.side != "above" else y))
     for sign, points in settled.items():  # a small arrow beside the symbol
         x, y = np.transpose(points)
-        axes.scatter(x, y, marker=Path(_SETTLED.vertices * (1.0, sign), _SETTLED.codes), s=_area(6.0), facecolors="none",
+        axes.scatter(x, y, marker=mirrored(_SETTLED, sign), s=area(6.0), facecolors="none",
                      edgecolors=VERMILION, linewidths=1.0, zorder=5, transform=shifted(axes, 1.1 * lanes.size),
                      label="settlements")  # fmt: skip
     for (label, kind, sign), points in symbols.items():
         x, y = np.transpose(points)
         symbol = SYMBOLS[kind]
-        axes.scatter(x, y, marker=_mirrored(symbol.path, sign), s=_area(lanes.size), facecolors=symbol.face,
+        axes.scatter(x, y, marker=mirrored(symbol.path, sign), s=area(lanes.size), facecolors=symbol.face,
                      edgecolors=symbol.edge, linewidths=symbol.width, zorder=5, label=label)  # fmt: skip
     for name, path, sets in (("springs", _SPRING, springs), ("ground", _GROUND, ground)):
         for sign, points in sets.items():
             x, y = np.transpose(points)
-            axes.scatter(x, y, marker=_mirrored(path, sign), s=_area(lanes.size * (1.0 if name == "springs" else 0.75)),
+            axes.scatter(x, y, marker=mirrored(path, sign), s=area(lanes.size * (1.0 if name == "springs" else 0.75)),
                          facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
 
 
@@ -285,7 +275,7 @@ def _clamp(axes: Axes | Turned, x: float, end: float) -> None:
         if (sign < 0.0 and x <= 1e-9 * end) or (sign > 0.0 and x >= end * (1.0 - 1e-9)):
             continue  # nothing of the beam on that side
         vertices = _WALL.vertices * (sign, 1.0)
-        axes.scatter([x], [0.0], marker=Path(vertices, _WALL.codes), s=_area(11.0), facecolors="none",
+        axes.scatter([x], [0.0], marker=Path(vertices, _WALL.codes), s=area(11.0), facecolors="none",
                      edgecolors="black", linewidths=1.0, zorder=5, label="clamp")  # fmt: skip
 
 
@@ -298,7 +288,7 @@ def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: Sup
     )
     path = Path(TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), TRIANGLE.codes)
     beside = shifted(axes, outward * (6.0 if clamped else 1.0))
-    axes.scatter([x], [0.0], marker=path, s=_area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
+    axes.scatter([x], [0.0], marker=path, s=area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
                  linewidths=0.8, zorder=5, transform=beside, label="axial")  # fmt: skip
 
 

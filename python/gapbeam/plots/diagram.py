@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
+from ..results.views.extreme import KINDS
 from .panels import PANELS, WIDTH, cut_text
 from .save import literal
 
@@ -64,7 +65,7 @@ def draw_table(scene: "Scene", table: "Columns", quantity: str, axes: Axes | Non
     matplotlib.figure.Figure
         That of the axes.
     """
-    return _draw(scene, quantity, table["x"], [table[f"{quantity}_{kind}"] for kind in ("max", "min")], axes)
+    return _draw(scene, quantity, table["x"], [table[f"{quantity}_{kind}"] for kind in KINDS], axes)
 
 
 def draw_tables(scene: "Scene", table: "Columns", title: str) -> Figure:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 from msgspec.structs import replace
 
-from ..base.characters import visible
+from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.answer import holds_values
 from ..results.formatting import stretch
@@ -161,9 +161,8 @@ def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
         if found:
             most = max(found, key=lambda one: abs(one.value))
             state = getattr(most.state, "result", None)
-            unit, factor = fmt.shown_unit(scene, name)
-            value = f"{fmt.number(factor * most.value, 4)} {unit}".rstrip().replace("-", "\N{MINUS SIGN}")
-            place = f"{fmt.number(most.position, 4)} {fmt.unit(scene, 'x')}".strip().replace("-", "\N{MINUS SIGN}")
+            value = with_minus_signs(fmt.value(scene, name, most.value, 4))
+            place = with_minus_signs(fmt.value(scene, "x", most.position, 4))
             words = f"Drawn: {source_name(most)} at position {place}, from which the largest {name} comes: {value}."
             if state is None:
                 return None, ""

@@ -214,7 +214,7 @@ def _branch(scene: Scene, foundations: set[int], state: str) -> str:
     plastic = all(isinstance(scene.foundation[k].law, PlasticGround) for k in foundations)
     if plastic and number < 3:
         return ("elastic ground", "ground at its strength")[number - 1]
-    return f"branch {number} of the ground's law"
+    return f"segment {number} of the ground's law"
 
 
 def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float, float]]:

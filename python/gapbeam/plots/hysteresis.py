@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..base.characters import with_minus_signs
 from ..base.hints import no_such
 from ..results import formatting as fmt
 from ..results.paths.branches import BranchPath
 from ..scene.names import labels
 from ..scene.wording import shown
 from .branches import KINK, MARKERS, Trace
-from .key import MINUS
 from .panels import cut_text
 from .save import literal
 from .sheet import positive
@@ -89,7 +89,7 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     cycles = find_cycles(force, movement, legs)
     picture = Figure(figsize=SIZE, dpi=200, layout="constrained")
     axes = picture.add_subplot()
-    unit, factor = fmt.shown_unit(scene, "deflection")
+    factor = fmt.shown_unit(scene, "deflection")[1]
     for number, cycle in enumerate(cycles):
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(factor * movement[cycle.points], force[cycle.points], color=colour, linewidth=1.5, zorder=3,
@@ -103,13 +103,13 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     axes.axvline(0.0, color="black", linewidth=0.7)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_xlabel(f"deflection, {positive(scene, 'deflection')}" + (f" [{unit}]" if unit else ""), fontsize=9)
+    axes.set_xlabel(fmt.shown_heading(scene, "deflection", f"deflection, {positive(scene, 'deflection')}"), fontsize=9)
     axes.set_ylabel(fmt.with_unit(scene, "reaction", f"reaction, {positive(scene, 'reaction')}"), fontsize=9)
     axes.tick_params(labelsize=8)
     axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
     if len(cycles) > MOST_CYCLES:
-        unit, total = fmt.unit(scene, "moment"), fmt.number(sum(cycle.energy for cycle in cycles), 4).replace("-", MINUS)
-        axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} {unit} in all".replace("  ", " "))
+        total = with_minus_signs(fmt.value(scene, "moment", sum(cycle.energy for cycle in cycles), 4))
+        axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} in all")
     picture.legend(loc="outside lower center", ncols=1 if len(cycles) < 3 else 2, fontsize=8, frameon=False)
     return literal(picture)
 
@@ -181,13 +181,12 @@ def _number(result: Result, support: Any, across: list[int]) -> int:
 def _words(result: Result, cycle: Cycle, number: int) -> str:
     """Name a cycle with its energy."""
     history = [*result.scene.analysis.history]
-    unit = fmt.unit(result.scene, "moment")
-    energy = f"{fmt.number(cycle.energy, 4)} {unit}".rstrip().replace("-", MINUS)
+    energy = with_minus_signs(fmt.value(result.scene, "moment", cycle.energy, 4))
     if not history:
         return f"to load factor {fmt.number(result.steps[-1].factor, 4)}: energy {energy}"
     legs = [leg for leg in cycle.legs if 0 <= leg < len(history)]
     begin = history[legs[0] - 1] if legs and legs[0] else 0.0
-    way = " to ".join(fmt.number(factor, 4) for factor in (begin, *(history[leg] for leg in legs))).replace("-", MINUS)
+    way = with_minus_signs(" to ".join(fmt.number(factor, 4) for factor in (begin, *(history[leg] for leg in legs))))
     return f"{'cycle' if cycle.closed else 'part'} {number + 1} (load factor {way}): energy {energy}"
 
 

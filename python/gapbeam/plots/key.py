@@ -6,7 +6,7 @@ import string
 import textwrap
 from typing import TYPE_CHECKING
 
-from ..base.characters import visible
+from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 COLOURS = ("#F6C667", "#9CD3F2", "#7FD0B8", "#F7F08A", "#A9BEE8", "#F0A67C", "#E3B5CF", "#D2D2D2")
 """Light, so that letters are read on them; letters tell what colours repeat."""
 LETTERS = string.ascii_uppercase + string.ascii_lowercase
-FIXED, MINUS = "\N{NO-BREAK SPACE}", "\N{MINUS SIGN}"
+FIXED = "\N{NO-BREAK SPACE}"
 CHARACTERS = 125
 """Of a line of the key."""
 LINE = 0.15
@@ -53,7 +53,7 @@ class Key:
         position = getattr(extreme, "position", None)
         words = [self.letter(source_name(extreme))] if self.needed else []
         words += [] if position is None else [f"at {fmt.number(position, 4)}"]
-        return " ".join(words).replace("-", MINUS)
+        return with_minus_signs(" ".join(words))
 
     def lines(self) -> list[str]:
         """Write the key."""

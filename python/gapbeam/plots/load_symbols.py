@@ -7,9 +7,8 @@ from matplotlib.path import Path
 
 from .labels import LINE, text_width
 from .loads import ARC, BETWEEN, BLOCK, Arrow, Block, LoadLanes, signed
+from .states import HEAD, area, mirrored
 from .turned import Turned, points_from
-
-_HEAD = Path([(0, 0), (-0.45, 1), (0.45, 1), (0, 0)], [1, 2, 2, 79])
 
 
 def draw_loads(axes: Axes | Turned, lanes: LoadLanes) -> None:
@@ -131,8 +130,7 @@ def _label_blocks(axes: Axes | Turned, lanes: LoadLanes, tops: list[float]) -> N
 def _heads(axes: Axes | Turned, points: list, sign: float, size: float, colour: str) -> None:
     """Draw arrow heads with their tips in the points, downward for a positive sign."""
     x, y = np.transpose(points)
-    path = Path(_HEAD.vertices * (1.0, sign), _HEAD.codes)
-    axes.scatter(x, y, marker=path, s=(2.0 * size) ** 2, c=colour, linewidths=0, zorder=6)
+    axes.scatter(x, y, marker=mirrored(HEAD, -sign), s=area(size), c=colour, linewidths=0, zorder=6)
 
 
 def _draw_forces(axes: Axes | Turned, lanes: LoadLanes) -> None:
@@ -157,7 +155,7 @@ def _draw_couples(axes: Axes | Turned, lanes: LoadLanes) -> None:
         x = [arrow.x for arrow in lanes.arrows if arrow.kind == "moment" and sign * arrow.value > 0]
         if x:
             path = Path(_ARC.vertices * (sign, 1.0), _ARC.codes)
-            axes.scatter(x, [0.0] * len(x), marker=path, s=(2.0 * ARC) ** 2, facecolors="none", edgecolors="black",
+            axes.scatter(x, [0.0] * len(x), marker=path, s=area(ARC), facecolors="none", edgecolors="black",
                          linewidths=1.1, zorder=6, label="couples")  # fmt: skip
 
 

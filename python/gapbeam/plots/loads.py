@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.characters import visible
+from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
 from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.table import kind_of
@@ -242,7 +242,7 @@ def _arrows(scene: "Scene", factor: float) -> list[Arrow]:
 
 def signed(value: float, digits: int) -> str:
     """Write a number with a minus sign proper."""
-    return number(value, digits).replace("-", "\N{MINUS SIGN}")
+    return with_minus_signs(number(value, digits))
 
 
 def _unit_and_case(scene: "Scene", load: object, quantity: str, cases: int) -> str:

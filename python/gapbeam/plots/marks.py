@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from .panels import Point
 from .turned import Turned, is_turned, raw
@@ -77,13 +78,13 @@ class Marks:
 
     def extreme(self, value: float, x: float, more: str = "") -> None:
         """Write an extreme and its place, which are never left out."""
-        self._write(value, x, f"{self._number(value)} at {fmt.number(x, DIGITS)}{more}".replace("-", "\N{MINUS SIGN}"), must=True)
+        self._write(value, x, with_minus_signs(f"{self._number(value)} at {fmt.number(x, DIGITS)}{more}"), must=True)
 
     def peak(self, value: float, x: float) -> None:
         """Write a value where there is room, unless it is written."""
         if (self._number(value), fmt.number(x, DIGITS)) in self.written:
             return
-        self._write(value, x, self._number(value).replace("-", "\N{MINUS SIGN}"), must=False)
+        self._write(value, x, with_minus_signs(self._number(value)), must=False)
 
     def _number(self, value: float) -> str:
         return fmt.number(self.factor * value, DIGITS)

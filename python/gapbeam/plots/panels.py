@@ -67,8 +67,7 @@ def axis_label(scene: "Scene", quantity: str, words: str, positive: str | None =
     """
     if quantity == "motion":
         return f"{words}\nscale arbitrary"
-    unit = fmt.shown_unit(scene, quantity)[0]
-    label = words + (f" [{unit}]" if unit else "")
+    label = fmt.shown_heading(scene, quantity, words)
     sign = {"moment": "drawn on the tension side", "pressure": "positive upward", "deflection": "positive downward"}
     if positive is not None:
         sign = {"moment": sign["moment"], "pressure": "positive to the left", "deflection": f"positive to the {positive}"}

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.paths.branches import BranchPath
 from ..scene.names import label
@@ -131,9 +132,9 @@ def path_figure(result: Result) -> Figure:
             draw_extremes(axes, result, states, dots)
         unit, factor = fmt.shown_unit(scene, name)
         words = {"x": "x of contact", "opening": "opening"}.get(name) or f"{name}, {positive(scene, name)}"
-        _frame(axes, f"{words} [{unit}]" if unit else words, last=not above)
+        _frame(axes, fmt.heading(words, unit), last=not above)
         if factor != 1.0:
-            axes.yaxis.set_major_formatter(lambda value, _, by=factor: fmt.number(by * value).replace("-", "\N{MINUS SIGN}"))
+            axes.yaxis.set_major_formatter(lambda value, _, by=factor: with_minus_signs(fmt.number(by * value)))
         if name in tables:
             end = len(factors) - 1 if trace is None else trace.end()
             names = {k: _names(scene, alike[name][k]) for k in drawn[name]}

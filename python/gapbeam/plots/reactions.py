@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.path import Path
 
+from .states import HEAD, area, mirrored
 from .turned import Turned, shifted
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ NONE = 1e-9
 """Share of the largest reaction below which there is none."""
 BESIDE = 3.0
 """How far an arrow is moved aside where one points the other way (points)."""
-
-_HEAD = Path([(0, 0), (-0.45, -1), (0.45, -1), (0, 0)], [1, 2, 2, 79])
 
 
 def arrow_lane(values: SupportValues | None) -> float:
@@ -72,6 +70,6 @@ def draw_reactions(axes: Axes | Turned, values: SupportValues, x: np.ndarray, to
                       zorder=4, transform=move, label="reactions")  # fmt: skip
             if heads:
                 tips = ends[chosen, 0 if sign > 0.0 else 1]
-                axes.scatter(places[chosen], tips, marker=Path(_HEAD.vertices * (1.0, sign), _HEAD.codes), s=(2.0 * 5.0) ** 2,
+                axes.scatter(places[chosen], tips, marker=mirrored(HEAD, sign), s=area(5.0),
                              c=BLUE, linewidths=0, zorder=4.5, transform=move,
                              label=f"reactions {'up' if sign > 0.0 else 'down'}")  # fmt: skip

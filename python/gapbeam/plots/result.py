@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.state.ground import joined
 from .beam import SupportLanes, draw_beam, draw_contacts
@@ -113,7 +114,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
 def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tuple[Contact, ...]") -> str:
     """Say how many supports do what."""
     counted, factor = Counter(kinds), result.steps[step].factor
-    text = f"load factor {fmt.number(factor)}".replace("-", "\N{MINUS SIGN}")
+    text = with_minus_signs(f"load factor {fmt.number(factor)}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else kind for kind in SYMBOLS}

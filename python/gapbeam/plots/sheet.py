@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from .labels import text_width
 from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, axis_label, cut_text
@@ -134,7 +135,7 @@ class Sheet:
         factor = fmt.shown_unit(self.scene, quantity)[1]
         if factor != 1.0:
             axis = axes.xaxis if self.upright else axes.yaxis
-            axis.set_major_formatter(lambda value, _: fmt.number(factor * value).replace("-", "\N{MINUS SIGN}"))
+            axis.set_major_formatter(lambda value, _: with_minus_signs(fmt.number(factor * value)))
         if self.upright:
             axes.locator_params(axis="x", nbins=4)
 

@@ -23,6 +23,7 @@ BRANCHES = ("black", "#5B2A86", "#B0306A", "#E8622C", "#F5A623", "#F7DC6F")
 VERMILION = "#B84A00"
 
 TRIANGLE = Path([(0, 0), (-0.6, -1), (0.6, -1), (0, 0)], [1, 2, 2, 79])
+HEAD = Path([(0, 0), (-0.45, -1), (0.45, -1), (0, 0)], [1, 2, 2, 79])
 _SQUARE = Path([(-0.5, 0), (0.5, 0), (0.5, -1), (-0.5, -1), (-0.5, 0)], [1, 2, 2, 2, 79])
 _DIAMOND = Path([(0, 0), (0.6, -0.5), (0, -1), (-0.6, -0.5), (0, 0)], [1, 2, 2, 2, 79])
 _PENTAGON = Path([(0, 0), (0.6, -0.45), (0.4, -1), (-0.4, -1), (-0.6, -0.45), (0, 0)], [1, 2, 2, 2, 2, 79])
@@ -129,6 +130,16 @@ def face(state: str) -> str:
 def centred(path: Path) -> Path:
     """Move a symbol so that its middle is the origin."""
     return Path(np.add(path.vertices, (0.0, 0.5)), path.codes)
+
+
+def area(height: float) -> float:
+    """Give the size matplotlib wants for a symbol whose largest coordinate of 1 is to be `height` points."""
+    return (2.0 * height) ** 2
+
+
+def mirrored(path: Path, sign: float) -> Path:
+    """Mirror a symbol upward where `sign` is negative."""
+    return Path(path.vertices * (1.0, sign), path.codes)
 
 
 def _beyond(beam: Beam, support: int, step: Step, piece: Piece) -> str:

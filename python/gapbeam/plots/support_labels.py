@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..scene.names import labels
 from .labels import LINE, Labels, spread, text_width
@@ -218,7 +219,7 @@ class SupportTexts:
             if not found or name.removesuffix("s") in {kind for kind, _ in self.each}:
                 continue
             unit, factor = fmt.shown_unit(self.scene, quantity)
-            low, high = (fmt.number(factor * value, 4).replace("-", "\N{MINUS SIGN}") for value in (min(found), max(found)))
+            low, high = (with_minus_signs(fmt.number(factor * value, 4)) for value in (min(found), max(found)))
             reach = f"of {low}" if low == high else f"from {low} to {high}"
             words.append(f"{len(found):,} {name} {reach} {unit}".rstrip())
         self.notes += ["; ".join(words)] * bool(words)

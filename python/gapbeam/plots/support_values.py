@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..results.views.extreme import KINDS
 from ..scene.names import labels
 from .sheet import is_upright
 
@@ -25,7 +27,6 @@ NONE = 1e-9
 LYING = "\N{LEFTWARDS ARROW}\N{RIGHTWARDS ARROW}", "\N{ANTICLOCKWISE OPEN CIRCLE ARROW}\N{CLOCKWISE OPEN CIRCLE ARROW}"
 UPRIGHT = "\N{UPWARDS ARROW}\N{DOWNWARDS ARROW}", LYING[1][::-1]
 """Arrows along the beam and around, each the negative one first."""
-MINUS = "\N{MINUS SIGN}"
 
 
 class Told(NamedTuple):
@@ -135,7 +136,7 @@ class EnvelopeValues:
         self._scene, self._key, self._names = scene, key, labels(scene.supports)
         self._rows = envelope.supports
         count = len(scene.supports)
-        pairs = ((name, kind) for name in ("reaction", "opening") for kind in ("max", "min"))
+        pairs = ((name, kind) for name in ("reaction", "opening") for kind in KINDS)
         self._values = {pair: self._rows.values(*pair) if count else np.zeros(0) for pair in pairs}
         high, low = self._values["reaction", "max"], self._values["reaction", "min"]
         self.up, self.down = np.maximum(_across(scene, high), 0.0), np.maximum(-_across(scene, low), 0.0)
@@ -150,7 +151,7 @@ class EnvelopeValues:
         held = {self._scene.supports[k].side for k in across} & {"below", "both"}
         for k in indices:
             support = self._scene.supports[k]
-            high, low = (float(self._values["reaction", kind][k]) for kind in ("max", "min"))
+            high, low = (float(self._values["reaction", kind][k]) for kind in KINDS)
             lines = [("max", "reaction", high)] if high > self._small or (support.side != "above" and high > low) else []
             if low < -self._small or (support.side != "above" and high > self._small):
                 lines.append(("min", "reaction", low))
@@ -166,7 +167,7 @@ class EnvelopeValues:
                     continue  # that it opens says so
                 text = with_unit(self._scene, name, value) if few or name == "opening" else fmt.number(value, DIGITS)
                 source = self._key.source(self._rows[k][name]["max" if kind == "open" else kind])
-                line = f"{begin}{kind} {text}".replace("-", MINUS)
+                line = with_minus_signs(f"{begin}{kind} {text}")
                 short = source and " at " not in f" {source}"
                 where = openings if kind == "open" else words
                 where += [f"{line}, {source}"] if short else [line, *[source] * bool(source)]
@@ -200,13 +201,12 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
         found["spring"] = f"spring {fmt.number(support.stiffness, DIGITS)} {_per_length(scene)}".rstrip()
     if not isinstance(support.rotation, str) and support.rotation:
         found["rotation"] = f"rotational spring {fmt.number(support.rotation, DIGITS)} {_turning(scene)}".rstrip()
-    return {kind: words.replace("-", MINUS) for kind, words in found.items()}
+    return {kind: with_minus_signs(words) for kind, words in found.items()}
 
 
 def with_unit(scene: Scene, quantity: str, value: float) -> str:
     """Write a value with its unit, displacements in mm where lengths are in m."""
-    unit, factor = fmt.shown_unit(scene, quantity)
-    return f"{fmt.number(factor * value, DIGITS)} {unit}".rstrip()
+    return fmt.value(scene, quantity, value, DIGITS)
 
 
 def _per_length(scene: Scene) -> str:

@@ -10,9 +10,11 @@ from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..results.envelopes.lifted import NONE
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
+from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
 from .ground import free_span_headings
 from .over_path import write_over_path
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import Writer, chosen
@@ -32,7 +34,6 @@ MOST_ROWS = 24
 """Combinations whose reactions are listed."""
 MOST_SUPPORTS = 16
 """Supports whose reactions are listed."""
-PLACES = (("max", "largest"), ("min", "smallest"))
 
 
 def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False) -> None:
@@ -148,8 +149,8 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
         ends = fmt.without_noise(best(reaction, axis=0).tolist())
         rows.append([words, *(fmt.number(ends[i], fmt.DIGITS) for i in supports), "", ""])
-    unit, names = fmt.unit(scene, "reaction"), labels(scene.supports)
-    say.heading("Reactions by combination" + (f" [{unit}]" if unit else ""))
+    names = labels(scene.supports)
+    say.heading(fmt.with_unit(scene, "reaction", "Reactions by combination"))
     say.table_by_name(["", *(names[i] for i in supports), "sum", "loads"], rows)
     length, _ = fmt.shown_unit(scene, "opening")
     mark = f"; {up} no contact, with its opening{f' in {length}' if length else ''}" if lifted.any() else ""
@@ -188,13 +189,12 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     say.heading(f"What governs, all combinations {_when(result)}")
     rows = []
     for quantity, row in fmt.reported(envelope.extremes).items():
-        values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
-        for (kind, words), value in zip(PLACES, values, strict=True):
+        values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
+        for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive. Combinations with equal values stand beside "
-             "each other.", "dim")  # fmt: skip
+    say.line(f"{positive_fields(scene)} Combinations with equal values stand beside each other.", "dim")
 
 
 def _supports(say: Writer, result: "CombinedResult") -> None:
@@ -210,7 +210,7 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
             rows.append(["..."] * (6 if one_sided else 4))
             continue
         name, row = names[k], envelope.supports[k]
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
             texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
             if one_sided:
@@ -233,7 +233,7 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
     names, found = fmt.numbered(scene.foundation), result.envelope().foundations
     rows = []
     for name, row in zip(names, found, strict=True):
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["resultant"][kind]
             rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)])
     say.table(["", "", fmt.stacked(scene, "resultant"), "combination"], rows, left=(0, 1, 3))
@@ -255,8 +255,8 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
-    """Say where a factor between governs."""
-    say.heading("Factors between")
+    """Say where a load factor between 0 and 1 governs."""
+    say.heading("Load factors between 0 and 1")
     if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the loading history, values are "
                  "not linear between events.")  # fmt: skip
@@ -274,14 +274,13 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
         != fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind])
     ]  # fmt: skip
     if not found:
-        say.line("Nothing is greater where all loads but the dead ones have only a part of their factors.")
+        say.line("No extreme is exceeded at a smaller load factor. Dead loads act in full there; all others are scaled by it.")
         return
     names = labels(scene.supports)
-    words = dict(PLACES)
     rows = [
         [
-            _of(hint, names, scene), words[hint.kind], fmt.shown(scene, hint.quantity, hint.value), fmt.number(hint.x, fmt.DIGITS),
-            visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
+            _of(hint, names, scene), IN_WORDS[hint.kind], fmt.shown(scene, hint.quantity, hint.value),
+            fmt.number(hint.x, fmt.DIGITS), visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
             fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind]),
         ]
         for hint in found

@@ -10,7 +10,7 @@ from ..results.event_words import state_in_words
 from ..results.state.ground import Contact, FreeSpan, joined
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
-from .scheme import symbol
+from .contact_history import symbol
 from .writer import LONGEST, Writer
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def _summary(say: Writer, result: "Result", step: "Step") -> None:
         longest, deepest = max(spans, key=lambda span: _length(_ends(span))), max(spans, key=lambda span: span.sag)
         words.append(
             f"{fmt.count(len(spans), 'free span')}, together {_with_label(result, _together(spans))}: the longest "
-            f"{_place(longest)}, the largest clearance {_clearance(result, deepest.sag)} {_place(deepest)}."
+            f"{_place(longest)}, the largest clearance {fmt.value(result.scene, 'sag', deepest.sag)} {_place(deepest)}."
         )
     say.line(" ".join(words))
 
@@ -208,10 +208,6 @@ def clearance_heading(scene: "Scene") -> str:
     str
     """
     return f"clearance\n{fmt.shown_unit(scene, 'sag')[0]}".rstrip()
-
-
-def _clearance(result: "Result", value: float) -> str:
-    return f"{fmt.shown(result.scene, 'sag', value)} {fmt.shown_unit(result.scene, 'sag')[0]}".rstrip()
 
 
 def _with_label(result: "Result", value: float, quantity: str = "length") -> str:

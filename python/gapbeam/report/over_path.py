@@ -10,6 +10,7 @@ from ..results.answer import has_cheap_envelope
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import CLOSE
 from ..results.envelopes.over_path import is_followed
+from ..results.views.extreme import IN_WORDS
 from .writer import Writer
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ MOST_ROWS = 20
 """Values at supports that are listed."""
 MOST_MISSING = 5
 """States that could not be solved that are named."""
-PLACES = (("max", "largest"), ("min", "smallest"))
 OVER = {
     "path": "Every load factor on the way counts, on both sides of jumps.",
     "states": "Values are curved between events here: 23 states between each two count.",
@@ -73,7 +73,7 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
         for k, what, kind in shown:
             one = found.supports[k][what][kind]
             name, before = "" if k == before else names[k], k
-            rows.append([name, f"{dict(PLACES)[kind]} {what}", fmt.shown(scene, what, one.value), *_where(one.source, legs)])
+            rows.append([name, f"{IN_WORDS[kind]} {what}", fmt.shown(scene, what, one.value), *_where(one.source, legs)])
         if not only_at_end:
             say.line()
         say.table(["support", "", "value", *_headings(result, legs)], rows, left=(0, 1))
@@ -92,8 +92,8 @@ def _rows(result: "Result", found: "PathEnvelope", legs: bool) -> list[list[str]
     """Rows of the values along the beam."""
     scene, rows = result.scene, []
     for quantity, row in fmt.reported(found.extremes).items():
-        values = fmt.without_noise(row[kind].value for kind, _ in PLACES)
-        for (kind, words), value in zip(PLACES, values, strict=True):
+        values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
+        for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
             one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
             where = [fmt.number(one.x, fmt.DIGITS), *_where(one.source, legs)]
             rows.append([name, words, fmt.shown(scene, quantity, value), *where])

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
-from ..results.contact import short
 from ..results.envelopes.over_path import is_followed
 from ..results.equilibrium import balance_in_words
 from ..results.event_words import state_in_words
@@ -18,9 +17,10 @@ from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from .combined import bound_in_words, write_combined
+from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
-from .scheme import event_table, legend, merged, scheme_table, symbol
+from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import LONGEST, Writer, chosen
@@ -149,7 +149,7 @@ def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
     scene = result.scene
     texts = [
         f"{fmt.support(scene, k)} on {state_in_words(landing.state[k])}, deflection "
-        f"{short(scene, 'deflection', landing.deflection[k])}"
+        f"{fmt.value(scene, 'deflection', landing.deflection[k])}"
         for k in which[:10]
     ]
     more = f", and {len(which) - 10} more" if len(which) > 10 else ""
@@ -160,11 +160,11 @@ def _history(say: "Writer", result: "Result") -> None:
     supports = result.scene.supports
     if all(state == "bilateral" for state in result.steps[-1].state):
         return
-    # Of steps with the same scheme the first and the last do
+    # Of steps with the same contact state the first and the last do
     runs = merged(result.steps.history())
     history = [(factor, states) for first, last, states in runs for factor in (first, last)]
     say.heading("Contact state over the load")
-    headings, rows = scheme_table(history, say.width, say.plain)
+    headings, rows = contact_table(history, say.width, say.plain)
     say.table(headings, rows, left=(0, len(headings) - 1) if len(headings) < len(supports) + 1 else (0,))
     states = {state for _, states in history for state in states}
     numbering = "Supports are numbered from 0 as in the scene."
@@ -221,7 +221,7 @@ def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
     step, x = result.steps[-1], result.scene.positions(result.scene.supports)
     names = labels(result.scene.supports)
     held = [
-        f"{names[k]} (x = {fmt.number(x[k], fmt.DIGITS)}, couple {short(result.scene, 'couple', step.couple[k])})"
+        f"{names[k]} (x = {fmt.number(x[k], fmt.DIGITS)}, couple {fmt.value(result.scene, 'couple', step.couple[k])})"
         for k, (support, state) in enumerate(zip(result.scene.supports, step.state, strict=True))
         if state == "open" and support.rotation not in ("free", 0.0)
     ]
@@ -243,7 +243,7 @@ def _extremes(say: "Writer", result: "Result", at: str) -> None:
         rows.append([fmt.shown_heading(scene, quantity), *texts])
     x = fmt.with_unit(scene, "x", "at x")
     say.table(["", "largest", x, "smallest", x], rows, left=(0,))
-    say.line("Deflection downward, sagging moment, clockwise rotation: positive.", "dim")
+    say.line(positive_fields(result.scene), "dim")
 
 
 def _steps(say: "Writer", result: "Result") -> None:

@@ -8,8 +8,10 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
+from ..results.views.extreme import IN_WORDS
 from ..scene.trains import LEFT
 from .ground import free_span_headings
+from .signs import positive_fields
 from .writer import Writer, chosen
 
 if TYPE_CHECKING:
@@ -23,7 +25,6 @@ MOST_SUPPORTS = 24
 """Supports that are listed; of more those without contact and both ends."""
 MOST_GAPS = 10
 """Stretches of positions without equilibrium that are listed."""
-PLACES = (("max", "largest"), ("min", "smallest"))
 
 
 def write_trains(say: Writer, result: "Result") -> None:
@@ -63,7 +64,7 @@ def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     scene, rows = result.scene, []
     say.heading("What governs while trains pass, all other loads in full")
     for quantity, row in fmt.reported(envelope.extremes).items():
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row[kind]
             if one is not None:
                 name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
@@ -72,7 +73,7 @@ def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
                 rows.append([name, words, *texts, *_source(result, one)])
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result)], rows, (0, 1, 4, 5))
     say.line("Positions are those of the first axle. Others: positions or trains with the same value. Where a field jumps the "
-             "larger side counts. Deflection downward, sagging moment, clockwise rotation: positive.", "dim")  # fmt: skip
+             f"larger side counts. {positive_fields(scene)}", "dim")  # fmt: skip
 
 
 def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
@@ -88,7 +89,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
             rows.append(["..."] * (3 + len(_headings(result))))
             continue
         name, row = names[k], envelope.supports[k]
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
             if one is not None:
                 rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
@@ -113,7 +114,7 @@ def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope") -> No
         return
     rows, spans = [], []
     for name, row in zip(fmt.numbered(scene.foundation), envelope.foundations, strict=True):
-        for kind, words in PLACES:
+        for kind, words in IN_WORDS.items():
             one = row["resultant"][kind]
             if one is not None:
                 rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])

@@ -12,14 +12,14 @@ import numpy as np
 from ..base.characters import visible
 from ..scene.structs import Scene
 from . import formatting as fmt
-from .contact import contact_in_words, ground_in_words, short, source_in_words
+from .contact import contact_in_words, ground_in_words, source_in_words
 from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
-from .envelopes.tables import KINDS
 from .event_words import limits_of_load_in_words
 from .plausibility import doubts_of_scene, doubts_of_signs
 from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
+from .views.extreme import KINDS
 
 if TYPE_CHECKING:
     from .envelopes.envelope import Envelope
@@ -95,9 +95,9 @@ def _place(scene: Scene, one: Extreme | Utilisation) -> str:
 def _one(result: Result, name: str, one: Extreme, factor: bool) -> str:
     scene = result.scene
     source = source_in_words(one, scene, factor)
-    value = short(scene, name, one.value)
+    value = fmt.value(scene, name, one.value)
     if name == "pressure" and scene.beam.width is not None:
-        value = f"{short(scene, 'stress', one.value / scene.beam.width)} ({value})"
+        value = f"{fmt.value(scene, 'stress', one.value / scene.beam.width)} ({value})"
     return f"{value} at {_place(scene, one)}{f' ({source})' if source else ''}"
 
 
@@ -158,7 +158,7 @@ def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
     scene, lines = result.scene, []
     for name, one in used.items():
         quantity = "stress" if name == "pressure" else name
-        value, limit = (short(scene, quantity, abs(number)) for number in (one.value, one.limit))
+        value, limit = (fmt.value(scene, quantity, abs(number)) for number in (one.value, one.limit))
         mark = "EXCEEDED" if one.ratio > 1.0 else "within"
         of = ", ".join(visible(str(one.source[key])) for key in ("combination", "train") if key in one.source)
         where = f"{_place(scene, one)}{f' ({of})' if of else ''}"

@@ -24,32 +24,6 @@ SAME = 1.0 + 1e-9
 """Share of a gap up to which an opening is that gap."""
 
 
-def short(scene: Scene, quantity: str, value: float) -> str:
-    """Write a value with its unit, displacements in mm where lengths are in m.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene with its unit labels.
-    quantity : str
-        As for `formatting.unit`.
-    value : float
-        In the unit of the scene.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> from gapbeam import Beam, Scene, Units
-    >>> scene = Scene(beam=Beam([4.0], EI=1.0), units=Units("kN", "m"))
-    >>> short(scene, "opening", 0.0263), short(scene, "moment", 205.5)
-    ('26.3 mm', '205.5 kN m')
-    """
-    return f"{fmt.shown(scene, quantity, value)} {fmt.shown_unit(scene, quantity)[0]}".rstrip()
-
-
 def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) -> str:
     """Say where a value comes from: combination, train and its position, load factor.
 
@@ -131,7 +105,8 @@ def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
         return [f"{len(closed):,} supports close their gaps."]
     x = scene.positions(scene.supports)
     return [
-        f"Support {label(scene.supports, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) closes its gap of {short(scene, 'gap', gaps[k])}."
+        f"Support {label(scene.supports, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) closes its gap of "
+        f"{fmt.value(scene, 'gap', gaps[k])}."
         for k in closed
     ]
 
@@ -142,13 +117,13 @@ def _how_far(result: Result, one: Lifted) -> str:
     gap, followed = max(scene.supports[one.support].gap or 0.0, 0.0), is_followed(result)
     source = source_in_words(one, scene) if result.combinations or scene.trains or followed else ""
     ends_closed = followed and not result.combinations and not scene.trains and result.steps[-1].state[one.support] != "open"
-    opening = short(scene, "opening", one.opening)
+    opening = fmt.value(scene, "opening", one.opening)
     if ends_closed and gap and one.opening <= SAME * gap:
         closing = (event for event in result.events if event.support == one.support and event.event == "closes")
         first = next(closing, None)
         when = f" {share_in_words(scene, first.factor)}" if first is not None and len(scene.analysis.history) == 1 else ""
-        return f"closes its gap of {short(scene, 'gap', gap)}{when}"
-    about = ", ".join([*([f"gap {short(scene, 'gap', gap)}"] if gap else []), *([source] if source else [])])
+        return f"closes its gap of {fmt.value(scene, 'gap', gap)}{when}"
+    about = ", ".join([*([f"gap {fmt.value(scene, 'gap', gap)}"] if gap else []), *([source] if source else [])])
     words = f"{'has no contact: opening' if gap else 'lifts off by'} {opening}{f' ({about})' if about else ''}"
     return f"{words}, and is in contact at the end" if ends_closed else words
 
@@ -172,7 +147,7 @@ def ground_in_words(result: Result) -> list[str]:
         return []
 
     def words(value: float, quantity: str = "length") -> str:
-        return short(scene, quantity, float(fmt.number(value, 4)))
+        return fmt.value(scene, quantity, float(fmt.number(value, 4)))
 
     lines = []
     if zones:

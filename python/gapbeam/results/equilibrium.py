@@ -156,7 +156,7 @@ def balance_in_words(scene: Scene, step: Step) -> list[str]:
         parts.append(("along the beam", "force", [one.axial for one in sums]))
     lines = ["Sum of reactions  ", "Sum of loads      "]
     for name, quantity, values in parts:
-        texts = [f"{fmt.shown(scene, quantity, value)} {fmt.unit(scene, quantity)}".rstrip() for value in values]
+        texts = [fmt.value(scene, quantity, value) for value in values]
         width = max(map(len, texts))
         lead = f"   {name}  " if name else ""
         lines = [f"{line}{lead if k == 0 else ' ' * len(lead)}{texts[k]:<{width}}" for k, line in enumerate(lines)]

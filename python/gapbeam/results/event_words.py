@@ -133,7 +133,7 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
         known = len(scene.foundation) > 1 or scene.foundation[0].name is not None
         name = f"ground {label(scene.foundation, event.foundation)}: " if known else "ground: "
         return f"{name}{OF_ZONES.get(event.event, event.event)}{of} at x = {x}"
-    force = f" ({fmt.shown(scene, 'reaction', abs(reaction))} {fmt.unit(scene, 'force')}".rstrip() + ")" if reaction else ""
+    force = f" ({fmt.value(scene, 'reaction', abs(reaction))})" if reaction else ""
     return f"{fmt.support(scene, event.support)} (x = {x}) {OF_SUPPORTS.get(event.event, event.event)}{force}"
 
 

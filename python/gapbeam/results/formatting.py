@@ -296,9 +296,12 @@ def with_unit(scene: Scene, quantity: str, name: str | None = None) -> str:
     name : str, optional
         What to call it; default the quantity itself.
     """
-    name = name or quantity.replace("_", " ")
-    label = unit(scene, quantity)
-    return f"{name} [{label}]" if label else name
+    return heading(name or quantity.replace("_", " "), unit(scene, quantity))
+
+
+def heading(words: str, label: str) -> str:
+    """Put the label of a unit behind the words of a heading, if there is one."""
+    return f"{words} [{label}]" if label else words
 
 
 def stacked(scene: Scene, quantity: str, name: str | None = None) -> str:
@@ -328,7 +331,7 @@ def shown_unit(scene: Scene, quantity: str) -> tuple[str, float]:
     return ("mm", 1e3) if label == "m" and quantity in SMALL else (label, 1.0)
 
 
-def shown(scene: Scene, quantity: str, value: float) -> str:
+def shown(scene: Scene, quantity: str, value: float, digits: int = DIGITS) -> str:
     """Write a value as a report shows it, without its unit.
 
     Parameters
@@ -339,22 +342,35 @@ def shown(scene: Scene, quantity: str, value: float) -> str:
         As for `unit`.
     value : float
         In the unit of the scene.
+    digits : int
+        At most.
 
     Returns
     -------
     str
-        At most 5 digits.
     """
     factor = shown_unit(scene, quantity)[1]
     if abs(value) > HUGE:  # in the smaller unit it may be no double
-        return f"{Decimal(factor) * Decimal(float(value)):.{DIGITS - 1}e}"
-    return number(factor * value, DIGITS)
+        return f"{Decimal(factor) * Decimal(float(value)):.{digits - 1}e}"
+    return number(factor * value, digits)
 
 
-def shown_heading(scene: Scene, quantity: str) -> str:
+def value(scene: Scene, quantity: str, number: float, digits: int = DIGITS) -> str:
+    """Write a value as `shown` does, with its unit.
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene, Units
+    >>> scene = Scene(beam=Beam([4.0], EI=1.0), units=Units("kN", "m"))
+    >>> value(scene, "opening", 0.0263), value(scene, "moment", 205.5)
+    ('26.3 mm', '205.5 kN m')
+    """
+    return f"{shown(scene, quantity, number, digits)} {shown_unit(scene, quantity)[0]}".rstrip()
+
+
+def shown_heading(scene: Scene, quantity: str, words: str | None = None) -> str:
     """Word a heading such as ``deflection [mm]`` for values by `shown`."""
-    label, _ = shown_unit(scene, quantity)
-    return quantity.replace("_", " ") + (f" [{label}]" if label else "")
+    return heading(words or quantity.replace("_", " "), shown_unit(scene, quantity)[0])
 
 
 def shown_column(scene: Scene, quantity: str, values: Iterable[float], digits: int = DIGITS) -> tuple[str, list[str]]:

@@ -11,6 +11,7 @@ from ..scene.names import column_of
 from . import formatting as fmt
 from .equilibrium import sum_of_loads
 from .state.ground import joined
+from .views.extreme import KINDS
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
@@ -123,7 +124,7 @@ def _soft(result: Result, longest: float, deflection: float, envelope: Envelope 
     scene, limit = result.scene, LARGE * longest
     springs = np.array(column_of(scene.supports, "stiffness"), dtype=float)
     if len(springs):
-        reactions = np.max([np.abs(envelope.supports.values("reaction", kind)) for kind in ("max", "min")], axis=0)
+        reactions = np.max([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS], axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
             given = np.nan_to_num(reactions / springs, nan=0.0, posinf=0.0)
         if given.max() > limit:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from .views.extreme import KINDS
+
 if TYPE_CHECKING:
     from .envelopes.envelope import Envelope
     from .result import Result
@@ -73,7 +75,7 @@ def find_utilisations(result: Result, envelope: Envelope | TrainEnvelope) -> dic
     x, found = scene.positions(scene.supports), {}
     for name, limit in scene.limits.given().items():
         if name in ("reaction", "opening"):
-            ones = [row[name][kind] for row in envelope.supports for kind in ("max", "min")]
+            ones = [row[name][kind] for row in envelope.supports for kind in KINDS]
         else:
             ones = list(envelope.extremes.get(name, {}).values())
         ones = [one for one in ones if one is not None]

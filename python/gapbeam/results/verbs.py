@@ -1,4 +1,4 @@
-"""The verbs of a result: reactions, openings and states by support, tables, and values anywhere in any state."""
+"""Methods that all results share, their verbs: values of supports, tables, and values anywhere in any state."""
 
 from __future__ import annotations
 

@@ -190,7 +190,7 @@ def _syntax(name: str, text: str, line: int, column: int, problem: str) -> NoRet
     source = (text.split("\n")[line - 1 : line] or [""])[0]
     comma = re.search(r"(?<![\d,\[])\s\d+,\d+\s*(#|$)", source)
     hint = f'; write numbers with a point: "{comma[0].strip(" #").replace(",", ".")}"' if comma else ""
-    unit = re.search(r"[=\[,]\s*([-+]?\d[\d.eE+-]*)\s?(?:[mck]?m|[kM]?N|kNm)\d?\b", source)
-    hint = f"; numbers have no units: write {unit[1]}, in the units of the scene" if unit else hint
+    unit = re.search(r"[=\[,]\s*([-+]?\d[\d.eE+-]*)\s?((?:[mck]?m|[kM]?N|kNm)\d?)\b", source)
+    hint = f"; numbers have no units: write {unit[1]} if the scene has {unit[2]}, else convert it" if unit else hint
     quoted = f", in: {source.strip()[:80]}" if source.strip() else ""
     raise SceneError(f"{name}, line {line}, column {column}", f"{problem}{quoted}{hint}") from None

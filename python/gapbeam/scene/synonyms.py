@@ -41,6 +41,8 @@ VALUES = {
     ("type", "moving"): "loads that move are trains",
 }  # fmt: skip
 """What was probably meant by a value, by its key and the value in lower case."""
+LAW = '{ type = "tanh", stiffness = 2e4, limit = 90.0 }'
+"""An example of a law of the ground by name."""
 LONGEST = 30
 """Characters of a text that is read as a number, to be written again."""
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>[A-Za-z][\w ^*/.-]*)?")
@@ -93,11 +95,15 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
     Examples
     --------
     >>> meant_by_value("beam.EI", "1e4 kN m^2", "a number")
-    '; numbers have no units: write 1e4, in the units of the scene'
+    '; numbers have no units: write 1e4 if the scene has kN m^2, else convert it'
     """
     key = place.rpartition(".")[2]
+    if place.rpartition("[")[0].endswith(".axles"):
+        return "; an axle is [distance behind the first axle, force]"
     if not isinstance(value, str | bool):
         return ""
+    if key == "law" and place.startswith("foundation"):
+        return "; give points [displacement, force per length], or a law by name such as " + LAW
     if (hint := VALUES.get((key, str(value).lower()))) is not None:
         return f"; {hint}"
     is_short = isinstance(value, str) and len(value) <= LONGEST
@@ -106,4 +112,5 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return ""
     if not found["unit"]:
         return f"; write {value.strip()} without quotes"
-    return f"; numbers have no units: write {value[: found.start('unit')].strip()}, in the units of the scene"
+    figure, unit = value[: found.start("unit")].strip(), found["unit"].strip()
+    return f"; numbers have no units: write {figure} if the scene has {unit}, else convert it"

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
 
 from ..base.characters import visible
+from ..base.errors import Status
 from ..batches.batch import Batch
 from ..batches.summary import Summary, distribution
 from ..results import formatting as fmt
 from ..results.cases.solved_cases import Cases
-from ..results.contact import short
 from ..results.envelopes.lifted import Lifted
 from ..scene.structs import Scene
 
 MOST_NAMED = 8
 """Supports without contact that are named."""
-HISTOGRAMS = ("moment", "shear", "deflection")
-"""Fields of cases whose extremes are drawn."""
+FIELDS = ("moment", "shear", "deflection")
+"""Fields of cases whose extremes are told and drawn."""
 
 
 def cases_answer(cases: Cases) -> list[str]:
@@ -36,17 +37,17 @@ def cases_answer(cases: Cases) -> list[str]:
     """
     scene, count, solved = cases.scene, len(cases), int(np.sum(cases.ok))
     lines = [f"{fmt.title(scene)}: {solved:,} of {fmt.count(count, 'case')} solved"]
-    if cases.reason is not None:
-        lines.append(fmt.sentence(visible(cases.reason)))
+    if (reason := cases.reason) is not None:
+        lines.append(fmt.sentence(visible(reason)))
     if not solved:
         return lines
     lines += lifted_in_words(scene, cases.lifted)
-    for name in ("moment", "shear", "deflection"):
+    for name in FIELDS:
         texts = []
-        for kind, best in (("max", np.nanargmax), ("min", np.nanargmin)):
-            one = cases.extremes[name][kind]
+        for one, best in zip(cases.extremes[name].values(), (np.nanargmax, np.nanargmin), strict=True):
             k = int(best(one.value))
-            texts.append(f"{short(scene, name, float(one.value[k]))} at x = {fmt.number(float(one.x[k]), fmt.DIGITS)} (case {k})")
+            place = fmt.number(float(one.x[k]), fmt.DIGITS)
+            texts.append(f"{fmt.value(scene, name, float(one.value[k]))} at x = {place} (case {k})")
         lines.append(f"{f'Largest {name}':<20}{'; '.join(texts)}")
     return lines
 
@@ -74,7 +75,7 @@ def lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
     for one in sorted(sorted(lifted, key=lambda one: -one.share)[:MOST_NAMED]):
         name = fmt.support(scene, one.support)
         lines.append(f"{name[0].upper()}{name[1:]} has no contact in {100 * one.share:.3g} % of the cases, "
-                     f"opening up to {short(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
+                     f"opening up to {fmt.value(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
     if len(lifted) > MOST_NAMED:
         lines.append(f"{len(lifted) - MOST_NAMED:,} more have no contact in fewer cases.")
     return lines
@@ -97,8 +98,8 @@ def batch_answer(batch: Batch | Summary) -> list[str]:
     outcomes = ", ".join(f"{count:,} {outcome}" for outcome, count in batch._outcomes.items())
     lines = [f"Batch{where}: {batch.done:,} of {fmt.count(batch.cases, 'case')} done"]
     lines += [f"Outcomes: {outcomes}."] if outcomes else []
-    if batch.reason is not None:
-        lines.append(fmt.sentence(visible(batch.reason)))
+    if (reason := batch.reason) is not None:
+        lines.append(fmt.sentence(visible(reason)))
     if isinstance(batch, Summary):
         there = [(name, one) for name, one in batch.columns.items() if one.count]
         for name, one in there[:MOST_NAMED]:
@@ -123,12 +124,12 @@ def cases_summary(cases: Cases) -> Summary:
     Summary
     """
     table: dict[str, Any] = {
-        f"{name}.{kind}": one.value for name in HISTOGRAMS for kind, one in cases.extremes[name].items()
+        f"{name}.{kind}": one.value for name in FIELDS for kind, one in cases.extremes[name].items()
     }
     table |= {f"reaction.{key}": values for key, values in cases.reactions.items()}
-    counts = cases.table("cases")["status"]
-    statuses = {word: counts.count(word) for word in dict.fromkeys(counts)}
-    reasons = {} if cases.reason is None else {next(word for word in counts if word != "solved"): cases.reason}
+    statuses = {Status(one).word: count for one, count in Counter(cases.status.tolist()).items()}
+    first = next((word for word in statuses if word != "solved"), None)
+    reasons = {} if first is None else {first: cases.reason}
     columns = {name: distribution(np.asarray(values, dtype=float)) for name, values in table.items()}
     units = {name: fmt.shown_unit(cases.scene, name.partition(".")[0]) for name in columns}
     return Summary(len(cases), len(cases), statuses, reasons, columns, units)

@@ -79,7 +79,7 @@ def test_json_and_csv(text):
     data = json.loads(to_json(result))
     assert (data["title"], data["units"]["force"]) == (written, written)
     heading = next(csv.reader(io.StringIO(to_csv(result))))
-    assert heading[-1] == f"shear [{shown}]"
+    assert f"shear [{shown}]" in heading
 
 
 def test_pictures(text, tmp_path):

@@ -32,6 +32,15 @@ def test_states_have_the_digits_of_the_json_output():
     assert [one["factor"] for one in way["events"]] == [one["factor"] for one in given["events"]]
 
 
+def test_both_ends_of_every_interval_are_the_states_at_their_load_factors():
+    result = gapbeam.solve(scene())
+    way = data_of(result.to_html())["ways"][0]
+    assert len(way["intervals"]) > 1
+    for from_, to, _, nodes in way["intervals"]:
+        for factor, k in ((from_, nodes[0]), (to, nodes[-1])):
+            assert np.allclose(way["states"][k]["reaction"], result.state(factor).reaction, rtol=0.0, atol=1e-9)
+
+
 @pytest.mark.parametrize("make", [scene, combined, train, on_ground, see_saw])
 def test_the_result_is_that_of_the_json_output(make):
     result = gapbeam.solve(make())

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scenes
 from gapbeam.report import report_text, to_csv, to_json
-from gapbeam.report.scheme import merged, scheme_table
+from gapbeam.report.contact_history import contact_table, merged
 from gapbeam.results.answer import MOST_LIMITS
 
 
@@ -152,7 +152,7 @@ def test_the_history_of_hundreds_of_supports_names_the_changes():
     for index in (3, 4, 5, 70):
         states[index] = "open"
     history.append((1.0, tuple(states)))
-    headings, rows = scheme_table(history, 80)
+    headings, rows = contact_table(history, 80)
     assert len(headings) == 4
     assert rows == [["0.5", "500", "0", "start"], ["1", "496", "4", "4 open: 3-5, 70"]]
 
@@ -160,15 +160,15 @@ def test_the_history_of_hundreds_of_supports_names_the_changes():
 @pytest.mark.parametrize("supports", [27, 50, 99, 200])
 def test_the_history_of_many_supports_has_a_symbol_for_each(supports):
     states = tuple("open" if index % 3 else "closed" for index in range(supports))
-    _, rows = scheme_table([(1.0, states)], 80)
+    _, rows = contact_table([(1.0, states)], 80)
     symbols = "".join(row[-1].replace(" ", "") for row in rows)
     assert symbols == "".join("○" if state == "open" else "●" for state in states)
 
 
 @pytest.mark.parametrize("supports", [49, 50, 51])
 def test_up_to_fifty_supports_have_a_column_each(supports):
-    headings, rows = scheme_table([(1.0, ("open",) * supports)], 400)
-    each, tens = [str(index) for index in range(supports)], "".join(f"{index:<11}" for index in range(0, 50, 10))
+    headings, rows = contact_table([(1.0, ("open",) * supports)], 400)
+    each, tens = ["support 0", *(str(index) for index in range(1, supports))], "".join(f"{index:<11}" for index in range(0, 50, 10))
     assert headings == ["load factor", *(each if supports <= 50 else ["from", tens.rstrip()])]
     assert "".join("".join(row) for row in rows).count("○") == supports
 
@@ -214,3 +214,11 @@ def test_steps_and_residuals(result):
     text = report_text(result, verbose=True).partition("Residuals against run time")[2]
     for words in ("solves", "time", "equilibrium", "compatibility", "complementarity", "0.125"):
         assert words in text
+
+
+def test_the_signs_of_an_upright_beam_are_those_of_its_picture():
+    made = scenes.scene([2.0], [scenes.at(0), scenes.at(1)], [scenes.force(1.0, 3.0)])
+    made["beam"]["direction"] = "down"
+    text = report_text(gapbeam.solve(made))
+    assert "Deflection to the right, moment with tension on the right" in text
+    assert "Deflection downward" not in text

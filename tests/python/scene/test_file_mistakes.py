@@ -76,6 +76,14 @@ def test_all_mistakes_are_told_in_the_order_of_their_lines(tmp_path, capsys):
     assert capsys.readouterr().err.splitlines() == [f"gapbeam: error: {line}" for line in lines]
 
 
+def test_a_side_that_is_none_says_nothing_of_the_gap(tmp_path):
+    path = tmp_path / "side.toml"
+    path.write_text('beam = { spans = [6.0], EI = 1.0 }\nsupports = [{ node = 0 }, { node = 1, side = "under", gap = 0.1 }]\n')
+    with pytest.raises(gapbeam.SceneError) as caught:
+        gapbeam.read_scene(path)
+    assert [place for _, place, _ in caught.value.mistakes] == ["supports[1].side"]
+
+
 def test_json_has_lines_too(tmp_path):
     data = tomllib.loads(BAD)
     data["analysis"]["history"] = [1.0]

@@ -133,8 +133,8 @@ contains
         type(piece_type) :: pieces(1)
         type(piece_load_type) :: none(1)
         type(field_type) :: starts(1)
-        real(wp) :: values(2, 4), distance(2, 4)
-        integer :: piece(2, 4)
+        real(wp) :: values(2, bending_count), distance(2, bending_count)
+        integer :: piece(2, bending_count)
 
         pieces = piece_type(1.0_wp, 1.0_wp, 0.0_wp)
         none = piece_load_type(0, 0, 0, 0, 0)

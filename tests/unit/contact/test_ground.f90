@@ -18,7 +18,7 @@ program test_ground
     use gapbeam_mesh_zones, only: zones_of_mesh
     use gapbeam_ground_energy, only: find_least_energy
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state

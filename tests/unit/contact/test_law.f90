@@ -162,7 +162,6 @@ contains
         type(answer_type) :: answers(0:2)
         type(node_support_type) :: supports(3)
         logical :: wrong(3), doubtful(3), in_doubt
-        real(wp) :: pull, penetration
         real(wp), parameter :: some(0:2) = 1.0_wp, errors(3) = 1e-3_wp
 
         supports = [node_support_type(0, below, infinite(), 0.0_wp), node_support_type(1, below, infinite(), 0.0_wp), &

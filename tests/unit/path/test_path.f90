@@ -7,7 +7,7 @@ program test_path
     use gapbeam_model, only: node_support_type, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme
     use gapbeam_path, only: follow_path, path_type, event_opens, event_closes, event_turns
     implicit none

@@ -8,7 +8,7 @@ program test_audit
     use gapbeam_model, only: node_support_type, below, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme
     use gapbeam_ledger, only: ledger_type
     use gapbeam_audit, only: audit_beam, audit_axial, audit_residuals

@@ -21,7 +21,7 @@ from ..envelopes.tables import support_places
 from ..state.arguments import whole
 from ..state.step import name_states
 from ..views.columns import Columns, one_of
-from ..views.extreme import SYMBOLS, Extreme, Extremes, Source
+from ..views.extreme import KINDS, SYMBOLS, Extreme, Extremes, Source
 from ..views.labelled import Labelled, by_support
 from ..views.shown import Shown
 from .case_result import result_of_case, why_not_solved
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 AT_ONCE = 64
 """Cases whose fields are found at the places of all of them."""
-KINDS = ("max", "min")
 
 
 class CaseExtreme(Extreme):
@@ -240,7 +239,11 @@ class CaseVerbs(Shown):
     @property
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact: in which part of the cases, and in which the opening is largest."""
-        openings, solved = self._combined().at_supports[:, 2], np.atleast_1d(self.ok)
+        return self._lifted(self._combined().at_supports[:, 2])
+
+    def _lifted(self, openings: np.ndarray) -> list[Lifted]:
+        """Find them by the openings, cases by supports."""
+        solved = np.atleast_1d(self.ok)
         if not solved.any():
             return []
         largest = max(float(np.nanmax(np.abs(one.value))) for one in self.extremes["deflection"].values())
@@ -275,7 +278,7 @@ class CaseVerbs(Shown):
         if one_of(kind, self._kinds) == "cases":
             return Columns(self._rows())
         if kind == "fields":
-            x = np.unique(np.concatenate([np.linspace(a, b, points + 1) for a, b in self._spans()]))
+            x = np.unique(np.concatenate([np.linspace(a, b, points + 1) for a, b in pairwise(self.scene.span_ends().tolist())]))
             table: dict[str, Any] = {"x": x}
             for name, values in self.at(x).columns().items():
                 if name != "x":
@@ -285,12 +288,8 @@ class CaseVerbs(Shown):
         for name, found in (("reaction", self.reactions), ("opening", self.openings)):
             values = np.reshape(np.asarray(found, dtype=float), (len(self.scene.supports), -1)).T
             table |= dict(zip((f"{name}_max", f"{name}_min"), _most(values), strict=True))
-        share = {one.support: one.share for one in self.lifted}
+        share = {one.support: one.share for one in self._lifted(values)}
         return Columns(table | {"lifted_share": np.array([share.get(k, 0.0) for k in range(len(self.scene.supports))])})
-
-    def _spans(self) -> list[tuple[float, float]]:
-        ends = self.scene.span_ends().tolist()
-        return list(pairwise(ends))
 
     def _rows(self) -> dict[str, Any]:
         """Columns of the table of cases."""
@@ -312,7 +311,8 @@ class CaseVerbs(Shown):
             Only numbers, strings, lists and dicts; None where a case is not solved.
         """
         table = {name: _plain(column) for name, column in self._rows().items()}
-        return {"title": self.scene.title, **({} if self.reason is None else {"reason": self.reason}), **table}
+        reason = self.reason
+        return {"title": self.scene.title, **({} if reason is None else {"reason": reason}), **table}
 
 
 def _most(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

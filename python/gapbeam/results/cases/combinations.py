@@ -19,10 +19,11 @@ from ...scene.names import labels, names_in_errors
 from ...scene.refusals import refusal
 from ...scene.wording import shown
 from ..envelopes.full_load import at_full_load
-from ..envelopes.tables import KINDS, extremes_while_trains_pass
+from ..envelopes.tables import extremes_while_trains_pass
 from ..paths.following import follow_load
 from ..result import Result
 from ..state.schemes import starting_scheme
+from ..views.extreme import KINDS
 
 KEPT = 64
 """Results of combinations that stay once they have been looked at."""

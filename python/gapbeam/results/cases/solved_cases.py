@@ -16,6 +16,7 @@ from ...engine.combinations import Combined, Varied
 from ...engine.quantities import BENDING, FIELDS
 from ..state.arguments import numbers, whole
 from ..state.fields import Fields, find_places
+from ..views.extreme import KINDS
 from .asked import Asked
 from .case_verbs import CaseVerbs
 
@@ -238,7 +239,7 @@ class Cases(CaseVerbs):
             states = self._combined()
             there = {name: (states.extremes[:, FIELDS.index(name)], states.places[:, FIELDS.index(name)]) for name in names}
         return {
-            name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(("max", "min"))}
+            name: {kind: (values[:, row].reshape(shape), x[:, row].reshape(shape)) for row, kind in enumerate(KINDS)}
             for name, (values, x) in there.items()
         }
 

@@ -12,6 +12,7 @@ import numpy as np
 from ...base.records import Record
 from ...engine.quantities import FIELDS
 from ...scene.names import names_of
+from ..state.state_extremes import StateExtreme
 from ..views.extreme import Extreme, Extremes, Source
 from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
 from .tables import curves_with_sources, support_places
@@ -71,9 +72,7 @@ class EnvelopeExtreme(Extreme):
         if self.support is not None:
             rows = self._of.at_supports[self._which, :, self.support].tolist()
             return {name: value for name, value in zip(AT_SUPPORTS, rows, strict=True) if name != self.quantity}
-        both = [self.result.at_state(self.state, self.x, side).columns() for side in ("right", "left")]
-        there = min(both, key=lambda fields: abs(float(fields[self.quantity]) - self.value))
-        return {name: float(value) for name, value in there.items() if name not in ("x", self.quantity)}
+        return StateExtreme(self.state, self.result._beam, self.quantity, self.value, self.x, self.source).concurrent
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data: its source, all that tie with it, and the concurrent values.

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...scene.names import labels
+from ..views.extreme import KINDS
 
 if TYPE_CHECKING:
     from ...scene.structs import Scene
     from ..cases.combinations import Combinations
     from .envelope import Curves
 
-KINDS = ("max", "min")
 SOURCES = ("combination", "train", "position", "direction")
 """What tells where an extreme comes from."""
 

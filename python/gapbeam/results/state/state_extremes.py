@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..views.extreme import Extreme, Source
+from ..views.extreme import KINDS, Extreme, Source
 from .fields import find_places
 
 if TYPE_CHECKING:
@@ -55,6 +55,6 @@ def extremes_of_state(state: Step, beam: Beam, source: Source) -> dict[str, dict
     """
     values, x = (table.tolist() for table in state.solution.extremes())
     return {
-        name: {kind: StateExtreme(state, beam, name, values[i][k], x[i][k], source) for i, kind in enumerate(("max", "min"))}
+        name: {kind: StateExtreme(state, beam, name, values[i][k], x[i][k], source) for i, kind in enumerate(KINDS)}
         for name, k in beam.fields.items()
     }

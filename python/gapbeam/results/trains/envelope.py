@@ -15,10 +15,10 @@ from ...engine.beam import Beam
 from ...scene.names import names_of
 from ...scene.places import END_TOLERANCE
 from ..envelopes.envelope import Curves
-from ..envelopes.tables import KINDS, SupportRows, curves_with_sources
+from ..envelopes.tables import SupportRows, curves_with_sources
 from ..envelopes.verbs import PartVerbs
 from ..state.arguments import numbers
-from ..views.extreme import Extremes
+from ..views.extreme import KINDS, Extremes
 from .members import OF_SUPPORTS, Member, TrainExtreme, fields_of
 
 if TYPE_CHECKING:

@@ -16,9 +16,8 @@ from ...engine.quantities import BENDING, QUANTITIES
 from ...engine.trains import SIDES, Extremes, Traversal
 from ..envelopes.envelope import AT_SUPPORTS
 from ..envelopes.ground_envelope import on_foundation
-from ..envelopes.tables import KINDS
 from ..state.ground import size_of
-from ..views.extreme import Extreme, Source
+from ..views.extreme import KINDS, Extreme, Source
 
 if TYPE_CHECKING:
     from ..result import Result

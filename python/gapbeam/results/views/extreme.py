@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from ..state.ground import FreeSpan
     from ..state.step import Step
 
+KINDS = ("max", "min")
+IN_WORDS = dict(zip(KINDS, ("largest", "smallest"), strict=True))
 SYMBOLS = {"m": "moment", "v": "shear", "q": "shear", "w": "deflection", "n": "axial_force", "displacement": "deflection",
            "bending": "moment", "force": "shear", "phi": "rotation", "u": "axial_displacement", "p": "pressure",
            "kappa": "curvature"}  # fmt: skip

@@ -28,6 +28,7 @@ MEANT = {
     "savefig": 'plot("name.svg")', "summary": "report()", "print": "report()", "text": "report()", "success": "ok",
     "converged": "ok", "solved": "ok", "message": "reason", "error": "reason", "maxmoment": 'extremes["moment"]["max"]',
     "max": 'extremes["moment"]["max"]', "min": 'extremes["moment"]["min"]', "asdict": "to_dict()", "json": "to_json()",
+    "topdf": 'plot("name.pdf"), or to_html("name.html") to print',
     "toxlsx": "to_excel(path)", "excel": "to_excel(path)", "save": "to_json(path) or to_excel(path)",
 }  # fmt: skip
 """What to write for words of other programs, in lower case without underscores."""

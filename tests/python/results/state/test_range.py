@@ -148,7 +148,7 @@ FIELDS_REFUSED = [
     (simple([1e308], EI=1.0, loads=[curvature(1e-3)]), "deflection"),
     (simple([1e100], EI=1.0, loads=[uniform(1e-50)]), "deflection"),
     (simple([1e200], EI=math.inf, GA=math.inf, loads=[uniform(1e-50)]), "moment"),
-    (simple([1e-200], EI=1e-300, loads=[moment(1e-200, 1e210)], supports=[at(0, rotation="fixed")]), "rotation"),
+    (simple([1e-200], EI=1e-300, loads=[moment(1e-200, 1e210)], supports=[at(0, rotation="fixed")]), "rotation|curvature"),
 ]
 
 
@@ -162,13 +162,16 @@ def test_fields_too_great_are_refused_by_name(library, made, name):
     f77 = F77Beam(library, made)
     assert beam.solve(1.0)[0] == f77.solve(1.0) == 0
     for asked in (lambda: result.at(middle), result.extremes, result.fields, result.to_dict):
-        with pytest.raises(EngineError, match=f"the {name} at x = .* is too great") as caught:
+        with pytest.raises(EngineError, match=f"the ({name}) at x = .* is too great") as caught:
             asked()
         assert caught.value.status == NOT_FINITE
     for one in (beam, f77):
         assert np.isnan(one.fields([0.0, middle], expect=NOT_FINITE)).all()  # nothing is written then
         one.extremes(expect=NOT_FINITE)
-    assert np.isfinite(result.at(0.0).deflection)
+    if "curvature" in name:  # of a short beam it is greater than rotation and deflection, and Python asks for all
+        assert np.isfinite(beam.fields([0.0])).all()
+    else:
+        assert np.isfinite(result.at(0.0).deflection)
     beam.close()
 
 

@@ -1,6 +1,6 @@
 !> A stretch of the load path: lines over the load factor, where they end, in doubles and in quadruple precision; and how good a
 !> state is
-program test_line
+program test_affine_response
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, detail_of, infinite
     use gapbeam_kinds, only: wp, qp
@@ -15,7 +15,7 @@ program test_line
         response_in
     use gapbeam_refined, only: refine_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
-    use gapbeam_scheme_quad, only: outcome_type
+    use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: region_type, find_region
     use gapbeam_recover, only: recover_beam
     use gapbeam_certificate, only: certificate_type, certify
@@ -179,4 +179,4 @@ contains
         end associate
     end subroutine certificates
 
-end program test_line
+end program test_affine_response

@@ -1,5 +1,5 @@
 !> What doubles decide, quadruple precision decides likewise; what they cannot is decided there, or named
-program test_referee
+program test_extended_precision
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite
     use gapbeam_kinds, only: wp, qp
@@ -8,12 +8,13 @@ program test_referee
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_rules, only: find_doubtful
     use gapbeam_search, only: rule_block
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_extended_precision, only: decide_scheme
     use gapbeam_refined, only: refine_loaded_beam
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_scheme_quad, only: find_fine_scheme => find_scheme, fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, &
+        fine_outcome_type => outcome_type
     implicit none
     integer :: status
 
@@ -84,7 +85,7 @@ contains
             fine_closed(:) = .true.
             call new_workspace(sample%beam, work)
             call set_loads(sample%beam, 1.0_wp, work)
-            call find_scheme(sample%beam, 1.0_wp, rule_block, closed, work, outcome, error)
+            call find_contact_state(sample%beam, 1.0_wp, rule_block, closed, work, outcome, error)
             if (allocated(error) .or. outcome%in_doubt) cycle
             if (outcome%status == gapbeam_solved) then
                 call find_doubtful(sample%beam, closed, work, doubtful)
@@ -93,7 +94,7 @@ contains
             end if
             compared = compared + 1
             call refine_loaded_beam(sample%beam, detail_of(sample), 1.0_qp, fine, fine_work)
-            call find_fine_scheme(fine, 1.0_qp, rule_block, fine_closed, fine_work, found, error)
+            call find_fine_contact_state(fine, 1.0_qp, rule_block, fine_closed, fine_work, found, error)
             if (allocated(error)) then
                 different = different + 1
             else if (found%status /= outcome%status) then
@@ -286,4 +287,4 @@ contains
         call decide_scheme(sample%beam, detail_of(sample), 1.0_wp, rule_block, closed, work, outcome, error)
     end subroutine decide
 
-end program test_referee
+end program test_extended_precision

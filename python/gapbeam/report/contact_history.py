@@ -1,4 +1,4 @@
-"""The history of the contact state (which supports act) over the load, and its events, as rows of text."""
+"""The contact state (which supports act) over the load, and its events, as rows of text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ History = Iterable[tuple[float, Sequence[str]]]
 
 
 def symbol(state: str, plain: bool = False) -> str:
-    """Give the character of a state; a digit for the branch of a support law.
+    """Give the character of a state; a digit for the segment of a support law.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def legend(states: Sequence[str], plain: bool = False) -> str:
 
 
 def merged(history: History) -> list[tuple[float, float, tuple[str, ...]]]:
-    """Draw consecutive equal schemes together: first factor, last factor, states.
+    """Draw consecutive equal contact states together: first factor, last factor, states.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def merged(history: History) -> list[tuple[float, float, tuple[str, ...]]]:
     return rows
 
 
-def scheme_table(history: History, width: int, plain: bool = False) -> tuple[list[str], list[list[str]]]:
+def contact_table(history: History, width: int, plain: bool = False) -> tuple[list[str], list[list[str]]]:
     """Give headings and rows of the history: as much as fits, a summary where it does not.
 
     Parameters
@@ -87,18 +87,18 @@ def scheme_table(history: History, width: int, plain: bool = False) -> tuple[lis
     -------
     headings : list of str
     rows : list of list of str
-        One per scheme.
+        One per contact state.
 
     Examples
     --------
-    >>> scheme_table([(0.5, ("bilateral", "closed")), (1.0, ("bilateral", "open"))], 80, plain=True)
-    (['load factor', '0', '1'], [['0.5', '^', '#'], ['1', '^', 'o']])
+    >>> contact_table([(0.5, ("bilateral", "closed")), (1.0, ("bilateral", "open"))], 80, plain=True)
+    (['load factor', 'support 0', '1'], [['0.5', '^', '#'], ['1', '^', 'o']])
     """
     rows = merged(history)
     supports = len(rows[0][2])
     factors = [_span(first, last) for first, last, _ in rows]
-    if 16 + 3 * supports <= width and supports <= LINE:
-        headings = ["load factor", *(str(index) for index in range(supports))]
+    if 24 + 3 * supports <= width and supports <= LINE:
+        headings = ["load factor", "support 0", *(str(index) for index in range(1, supports))]
         return headings, [
             [factor, *(symbol(state, plain) for state in states)]
             for factor, (_, _, states) in zip(factors, rows, strict=True)
@@ -141,7 +141,7 @@ def _span(first: float, last: float) -> str:
 
 
 def _grouped(factors: list[str], rows: list, width: int, plain: bool) -> tuple[list[str], list[list[str]]]:
-    """Write symbols in groups of ten, several lines a scheme."""
+    """Write symbols in groups of ten, several lines a contact state."""
     line = min(LINE, max(10, (width - 26) // 11 * 10))
     ruler = " ".join(str(index).ljust(10) for index in range(0, line, 10)).rstrip()
     table = []
@@ -155,7 +155,7 @@ def _grouped(factors: list[str], rows: list, width: int, plain: bool) -> tuple[l
 
 
 def _changes(factors: list[str], rows: list) -> tuple[list[str], list[list[str]]]:
-    """Tell how many there are of each state, and which supports changed since the scheme before."""
+    """Tell how many there are of each state, and which supports changed since the contact state before."""
     table = []
     before = None
     for factor, (_, _, states) in zip(factors, rows, strict=True):
@@ -167,7 +167,7 @@ def _changes(factors: list[str], rows: list) -> tuple[list[str], list[list[str]]
                 which = [index for index in changed if states[index] == name]
                 if which:
                     parts.append(f"{len(which)} {verb}: {_few(which)}")
-            text = "; ".join(parts) or f"{len(changed)} change branch: {_few(changed)}"
+            text = "; ".join(parts) or f"{len(changed)} change segment: {_few(changed)}"
         table.append([factor, str(states.count("closed")), str(states.count("open")), text])
         before = states
     return ["load factor", "closed", "open", "change, supports by number"], table

@@ -1,11 +1,11 @@
-!> The contact state of a beam, or the proof that there is none.
+!> The contact state of a beam, or the proof that it has no equilibrium: the search, around it what mechanisms need.
 !>
 !> Where the bilateral supports alone hold the beam every scheme is stable, and gapbeam_search ends with the right one.
 !> Other beams may pass through mechanisms. Then weak springs towards a reference position hold it, the reference
 !> moves to the solution, and this is repeated: the proximal point method (Rockafellar 1976). The springs are
 !> gone from the final answer. If the reference runs away along a free motion that no support can stop and along
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
-module gapbeam_scheme
+module gapbeam_contact_state
     use gapbeam_kinds, only: wp, dp
     use gapbeam_tolerances, only: sign_width, proximal_ratio
     use gapbeam_require, only: checked, require
@@ -25,7 +25,7 @@ module gapbeam_scheme
     use gapbeam_search, only: settle, refuse_scheme, rule_least_index
     implicit none
     private
-    public :: find_scheme, outcome_type
+    public :: find_contact_state, outcome_type
 
     !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone
     real(wp), parameter :: least_force = 8*real(epsilon(1.0_dp), wp)
@@ -50,7 +50,7 @@ module gapbeam_scheme
 contains
 
     !> Find the contact state and its solution
-    subroutine find_scheme(beam, factor, rule, closed, work, outcome, error)
+    subroutine find_contact_state(beam, factor, rule, closed, work, outcome, error)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> Load factor (the loads themselves are in work, by set_loads)
@@ -70,7 +70,7 @@ contains
         logical :: settled, refined
         integer :: attempt
 
-        if (checked) call require(size(closed) == size(beam%supports), "find_scheme: closed")
+        if (checked) call require(size(closed) == size(beam%supports), "find_contact_state: closed")
         closed = closed .or. always_closed(beam%supports)
         call separate_rigid_pairs(beam%supports, size(beam%links), closed)
         work%solves = 0
@@ -93,7 +93,9 @@ contains
                 if (allocated(error)) call find_motion_on_soft_supports(beam, factor, rule, start, outcome, error)
             end if
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-            if (checked) call require(all(closed .or. .not. always_closed(beam%supports)), "find_scheme: opened a bilateral one")
+            if (checked) then
+                call require(all(closed .or. .not. always_closed(beam%supports)), "find_contact_state: opened a bilateral one")
+            end if
             ! Once, so that the last digits are those of the scheme, whatever way led to it
             if (.not. refined) call refine_scheme(beam, closed, work)
             if (.not. (settled .and. (work%from_both_ends .or. by_stretches) .and. is_finite(work))) exit
@@ -104,7 +106,7 @@ contains
         if (.not. is_finite(work)) then
             call out_of_range(error)
         end if
-    end subroutine find_scheme
+    end subroutine find_contact_state
 
     !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
     !> its supports are, so it is decided with soft ones
@@ -256,4 +258,4 @@ contains
         unloaded = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
     end function is_unloaded
 
-end module gapbeam_scheme
+end module gapbeam_contact_state

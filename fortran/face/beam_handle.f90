@@ -1,5 +1,5 @@
-!> Prepared beams as numbers that Python keeps: the address of what gapbeam_assemble made of a scene
-module gapbeam_handle
+!> Handles of prepared beams for Python: the address of what gapbeam_assemble made of a scene
+module gapbeam_beam_handle
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_loc, c_funloc, c_f_pointer, c_null_ptr
     use gapbeam_kinds, only: wp
@@ -184,4 +184,4 @@ contains
         message = error%message
     end subroutine report
 
-end module gapbeam_handle
+end module gapbeam_beam_handle

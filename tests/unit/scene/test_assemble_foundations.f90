@@ -1,5 +1,5 @@
 !> From the words of foundations to layers of ground under the pieces of the beam
-program test_lower_foundations
+program test_assemble_foundations
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_status_type, ieee_get_status, &
         ieee_set_status, ieee_set_halting_mode, ieee_all
     use testing, only: check, check_close, finish
@@ -386,4 +386,4 @@ contains
         call check(before /= lowered%fingerprint, "another stretch")
     end subroutine fingerprints_differ
 
-end program test_lower_foundations
+end program test_assemble_foundations

@@ -1,5 +1,5 @@
 !> Contact states: the paper's beam from every start, cycling, floating beams, free motions
-program test_scheme
+program test_contact_state
     use testing, only: check, check_close, finish
     use beams, only: sample_type, make_beam, draw, draw_magnitude
     use gapbeam_kinds, only: wp
@@ -9,7 +9,7 @@ program test_scheme
     use gapbeam_model, only: beam_type, node_support_type, order_supports, below, above, both
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_scheme, only: find_scheme, outcome_type
+    use gapbeam_contact_state, only: find_contact_state, outcome_type
     implicit none
     integer :: status
 
@@ -73,7 +73,7 @@ contains
                 closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2)]
                 call new_workspace(beam, work)
                 call set_loads(beam, 1.0_wp, work)
-                call find_scheme(beam, 1.0_wp, rule, closed, work, outcome, error)
+                call find_contact_state(beam, 1.0_wp, rule, closed, work, outcome, error)
                 call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "solved")
                 call check(all(closed .eqv. [.true., .true., .false., .true.]), "supports 2 and 4 act, 3 is open")
                 call check_close(work%reaction(2:4), [f2 + 23*f3/22, 0.0_wp, f4 + 4*f3/11], "reactions")
@@ -104,7 +104,7 @@ contains
                 closed = [.true., btest(start, 0), btest(start, 1), btest(start, 2), .true.]
                 call new_workspace(beam, work)
                 call set_loads(beam, 1.0_wp, work)
-                call find_scheme(beam, 1.0_wp, rule, closed, work, outcome, error)
+                call find_contact_state(beam, 1.0_wp, rule, closed, work, outcome, error)
                 call check(all(closed .eqv. [.true., .true., .false., .true., .true.]), "closed, open, closed")
                 call check_close(work%answers(1:3)%deflection, [0.00888281_wp, 0.00046923_wp, -0.01191242_wp], &
                                  "deflections", 1e-6_wp)
@@ -134,7 +134,7 @@ contains
         closed = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
-        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call find_contact_state(beam, 1.0_wp, rule_block, closed, work, outcome, error)
         call check_close(work%reaction, [5.0_wp, 7.0_wp, 0.0_wp], "the far end lifts")
         call check_close(work%answers(2)%deflection, -1/6.0_wp, "by (q - 6 g) l**4/24 EI")
         beam%supports(3)%node = 1
@@ -143,7 +143,7 @@ contains
         closed = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
-        call find_scheme(beam, 1.0_wp, rule_block, closed(1:2), work, outcome, error)
+        call find_contact_state(beam, 1.0_wp, rule_block, closed(1:2), work, outcome, error)
         call check(.not. allocated(error) .and. outcome%status == gapbeam_no_equilibrium, "the plank tips")
         call check_close(outcome%motion, [-1.0_wp, 0.0_wp, 1.0_wp], "about the middle support")
     end subroutine plank
@@ -163,7 +163,7 @@ contains
         closed = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
-        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call find_contact_state(beam, 1.0_wp, rule_block, closed, work, outcome, error)
         call check(allocated(error), "refused")
         if (allocated(error)) call check(error%code == gapbeam_indeterminate, "as not determined")
     end subroutine rigid_plank
@@ -195,7 +195,7 @@ contains
                 beam%force(2, 3*n/4) = -lift
                 call new_workspace(beam, work)
                 call set_loads(beam, 1.0_wp, work)
-                call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+                call find_contact_state(beam, 1.0_wp, rule_block, closed, work, outcome, error)
                 call check(.not. allocated(error) .and. outcome%status == gapbeam_solved, "solved")
                 call check(work%solves <= merge(30, 8, step == 1), "in few solves")
                 ! Statics of the lifted end: 1.5 x = q x**2/2 at x = 3
@@ -221,7 +221,7 @@ contains
         closed(:) = .true.
         call new_workspace(beam, work)
         call set_loads(beam, 1.0_wp, work)
-        call find_scheme(beam, 1.0_wp, rule_block, closed, work, outcome, error)
+        call find_contact_state(beam, 1.0_wp, rule_block, closed, work, outcome, error)
         call check(.not. allocated(error), "parts that cannot be settled: an error")
         call check(outcome%status == gapbeam_no_equilibrium, "parts that cannot be settled: equilibrium")
         call check(work%solves < 600, "parts that cannot be settled: solves")
@@ -254,4 +254,4 @@ contains
         end do
     end subroutine hinged_beam
 
-end program test_scheme
+end program test_contact_state
