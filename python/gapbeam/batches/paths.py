@@ -21,6 +21,7 @@ import msgspec
 from ..base.characters import visible
 from ..base.errors import SceneError
 from ..scene.combinations import VALUES
+from ..scene.edited import unquoted
 from ..scene.names import NAMED, cases_of
 from ..scene.structs import Scene, Train
 from ..scene.trains import joined
@@ -36,7 +37,7 @@ OF_SPANS = ("EI", "GA", "EA")
 NAMES = (*NAMED, "trains")
 MOST = 20_000
 """Numbers of a scene among which a similar one is looked for."""
-PIECE = re.compile(r"""\.?(?:"(?P<quoted>[^"]*)"|'(?P<single>[^']*)'|\[(?P<index>\d{1,9})\]|(?P<bare>[^.\[\]"']+))""")
+PIECE = re.compile(r"""\.?(?:"(?P<quoted>(?:[^"\\]|\\.)*)"|'(?P<single>[^']*)'|\[(?P<index>\d{1,9})\]|(?P<bare>[^.\[\]"']+))""")
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,6 +261,7 @@ def _pieces(name: str) -> list[str | int] | None:
             return None
         at = piece.end()
         text = next(piece[kind] for kind in ("quoted", "single", "index", "bare") if piece[kind] is not None)
+        text = unquoted(text) if piece["quoted"] is not None else text
         found.append(int(text) if piece["index"] else text.strip() if piece["bare"] else text)
     return found if at == len(name) and found else None
 

@@ -14,6 +14,7 @@ from ..results.views.columns import Columns, one_of
 from ..results.views.extreme import Extreme, Extremes, Source
 from ..results.views.labelled import Labelled
 from ..results.views.shown import Shown
+from .scene_cases import AT_SUPPORTS
 
 if TYPE_CHECKING:
     from .summary import Distribution
@@ -110,6 +111,17 @@ class ManyVerbs(Shown):
         keys = [name.partition(".")[2] for name in names]
         return Labelled(quantity, "support", [int(key) if key.isdecimal() else key for key in keys], Lazy(self._of, names))
 
+    def _openings(self) -> list[str]:
+        """Names of the largest opening of every support."""
+        names = [name for name in self._there if name.startswith("opening.")]
+        if not names:
+            self._by_support("opening")  # says what is missing
+        if names == ["opening.max", "opening.min"]:
+            raise ValueError("lifted: each scene of the folder has supports of its own; solve the one that the column scene names")
+        largest = [name for name in names if name.endswith(".max")]
+        of_envelope = sorted(names) == sorted([*largest, *(name.removesuffix(".max") + ".min" for name in largest)])
+        return largest if of_envelope else names
+
     @property
     def extremes(self) -> Extremes:
         """Largest and smallest values of every field, by field, then by ``max`` and ``min``."""
@@ -119,7 +131,7 @@ class ManyVerbs(Shown):
         found: dict[str, dict[str, Any]] = {}
         for name in self._there:
             field, _, kind = name.partition(".")
-            if kind in ("max", "min"):
+            if kind in ("max", "min") and field not in AT_SUPPORTS:  # of a support with such a name, or of a folder of scenes
                 found.setdefault(field, {})[kind] = self._extreme(field, name)
         return found
 
@@ -154,6 +166,8 @@ class BatchVerbs(ManyVerbs):
     def states(self) -> Labelled:
         """States by number and name of the support, an array of words for every case; None where one is not solved."""
         openings, supports = self.openings, self.scene.supports
+        if self.scene.combinations or self.scene.trains:
+            raise ValueError("states: there are many; take those of a case, gapbeam.solve(batch.scene_of(case)).states")
         if any(support.law is not None for support in supports):
             raise ValueError("states: some supports have laws; take those of a case, gapbeam.solve(batch.scene_of(case)).states")
 
@@ -167,9 +181,7 @@ class BatchVerbs(ManyVerbs):
     @property
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact: in which part of the solved cases, and in which the opening is largest."""
-        names = [name for name in self.results if name.startswith("opening.")]
-        if not names:
-            return self._by_support("opening")  # says what is missing
+        names = self._openings()
         one_sided = [support.side != "both" for support in self.scene.supports]
         solved, counts = 0, np.zeros(len(names), dtype=np.int64)
         largest, cases = np.zeros(len(names)), np.zeros(len(names), dtype=np.int64)
@@ -267,8 +279,7 @@ class SummaryVerbs(ManyVerbs):
     @property
     def lifted(self) -> list[Lifted]:
         """One-sided supports without contact: in which part of the cases, and the largest opening."""
-        names = [name for name in self.columns if name.startswith("opening.")]
-        ones = [(k, self.columns[name]) for k, name in enumerate(names)]
+        ones = [(k, self.columns[name]) for k, name in enumerate(self._openings())]
         return [Lifted(k, one.largest, share=one.positive / one.count) for k, one in ones if one.positive]
 
     def _only(self, name: str) -> SummaryVerbs:

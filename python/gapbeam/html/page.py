@@ -14,7 +14,7 @@ import numpy as np
 from ..base.characters import visible
 from ..base.errors import GapbeamError
 from ..results import formatting as fmt
-from ..results.answer import answer, has_cheap_envelope
+from ..results.answer import answer, has_cheap_envelope, holds_values
 from ..results.envelopes.over_path import PathEnvelope
 from ..results.event_words import state_in_words
 from .geometry import foundations_data, panels_data, units_data
@@ -86,8 +86,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
     scene = result.scene
     source = source or Source("", scene.to_toml().encode())
     envelope = result.envelope() if result.has_envelope and has_cheap_envelope(result) else None
-    if envelope is not None and not envelope.extremes:
-        envelope = None
+    envelope = envelope if holds_values(envelope) else None
     state = _state_to_check(result, envelope)
     first = None if state is None else ((state.combination, state.train, state.direction), state.position)
     collected = collect_ways(result, envelope, first)

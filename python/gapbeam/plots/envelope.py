@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
+from ..results.answer import holds_values
 from ..results.formatting import stretch
 from ..results.trains.envelope import places_along
 from ..scene.loads import ForceLoad
@@ -27,7 +28,7 @@ from .labels import text_width
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import Marks
-from .panels import MOST_POINTS, PANELS, counts, cut_text
+from .panels import MOST_POINTS, PANELS, counts, cut_text, outcome
 from .save import literal
 from .sheet import Sheet, along, heading_height
 from .states import legend_handles, plain_states
@@ -113,6 +114,8 @@ def envelope_figure(result: Result) -> Figure:
 def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     """Make the envelope at so many places that its curves look smooth; where something jumps, on both sides."""
     scene = result.scene
+    if scene.trains and not result.has_envelope:
+        return None
     points = max(POINTS, POINTS_ALL // len(scene.beam.spans), min(points_a_span(scene, result._beam), MOST_ON_GROUND))
     points = int(max(2, min(points, MOST_POINTS // len(scene.beam.spans))))
     if not scene.trains:
@@ -122,7 +125,8 @@ def _envelope(result: Result) -> Envelope | TrainEnvelope | None:
     jumps = np.unique(np.concatenate([np.ravel(one) for one in jumps]))
     jumps = jumps[(jumps > 0.0) & (jumps < end)]
     beside = np.concatenate((np.setdiff1d(places, jumps), jumps - BESIDE * end, jumps + BESIDE * end))
-    return result.envelope(x=np.unique(beside))
+    envelope = result.envelope(x=np.unique(beside))
+    return envelope if holds_values(envelope) else None
 
 
 def _ends_of_ways(result: Result) -> list[np.ndarray]:
@@ -138,13 +142,13 @@ def _ends_of_ways(result: Result) -> list[np.ndarray]:
 
 def _headline(result: Result, sources: list[Any]) -> str:
     """Say what the picture is of."""
-    text = "Largest and smallest values"
+    text = "Largest and smallest values" if sources else outcome(result)
     if result.combinations:
         total, solved = len(result.names), result.statuses.count("solved")
         text = f"Envelope of {fmt.count(total, 'combination')}"
-        if solved < total and not result.scene.trains:
+        if solved < total and not (result.scene.trains and sources):
             text = f"Envelope of {solved:,} of {fmt.count(total, 'combination')}, the others are not solved"
-    if result.scene.trains:
+    if result.scene.trains and sources:
         names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
         text += cut_text(f" while trains pass: {names}", 85)
     return text + "; the strips tell which one governs" * (len({source_name(one) for one in sources}) > 1)

@@ -68,8 +68,24 @@ def known_envelope(result: Result) -> Envelope | TrainEnvelope | None:
         None where no state stands.
     """
     if result.has_envelope:
-        return result.envelope() if not result.combinations or "solved" in result.statuses else None
+        envelope = result.envelope() if not result.combinations or "solved" in result.statuses else None
+        return envelope if holds_values(envelope) else None
     return result.path_envelope() if not result.combinations and result.steps and is_followed(result) else None
+
+
+def holds_values(envelope: Envelope | TrainEnvelope | None) -> bool:
+    """Tell whether there is any value in an envelope: there is none where a beam falls wherever its trains are.
+
+    Parameters
+    ----------
+    envelope : Envelope, TrainEnvelope or None
+        Of a result.
+
+    Returns
+    -------
+    bool
+    """
+    return envelope is not None and any(one is not None for row in envelope.extremes.values() for one in row.values())
 
 
 def _place(scene: Scene, one: Extreme | Utilisation) -> str:

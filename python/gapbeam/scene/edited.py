@@ -17,7 +17,7 @@ from ..base.hints import nearest
 from .wording import key_of, shown
 
 S = TypeVar("S", bound=msgspec.Struct)
-PIECE = re.compile(r"""\.?(?:"(?P<quoted>[^"]*)"|\[(?P<index>-?\d{1,9})\]|(?P<bare>[^.\[\]"]+))""")
+PIECE = re.compile(r"""\.?(?:"(?P<quoted>(?:[^"\\]|\\.)*)"|\[(?P<index>-?\d{1,9})\]|(?P<bare>[^.\[\]"]+))""")
 OF_SPANS = ("EI", "GA", "EA")
 """Keys of the beam that hold one number for all spans, or one for each."""
 
@@ -189,11 +189,34 @@ def pieces_of(path: str) -> list[str | int]:
         if piece.start() != at:
             break
         at = piece.end()
-        text = piece["quoted"] if piece["bare"] is None else piece["bare"].strip()
+        text = unquoted(piece["quoted"] or "") if piece["bare"] is None else piece["bare"].strip()
         pieces.append(int(piece["index"]) if piece["index"] else text)
     if at != len(path) or not pieces:
         raise SceneError(shown(path), 'is no key path of a scene; such are "supports[2].gap" and "beam.EI"')
     return pieces
+
+
+def unquoted(text: str) -> str:
+    r"""Read what stands between quotation marks, as `shown` writes it; by hand a backslash may stand there alone.
+
+    Parameters
+    ----------
+    text : str
+        Without the quotation marks.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> unquoted(r'the \"hot\" leg'), unquoted(r"C:\piers")
+    ('the "hot" leg', 'C:\\piers')
+    """
+    try:
+        return json.loads(f'"{text}"', strict=False)
+    except ValueError:
+        return text
 
 
 def _set(owner: Any, key: str | int, value: Any) -> None:

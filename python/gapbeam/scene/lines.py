@@ -9,6 +9,7 @@ from typing import Any
 
 from ..base.errors import SceneError
 from .edited import pieces_of
+from .wording import shown
 
 Path = tuple[str | int, ...]
 BLANK = re.compile(r"(?:[ \t\r\n,]|#[^\n]*)*")
@@ -190,10 +191,18 @@ def path_of(place: str, data: Any) -> Path:
     for piece in pieces:
         if isinstance(data, list):
             names = [one.get("name") if isinstance(one, dict) else None for one in data]
-            piece = names.index(piece) if piece in names else piece
+            piece = _found(piece, {name: names.index(name) for name in names if isinstance(name, str)})
             inside = data[piece] if isinstance(piece, int) and 0 <= piece < len(data) else None
         else:
+            piece = _found(piece, {key: key for key in data}) if isinstance(data, dict) else piece
             inside = data.get(piece) if isinstance(data, dict) else None
         path.append(piece)
         data = inside
     return tuple(path)
+
+
+def _found(piece: str | int, there: dict[str, str | int]) -> str | int:
+    """The key or number that a piece stands for; messages shorten long names."""
+    if piece in there or not isinstance(piece, str):
+        return there.get(piece, piece)
+    return next((one for name, one in there.items() if isinstance(name, str) and shown(name) == shown(piece)), piece)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from time import perf_counter
@@ -26,6 +27,7 @@ HARMLESS: dict[str, Callable[[float, int, int], dict[str, Any]]] = {
 }
 """Entries that stand for what is wrong: they keep their number, their name and their case."""
 KEPT = ("name", "case")
+MEANT = re.compile(r'did you mean "(\w+)"')
 REFERENCES = {"no load is of this case": ("loads", "case"), "there is no support": ("supports", "name"),
               "there is no foundation": ("foundation", "name"), "there is no train": ("trains", "name")}  # fmt: skip
 """Problems that come of what is left out: the list and the key that others refer to."""
@@ -113,7 +115,10 @@ class _Repair:
             return False
         owner = self._owner(path)
         if error.problem.startswith("unknown key") and isinstance(owner, dict) and path[-1] in owner:
+            meant = MEANT.search(error.problem)
             del owner[path[-1]]
+            if meant and meant[1] not in owner:
+                self._leave_out((*path[:-1], meant[1]), owner)
             return True
         if path[0] == "beam":
             return self._beam(path)
@@ -126,6 +131,13 @@ class _Repair:
         self._done.add(taken)
         del owner[taken[-1]]
         return True
+
+    def _leave_out(self, path: Path, owner: dict[str, Any]) -> None:
+        """Take a key away; where a gap may stand beside it, the side is put right."""
+        self._done.add(path)
+        owner.pop(path[-1], None)
+        if path[0] == "supports" and path[-1] == "side" and owner.get("direction") != "axial":
+            owner["side"] = "below"
 
     def _owner(self, path: Path) -> Any:
         """The table or list that the last piece of a path stands in."""
@@ -157,10 +169,7 @@ class _Repair:
         for end in range(len(path), 2, -1):  # as little as will do
             owner = self._owner(path[:end])
             if isinstance(owner, dict) and path[end - 1] in owner and path[:end] not in self._done:
-                self._done.add(path[:end])
-                del owner[path[end - 1]]
-                if path[end - 1] == "side":
-                    owner["side"] = "below"  # the default, "both", takes no gap
+                self._leave_out(path[:end], owner)
                 return True
         self._done.add(path[:2])
         spans = self._data["beam"].get("spans") if isinstance(self._data.get("beam"), dict) else None

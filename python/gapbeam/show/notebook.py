@@ -6,6 +6,7 @@ import base64
 from collections.abc import Callable
 from html import escape
 
+from ..results.answer import known_envelope
 from ..results.result import Result
 from ..results.views.columns import Columns
 
@@ -38,7 +39,8 @@ def html_of(result: Result, lines: list[str], picture: Callable[[], bytes]) -> s
         Without scripts and without anything from elsewhere.
     """
     scene = result.scene
-    table = result.table("supports") if result.has_envelope and scene.supports else None
+    there = result.has_envelope and scene.supports and known_envelope(result) is not None
+    table = result.table("supports") if there else None
     small = max(len(scene.beam.spans), len(scene.supports)) <= MOST_DRAWN
     return html_of_lines(lines, table, picture if small else None)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..results import formatting as fmt
-from ..results.answer import values_in_words
+from ..results.answer import holds_values, values_in_words
 from ..results.contact import contact_in_words
 from ..results.envelopes.verbs import PartVerbs
 from ..results.trains.trains import TrainResult
@@ -29,7 +29,7 @@ def part_answer(part: PartVerbs) -> list[str]:
     lines = [f"{fmt.title(part.scene)}: {what}"]
     if part.reason is not None:
         lines.append(fmt.sentence(part.reason))
-    if ranges.extremes:
+    if holds_values(ranges):
         lines += contact_in_words(result, part.lifted) + values_in_words(result, ranges)
     return lines
 

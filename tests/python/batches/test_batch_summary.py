@@ -159,3 +159,33 @@ def test_nothing_done_and_nothing_solved(tmp_path):
     for part in (tmp_path / "out").glob("part*"):
         part.unlink()
     assert gapbeam.Batch(tmp_path / "out").summary().statuses == {}
+
+
+def test_of_combinations_each_support_has_its_largest_opening(tmp_path):
+    """A support may be called "max", and there are two columns for each."""
+    scene = {
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4}, "loads": [{"type": "uniform", "q": 5.0}],
+        "supports": [{"node": 0, "name": "max"}, {"node": 1, "side": "below", "gap": 0.5, "name": "pier"}, {"node": 2}],
+    }  # fmt: skip
+    one = gapbeam.batch(scene, {"loads[0].q": [1.0, 2.0]}, tmp_path / "one")
+    assert list(one.extremes) == ["deflection", "moment"]
+    combinations = [{"name": "a", "factors": {"live": 1.0}}, {"name": "b", "factors": {"live": -1.0}}]
+    both = gapbeam.batch({**scene, "combinations": combinations}, {"loads[0].q": [1.0, 2.0]}, tmp_path / "both")
+    for batch, largest in ((one, one.openings["pier"]), (both, both.openings["pier.max"])):
+        for lifted in (batch.lifted, batch.summary().lifted):
+            assert [(lift.support, lift.opening, lift.share) for lift in lifted] == [(1, largest.max(), 1.0)]
+    with pytest.raises(ValueError, match="states: there are many"):
+        _ = both.states
+
+
+def test_the_scenes_of_a_folder_have_no_supports_in_common(tmp_path):
+    (tmp_path / "scenes").mkdir()
+    for k in range(2):
+        scene = gapbeam.Scene(beam=gapbeam.Beam([6.0], EI=1e4), supports=[gapbeam.Support(node=0), gapbeam.Support(node=1)])
+        gapbeam.replace(scene, "loads", [gapbeam.UniformLoad(q=k + 1.0)]).to_toml(tmp_path / "scenes" / f"{k}.toml")
+    batch = gapbeam.batch(tmp_path / "scenes", None, tmp_path / "out")
+    assert list(batch.extremes) == ["deflection", "moment"]
+    assert batch.extremes["moment"]["max"].value == pytest.approx([4.5, 9.0])
+    for one in (batch, batch.summary()):
+        with pytest.raises(ValueError, match="scene"):
+            _ = one.lifted

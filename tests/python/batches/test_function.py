@@ -1,5 +1,6 @@
 """One callable of a scene: the numbers of batches and of `solve`, names and units, cases that fail."""
 
+import json
 import pickle
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -218,3 +219,12 @@ def test_mistakes_are_said(inputs, outputs, words):
 def test_other_shapes_are_refused(X):
     with pytest.raises(ValueError, match="X: expected 4 numbers a case"):
         gapbeam.function(SCENE, PREPARED, ["moment.max"])(X)
+
+
+def test_a_path_with_quotes_in_a_name_is_taken_as_it_is_suggested():
+    scene = {"beam": {"spans": [6.0], "EI": 1e4}, "loads": [{"type": "uniform", "q": 1.0}],
+             "supports": [{"node": 0, "side": "below", "name": 'a "b" \\c'}, {"node": 1}]}  # fmt: skip
+    with pytest.raises(gapbeam.SceneError) as error:
+        gapbeam.function(scene, ['supports.a "b" \\c.gap'], ["reaction[0]"])
+    suggested = json.loads(str(error.value).partition("did you mean ")[2].removesuffix("?"))
+    assert gapbeam.function(scene, [suggested], ["reaction[0]"])([0.0]) == pytest.approx([3.0])

@@ -161,3 +161,53 @@ def test_data_from_python_are_told_as_before():
         gapbeam.read_scene(data)
     assert str(caught.value).startswith("beam.EI: expected")
     assert data == before
+
+
+ODD = """\
+beam = { spans = [6.0, 6.0], EI = 1e4 }
+[[supports]]
+node = 0
+name = 'a "\\ b'
+gap = 1.0
+[[supports]]
+nodex = 1
+name = "a name that is by far too long for any message that has to stand in one line"
+[[supports]]
+node = 2
+gap = 0.01
+SIDE_ = "below"
+[[supports]]
+node = 1
+gap = 0.01
+side = 3
+[[loads]]
+name = "a load whose name is by far too long for any message that has to stand in one line"
+type = "uniform"
+q = 1.0
+casex = "wind"
+to = -inf
+[[combinations]]
+name = 'rest'
+factors = { wind = 1.0 }
+"""
+
+
+def test_odd_names_have_their_lines_and_what_follows_from_a_mistake_is_none(tmp_path):
+    path = tmp_path / "odd.toml"
+    path.write_text(ODD)
+    with pytest.raises(gapbeam.SceneError) as error:
+        gapbeam.read_scene(path)
+    assert [(line, ODD.splitlines()[line - 1].split(" =")[0]) for line, *_ in error.value.mistakes] == [
+        (5, "gap"), (7, "nodex"), (12, "SIDE_"), (16, "side"), (21, "casex"), (22, "to"),
+    ], str(error.value)
+
+    case = BAD[: BAD.index("EI")] + "EI = 1e4\n[[combinations]]\nname = 'r'\n[combinations.factors]\n'sn\"ow' = 1.0\n"
+    path.write_text(case)
+    with pytest.raises(gapbeam.SceneError) as error:
+        gapbeam.read_scene(path)
+    assert error.value.mistakes[-1][0] == len(case.splitlines())
+
+
+def test_an_entry_is_replaced_by_the_name_that_messages_show():
+    scene = gapbeam.Scene(beam=gapbeam.Beam([6.0], EI=1e4), supports=[gapbeam.Support(node=0, name='a "\\ b')])
+    assert gapbeam.replace(scene, r'supports "a \"\\ b".gap', 0.5).supports[0].gap == 0.5

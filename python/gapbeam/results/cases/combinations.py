@@ -201,6 +201,7 @@ class Combinations(Pickled, Mapping[str, Result]):
             result.reason = (
                 f"the combination {shown(plan.names[other])}, whose contact state it takes, is not solved"
             )
+            result.steps.outcome = result.status, result.reason
             return result
         acts = [state != "open" for state in before.steps[-1].state]
         scene = plan.scene_of(k, acts)

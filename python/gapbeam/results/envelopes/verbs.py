@@ -69,7 +69,8 @@ class PartVerbs(Shown):
     def states(self) -> Labelled:
         """All states that a support is in, a tuple by number and name of the support: ``("closed", "open")``."""
         seen = list(self._seen_states())
-        return by_support(self.scene, "state", [tuple(sorted(set(column))) for column in zip(*seen, strict=True)])
+        columns = zip(*seen, strict=True) if seen else [()] * len(self.scene.supports)  # where no state stands
+        return by_support(self.scene, "state", [tuple(sorted(set(column))) for column in columns])
 
     def _seen_states(self) -> Any:
         """States of all supports, one state of the beam after the other."""

@@ -137,8 +137,8 @@ class TrainEnvelope(PartVerbs):
         n = len(x)
         piece, distance = beam.find(x, False)
         between = np.flatnonzero((distance == 0.0) & (piece > 1))  # there fields may jump
-        pieces, distances = map(np.concatenate, zip((piece, distance), beam.find(x[between], True), strict=True))
         rows = np.append(np.arange(n), between)
+        places, left = x[rows], np.arange(len(rows)) >= n
         if self._x is None:
             order = np.argsort(np.append(2 * np.arange(n) + 1, 2 * between))
             x, rows = x[rows][order], np.argsort(order)
@@ -148,7 +148,7 @@ class TrainEnvelope(PartVerbs):
         members = np.zeros((2, len(fields), len(x)), dtype=np.int32)
         values[0], values[1] = -np.inf, np.inf
         for number, member in enumerate(self._members):
-            found, where = member.curves(pieces, distances)
+            found, where = member.curves(places, left)
             for (half, at), (i, sign) in product(halves, enumerate((1.0, -1.0))):
                 better = sign * found[i][:, half] > sign * values[i][:, at]
                 row, column = np.nonzero(better)

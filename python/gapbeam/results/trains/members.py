@@ -121,8 +121,8 @@ class Member:
         """Give the same of a foundation: its ``resultant``, ``length`` or ``sag`` of its free spans."""
         raise NotImplementedError
 
-    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Give largest and smallest fields at places, and positions, 2 by fields by places."""
+    def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Give largest and smallest fields at places, left or right of each, and positions, 2 by fields by places."""
         raise NotImplementedError
 
     def state_of(self, extreme: TrainExtreme) -> Step:
@@ -182,9 +182,10 @@ class Passing(Member):
             for (value, x, position), side in rows
         ]
 
-    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
-        return self._traversal.engine.curves(piece, distance)
+        engine = self._traversal.engine
+        return engine.curves(*_found(engine.beam, x, left))
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`: where the beam tips at a position, that before or that after it, whichever has the value."""
@@ -226,9 +227,9 @@ class Neutral(Passing):
         """As `Member.of_supports`."""
         return super().of_supports(support, quantity, i) if quantity in OF_FORCES else []
 
-    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
-        values, positions = (found.copy() for found in self._held.curves(piece, distance))
+        values, positions = (found.copy() for found in self._held.curves(*_found(self._held.beam, x, left)))
         values[:, [k for k, name in enumerate(BENDING) if name not in OF_FORCES]] = np.nan
         return values, positions
 
@@ -243,6 +244,13 @@ class Neutral(Passing):
     def is_unique(self, quantity: str) -> bool:
         """As `Member.is_unique`."""
         return quantity in OF_FORCES
+
+
+def _found(beam: Beam, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Find pieces and distances on the beam of a member: each combination may be cut at other places."""
+    (piece, distance), of_left = beam.find(x, False), beam.find(x[left], True)
+    piece[left], distance[left] = of_left
+    return piece, distance
 
 
 def _value_in(state: Step, extreme: TrainExtreme) -> float:
@@ -292,10 +300,10 @@ class Standing(Member):
         span = max(spans, key=lambda one: size_of(one, quantity), default=None)
         return [TrainExtreme(self, quantity, size_of(span, quantity), None, None, None, None, foundation, span)] if span else []
 
-    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         step, beam = self._result.steps[-1], self._result._beam
-        values = step.solution.values(piece, distance)
+        values = step.solution.values(*_found(beam, x, left))
         found = np.array([values[beam.fields[name]] for name in fields_of(beam)])
         return np.stack((found, found)), np.full((2, *found.shape), np.nan)
 

@@ -79,12 +79,9 @@ class SampledMember(Member):
                 found.append(TrainExtreme(self, quantity, sign * peak.value, None, None, None, position, foundation, span))
         return found
 
-    def curves(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         beam = self._traversal.loads.beam
-        lengths = beam.places.pieces[piece - 1, 0]
-        left = distance == lengths
-        x = np.where(left, beam.places.point_x[piece], beam.places.point_x[piece - 1] + distance)
         lines = Lines(self._traversal, x, left, [FIELDS.index(name) for name in fields_of(beam)])
         return lines.best, lines.at
 

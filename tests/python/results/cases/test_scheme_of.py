@@ -77,3 +77,14 @@ def test_schemes_taken_from_others_are_solved_exactly():
         assert second.deflection == pytest.approx(deflection, abs=1e-11 * max(map(abs, deflection))), seed
         states |= {(one["side"], one["gap"] > 0, state) for one, state in zip(supports, first.state, strict=True) if "side" in one}
     assert len(states) == 8  # both sides, gaps of either sign, closed and open
+
+
+def test_without_the_other_combination_there_is_no_step_and_it_is_said_why():
+    result = gapbeam.solve({
+        "beam": {"spans": [4.0], "EI": 1e4}, "supports": [{"node": 0, "side": "below"}],
+        "loads": [{"type": "force", "x": 3.0, "F": 1.0}],
+        "combinations": [{"name": "falls", "factors": {"live": 1.0}},
+                         {"name": "takes", "factors": {"live": 1.0}, "scheme_of": "falls"}],
+    })  # fmt: skip
+    with pytest.raises(gapbeam.UnsolvedError, match='no load step stands; the combination "falls", whose contact state'):
+        result.combinations["takes"].table("supports")

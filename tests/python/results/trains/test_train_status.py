@@ -96,3 +96,40 @@ def test_a_combination_that_stands_nowhere_hides_none_that_stands(turn):
         assert found.largest[name].tolist() == values.tolist()
         assert found.smallest[name].tolist() == expected.smallest[name].tolist()
         assert found.largest_at[name].tolist() == expected.largest_at[name].tolist()
+
+
+def test_combinations_of_which_none_has_an_answer_can_be_shown(tmp_path, capsys):
+    """A rigid beam on three rigid supports: no forces are unique, with and without the train."""
+    scene = {
+        "beam": {"spans": [1.0, 1.0], "EI": float("inf")}, "supports": [{"node": i} for i in range(3)],
+        "loads": [{"type": "uniform", "q": 1.0, "case": "dead"}], "trains": [{"name": "t", "axles": [[0.0, 1.0]]}],
+        "combinations": [{"name": "a", "factors": {"dead": 1.0, "live": 1.0}}, {"name": "b", "factors": {"dead": 1.0}}],
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    assert set(result.statuses) == {"indeterminate"}
+    assert "0 of 2 combinations solved" in result._repr_html_()
+    assert "Envelope of 0 of 2 combinations, the others are not solved" in str([text.get_text() for text in result.plot().texts])
+    path = tmp_path / "rigid.toml"
+    gapbeam.read_scene(scene).to_toml(path)
+    assert main(["run", str(path), "--quiet", "--plot", str(tmp_path / "rigid.svg"), "--html", str(tmp_path / "rigid.html")]) == 1
+    assert "statics" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("combined", [False, True])
+def test_a_train_under_which_the_beam_always_falls_can_be_shown(tmp_path, combined):
+    """Nothing is said of supports then."""
+    heavy = plank(trains=[{"name": "man", "axles": [[0.0, 5.0]], "from": 2.9, "to": 3.0}])
+    if combined:
+        heavy["combinations"] = [{"name": "a", "factors": {"dead": 1.0, "live": 1.0}}]
+    result = gapbeam.solve(heavy)
+    assert result.status == "no-equilibrium"
+    assert result.envelope().extremes["moment"] == {"max": None, "min": None}
+    for shown in (result, result.envelope()):
+        assert "lifts off" not in repr(shown) + shown.report()
+        assert "of 1 combination" in repr(shown) or "tips" in repr(shown)
+        assert shown.lifted == []
+    assert set(result.envelope().states.to_dict().values()) == {()}
+    assert "nan" not in result._repr_html_().partition("<img")[0]
+    words = " ".join(text.get_text() for text in result.plot().texts)
+    assert ("Envelope of 0 of 1 combination" if combined else "tips about") in words
+    assert "tips about" in result.to_html(tmp_path / "page.html")

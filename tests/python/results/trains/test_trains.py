@@ -574,3 +574,25 @@ def test_old_names_warn():
     for one in (train, train.envelope()):
         with pytest.warns(DeprecationWarning, match="called unstable_positions"):
             assert one.gaps == one.unstable_positions == []
+
+
+@pytest.mark.parametrize("live", [0.0, 2.0])
+def test_curves_of_a_combination_in_the_state_of_another(live):
+    """Its beam is cut at other places, since loads that do not act there are no loads of it."""
+    taking = {"name": "takes", "factors": {"dead": 1.0, "wind": 1.0} | ({"live": live} if live else {}), "scheme_of": "leads"}
+    result = gapbeam.solve({
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": [{"node": i, "side": "below"} for i in range(3)],
+        "loads": [{"type": "uniform", "q": 5.0, "case": "dead"},
+                  {"type": "uniform", "from": 1.0, "to": 2.0, "q": 1.0, "case": "snow"},
+                  {"type": "force", "x": 3.5, "F": 80.0, "case": "wind"}],
+        "trains": [{"name": "t", "axles": [[0.0, 6.0]]}],
+        "combinations": [{"name": "leads", "factors": {"dead": 1.0, "live": 1.0, "snow": 1.0}}, taking],
+    })  # fmt: skip
+    largest = result.envelope().extremes["moment"]["max"]
+    assert (largest.combination, largest.x) == ("takes", 3.5)
+    places = np.linspace(0.1, 11.9, 60)
+    curves, alone = result.envelope(x=[*places, 3.5]).fields, result.combinations["takes"].envelope(x=[*places, 3.5]).fields
+    assert curves.largest["moment"][-1] == pytest.approx(largest.value, rel=1e-12)
+    for name in ("moment", "deflection", "rotation"):
+        both = result.combinations["leads"].envelope(x=[*places, 3.5]).fields.largest[name]
+        np.testing.assert_allclose(curves.largest[name], np.maximum(both, alone.largest[name]), rtol=1e-9, atol=1e-12)
