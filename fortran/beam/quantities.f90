@@ -76,12 +76,17 @@ contains
         real(wp), intent(in) :: softness(2), kappa
         real(wp) :: values(bending_count)
         real(wp) :: share(state_count + 1, derived_count)
-        integer :: d
+        integer :: d, k
 
         values(1:state_count) = state
         share(:, :) = shares_of(softness)
         do d = 1, derived_count
-            values(state_count + d) = dot_product(share(1:state_count, d), state) + share(state_count + 1, d)*kappa
+            values(state_count + d) = 0.0_wp
+            do k = 1, state_count
+                ! No share of what may be no number is nothing
+                if (abs(share(k, d)) > 0.0_wp) values(state_count + d) = values(state_count + d) + share(k, d)*state(k)
+            end do
+            values(state_count + d) = values(state_count + d) + share(state_count + 1, d)*kappa
         end do
     end function with_derived
 
