@@ -257,8 +257,7 @@ contains
             bend(4) = steep
             bend(3) = most
             bend(2) = softness(1)*(max(abs(left(4)), abs(right(4))) + l**2/8*steep)
-            bend(1) = abs(kappa) + softness(1)*(max(abs(left(3)), abs(right(3))) + l**2/8*most) &
-                + softness(2)*most
+            bend(1) = abs(kappa) + softness(1)*(max(abs(left(3)), abs(right(3))) + l**2/8*most) + softness(2)*most
             share(:, :) = shares_of(softness)
             first(:) = with_derived(left, softness, kappa)
             last(:) = with_derived(right, softness, kappa)
