@@ -82,7 +82,7 @@ class SampledMember(Member):
     def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         beam = self._traversal.loads.beam
-        lines = Lines(self._traversal, x, left, [FIELDS.index(name) for name in fields_of(beam)])
+        lines = Lines(self._traversal, x, left | (x >= beam.places.end), [FIELDS.index(name) for name in fields_of(beam)])
         return lines.best, lines.at
 
     def state_of(self, extreme: TrainExtreme) -> Step:
