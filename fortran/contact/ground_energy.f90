@@ -3,9 +3,9 @@
 !> With the ground at the nodes of the mesh (gapbeam_ground_nodes) the energy is convex and has a Lipschitz continuous gradient. A
 !> model of it with the forces and slopes of the ground at hand, and with the supports as they are, is solved by
 !> gapbeam_contact_state; along the way to its solution the slope of the energy never falls, and costs no more than the forces of
-!> the ground. Going to where it vanishes, or nearly so, the energy falls by a share of what it can in every round: from any start this ends at the
-!> least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995). Where the model runs away along a motion of the beam,
-!> the same search tells how far; if nothing stops it, there is no equilibrium.
+!> the ground. Going to where it vanishes, or nearly so, the energy falls by a share of what it can in every round: from any start
+!> this ends at the least one (semismooth Newton methods: Pang and Qi 1995, Facchinei 1995). Where the model runs away along a
+!> motion of the beam, the same search tells how far; if nothing stops it, there is no equilibrium.
 module gapbeam_ground_energy
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp

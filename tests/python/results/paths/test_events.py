@@ -208,7 +208,7 @@ def test_random_paths(block):
             if event.factor in turns:
                 continue  # the beam moves a finite way there: openings jump
             before = [segment for segment in path.segments if segment.stop == event.factor]
-            normal = path.beam.numbers.tolist().index(event.support)
+            normal = path._beam.numbers.tolist().index(event.support)
             if not before or normal != event.support:
                 continue  # axial supports shift the numbering; other seeds do
             true = crossing(made, before[0], path.path.closed(before[0])[event.support], event.support)
