@@ -259,7 +259,7 @@ def _clean(kind: Any, name: str, value: Any) -> Any:
     if array.shape[many:] not in ((), (2,)):
         return None
     if name == "node":
-        if array.dtype.kind == "f" and (array == np.round(array)).all() and (abs(array) < 2**31).all():
+        if array.dtype.kind == "f" and (array == np.round(array)).all() and (abs(array.astype(float)) < 2**31).all():
             value = array = array.astype(np.int64)
         small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
         return _own(value) if small else None
