@@ -1,6 +1,6 @@
 """Write a module of the engine for another kind of processor, or for numbers of every lane: the same text with other module names.
 
-Arguments: source, target, "_own" for numbers of every lane (lanes/lane_stiffness.f90) or "", the suffix of the processor or "",
+Arguments: source, target, "_own" for numbers of every lane (cases/lane_stiffness.f90) or "", the suffix of the processor or "",
 and the names of the modules that are there for both, "--", and of those that are there once for each processor.
 """
 

@@ -9,8 +9,7 @@ from sabotage import command
 from sabotage.change import TOP, Change, read_changes
 from sabotage.workshop import Workshop
 
-FOLDERS = ("base", "beam", "chain", "contact", "verification", "path", "lanes", "scene", "result", "face", "yardsticks")
-ROOMS = {f"fortran/{name}" for name in FOLDERS}
+ROOMS = {f"fortran/{path.name}" for path in (TOP / "fortran").iterdir() if list(path.glob("*.[fF]90"))}
 TRIED = ("support.settlement + SIDES[support.side]", "rise = self.slope * way")
 
 

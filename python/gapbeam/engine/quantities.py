@@ -1,7 +1,7 @@
 """Quantities along the beam, declared once: name, unit, what determines it, how it is drawn.
 
-How they come from the solution stands in Fortran: in fortran/beam/quantities.f90, in fortran/result/query.f90 for axial ones, in
-fortran/result/pressure.f90 for the ground. They have the same order there, and the engine's arrays have it.
+How they come from the solution stands in Fortran: in fortran/beam/quantities.f90, in fortran/response/query.f90 for axial ones, in
+fortran/response/pressure.f90 for the ground. They have the same order there, and the engine's arrays have it.
 """
 
 from __future__ import annotations

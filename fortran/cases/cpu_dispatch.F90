@@ -64,7 +64,7 @@ module gapbeam_cpu_dispatch
 
 #ifdef GAPBEAM_LEVELS
     interface
-        !> lanes/processor.c
+        !> cases/processor.c
         pure function level_of_processor() result(level) bind(c, name="lanes_level_of_processor")
             import :: c_int
             implicit none

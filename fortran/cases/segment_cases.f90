@@ -1,4 +1,4 @@
-!> Cases of a long beam one by one, each in eight segments side by side (fortran/lanes).
+!> Cases of a long beam one by one, each in eight segments side by side (fortran/cases, files lane_*).
 !> The beam is such as fits. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and the
 !> cases that are doubtful here
 module gapbeam_segment_cases

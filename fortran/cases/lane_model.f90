@@ -1,4 +1,4 @@
-!> A beam, its supports and the starts of searches as columns of eight cases, for fortran/lanes.
+!> A beam, its supports and the starts of searches as columns of eight cases, for the files lane_*.
 module gapbeam_lane_model
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: plain, hinge, restrained

@@ -1,4 +1,4 @@
-!> Pieces of the links as the solver of eight cases takes them (fortran/lanes)
+!> Pieces of the links as the solver of eight cases takes them (fortran/cases, files lane_*)
 module gapbeam_lane_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: sum_type, add, total

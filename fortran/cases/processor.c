@@ -1,4 +1,4 @@
-/* Instructions of the processor: 2, 3 or 4 for x86-64-v2, v3, v4 of the psABI (lanes/cpu_dispatch.F90) */
+/* Instructions of the processor: 2, 3 or 4 for x86-64-v2, v3, v4 of the psABI (cases/cpu_dispatch.F90) */
 
 int lanes_level_of_processor(void);
 

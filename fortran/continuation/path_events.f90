@@ -1,15 +1,11 @@
 !> Events along a load path, noted in their order.
 module gapbeam_path_events
     use gapbeam_kinds, only: wp
+    use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes, gapbeam_turns
     use gapbeam_stretch, only: stretch_type
     implicit none
     private
-    public :: path_type, add_event, note_changes, event_opens, event_closes, event_turns
-
-    !> What happens to a support
-    integer, parameter :: event_opens = 0, event_closes = 1
-    !> The beam loses its hold and turns, at constant load, until this support holds it
-    integer, parameter :: event_turns = 3
+    public :: path_type, add_event, note_changes
 
     !> Events along the path, in the order in which they happen
     type :: path_type
@@ -40,12 +36,12 @@ contains
         if (any((before .neqv. after) .and. merge(was_far, is_far, after))) holds = findloc(after .and. .not. before, .true., 1)
         do pass = 1, 2
             closes = pass == 2
-            if (closes .and. holds > 0) call add_event(path, factor, holds, event_turns)
+            if (closes .and. holds > 0) call add_event(path, factor, holds, gapbeam_turns)
             do k = 1, size(before)
                 if (before(k) .eqv. after(k)) cycle
                 if (after(k) .neqv. closes) cycle
                 stretch%last_change(k) = factor
-                call add_event(path, factor, k, merge(event_closes, event_opens, closes))
+                call add_event(path, factor, k, merge(gapbeam_closes, gapbeam_opens, closes))
             end do
         end do
     end subroutine note_changes

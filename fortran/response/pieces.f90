@@ -3,7 +3,6 @@ module gapbeam_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: node_support_type
     use gapbeam_law, only: both
-    use gapbeam_path, only: event_opens, event_closes, event_turns
     implicit none
     private
     public :: acting_type, acting_piece, what_happens, no_change
@@ -13,13 +12,13 @@ module gapbeam_pieces
     public :: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
 
     !> States of a support
-    integer, parameter :: gapbeam_open = event_opens, gapbeam_closed = event_closes, gapbeam_bilateral = 2
+    integer, parameter :: gapbeam_open = 0, gapbeam_closed = 1, gapbeam_bilateral = 2
     !> Of ground: a zone of no length
     integer, parameter :: gapbeam_touching = 4
     !> Plus the number of the piece, from 1: of a support with a law
     integer, parameter :: gapbeam_branch = 10
     !> Events. The beam has lost its hold and turns, at constant load, until the support holds it
-    integer, parameter :: gapbeam_opens = event_opens, gapbeam_closes = event_closes, gapbeam_turns = event_turns
+    integer, parameter :: gapbeam_opens = gapbeam_open, gapbeam_closes = gapbeam_closed, gapbeam_turns = 3
     !> Of supports with a law: on to a piece that is flatter, or steeper; on which the force falls, or drops at once; back
     integer, parameter :: gapbeam_yields = 4, gapbeam_hardens = 5, gapbeam_softens = 6, gapbeam_breaks = 7, gapbeam_unloads = 8
     !> Of zones of contact with the ground; of their ends, at those of the foundation or of the beam

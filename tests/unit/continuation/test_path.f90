@@ -9,7 +9,8 @@ program test_path
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme
-    use gapbeam_path, only: follow_path, path_type, event_opens, event_closes, event_turns
+    use gapbeam_path, only: follow_path, path_type
+    use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes, gapbeam_turns
     implicit none
     !> A path on its way
     type :: walk_type
@@ -81,7 +82,7 @@ contains
         sample%beam%force(2, 2) = 20.0_wp
         call follow(sample, walk)
         call check(.not. allocated(walk%error) .and. walk%outcome%status == gapbeam_solved, "the seesaw is followed")
-        call check_events(walk, [2, 3, 3], [event_opens, event_turns, event_closes], 0.5_wp, "seesaw")
+        call check_events(walk, [2, 3, 3], [gapbeam_opens, gapbeam_turns, gapbeam_closes], 0.5_wp, "seesaw")
         call check(all(walk%closed .eqv. [.true., .false., .true.]), "it rests on the other side")
         call check_close(walk%factor, 1.0_wp, "to the end", 0.0_wp)
     end subroutine seesaw
@@ -114,7 +115,7 @@ contains
         sample%beam%force(2, 1) = -lift
         call follow(sample, walk)
         call check(.not. allocated(walk%error) .and. walk%outcome%status == gapbeam_solved, "the shaft is followed")
-        call check_events(walk, [1, 3, 2, 2, 4], [event_opens, event_opens, event_turns, event_closes, event_closes], &
+        call check_events(walk, [1, 3, 2, 2, 4], [gapbeam_opens, gapbeam_opens, gapbeam_turns, gapbeam_closes, gapbeam_closes], &
                           weight/lift, "shaft")
         call check(all(walk%closed .eqv. [.false., .true., .false., .true.]), "it is held from above")
     end subroutine shaft_with_clearance
@@ -133,7 +134,7 @@ contains
                        [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, below, infinite(), reach), &
                         node_support_type(3, below, infinite(), reach), node_support_type(4, both, infinite(), 0.0_wp)], sample)
         call follow(sample, walk)
-        call check_events(walk, [2, 3], [event_closes, event_closes], 0.5_wp, "two stops")
+        call check_events(walk, [2, 3], [gapbeam_closes, gapbeam_closes], 0.5_wp, "two stops")
         call check(all(walk%closed), "all act in the end")
     end subroutine coincident_events
 
@@ -188,7 +189,7 @@ contains
         call check_close(walk%factor, 1.0_wp, "to the end", 0.0_wp)
         call check(walk%path%count >= 2, "over events")
         if (walk%path%count < 2) return
-        call check(all(walk%path%support(:2) == [1, 3] .and. walk%path%event(:2) == event_opens), "its ends lift")
+        call check(all(walk%path%support(:2) == [1, 3] .and. walk%path%event(:2) == gapbeam_opens), "its ends lift")
         call check_close(walk%path%factor(:2), [0.3_wp, 0.3_wp], "where the deflection F L**3/48 EI is the gap", 1e-14_wp)
     end subroutine free_to_move
 

@@ -6,8 +6,8 @@ module gapbeam_events
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
-    use gapbeam_path, only: follow_path, path_type, event_turns
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change
+    use gapbeam_path, only: follow_path, path_type
+    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_turns
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
@@ -111,11 +111,11 @@ contains
             integer :: change
 
             before = now_acts(which)
-            if (what /= event_turns) now(which) = .not. now(which)
+            if (what /= gapbeam_turns) now(which) = .not. now(which)
             after = now_acts(which)
             change = what
-            if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= event_turns) change = what_happens(before, after)
-            if (change == no_change .or. (.not. when > 0.0_wp .and. what /= event_turns)) return
+            if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= gapbeam_turns) change = what_happens(before, after)
+            if (change == no_change .or. (.not. when > 0.0_wp .and. what /= gapbeam_turns)) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
                 if (stat /= 0) then
@@ -126,7 +126,7 @@ contains
                 call move_alloc(longer, events)
             end if
             number = number + 1
-            events(number) = event_type(when, assembled%normal(which), merge(what, after%condition, what == event_turns), change)
+            events(number) = event_type(when, assembled%normal(which), merge(what, after%condition, what == gapbeam_turns), change)
         end subroutine note
 
         !> What acts of a support of the beam, which may be a breakpoint of a law

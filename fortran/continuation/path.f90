@@ -31,12 +31,13 @@ module gapbeam_path
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_affine_response_quad, only: fine_value_at => value_at, fine_width_at => width_at
     use gapbeam_linear_region, only: find_region
-    use gapbeam_path_events, only: path_type, add_event, note_changes, event_opens, event_closes, event_turns
+    use gapbeam_path_events, only: path_type, add_event, note_changes
+    use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
         response_in, same_factor
     implicit none
     private
-    public :: follow_path, path_type, event_opens, event_closes, event_turns
+    public :: follow_path, path_type
 
     !> How much further up the scheme is looked for
     real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
@@ -249,7 +250,7 @@ contains
         end if
         stretch%last_change(moving) = factor
         do j = 1, size(moving)
-            call add_event(path, factor, moving(j), merge(event_closes, event_opens, closed(moving(j))))
+            call add_event(path, factor, moving(j), merge(gapbeam_closes, gapbeam_opens, closed(moving(j))))
         end do
         at_zero = pack(at_zero, [(stays_at_zero(response_in(beam, closed, at_zero(j), stretch), factor), j=1, size(at_zero))])
 

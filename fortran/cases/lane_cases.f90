@@ -1,4 +1,4 @@
-!> Many cases of a beam solved eight side by side (fortran/lanes).
+!> Many cases of a beam solved eight side by side (fortran/cases, files lane_*).
 !> The beam is one that lanes hold. What comes out has the digits of solve_case of gapbeam_cases, which takes the other beams, and
 !> the cases that are doubtful here
 module gapbeam_lane_cases
