@@ -1,5 +1,5 @@
 !> Largest and smallest values of the fields of many solved cases of a beam.
-!> Eight side by side (fortran/cases, files lane_*), from the solutions at the nodes: whatever solved them, and whatever the company of a case,
+!> Eight side by side (files lane_*), from the solutions at the nodes: whatever solved them, and whatever the company of a case,
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
