@@ -5,6 +5,7 @@
 !> found one after the other (gapbeam_ground_narrow). Changes that undo each other between two places of the grid are not seen.
 module gapbeam_ground_path
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: begin_powers
     use gapbeam_error, only: error_type
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground_solver, only: limit_on_ground
@@ -23,9 +24,6 @@ module gapbeam_ground_path
     !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
     !> that, powers of 2
     integer, parameter :: missing_powers(*) = [-20, -10]
-    !> What acts at this share of the way, a power of 2, acts from the beginning: at factor 0 a beam without dead load lies there
-    !> without any force. Where so small a load is nothing beside gaps and settlements, it is what acts at one of the next shares
-    integer, parameter :: begin_powers(*) = [-40, -34, -28, -22]
 
 contains
 
