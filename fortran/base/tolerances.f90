@@ -5,7 +5,7 @@ module gapbeam_tolerances
     implicit none
     private
     public :: sign_width, worst_digits, worst_correction, rounding_unit, extreme_margin, proximal_ratio, splitter
-    public :: position_tolerance, end_tolerance, cubic_rounding, begin_powers, train_slack, train_equal, most_unit_power
+    public :: position_tolerance, end_tolerance, cubic_rounding, load_begin, train_slack, train_equal, most_unit_power
 
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time.
@@ -41,10 +41,9 @@ module gapbeam_tolerances
     !> through the engine, by gapbeam.scene.laws
     real(wp), parameter :: cubic_rounding = 2.0_wp**(-50)
 
-    !> What acts at this share of the way, a power of 2, acts from the beginning: at factor 0 a beam without dead load lies on the
-    !> ground without any force. Where so small a load is nothing beside gaps and settlements, it is what acts at one of the next
-    !> shares; tuned. Read by continuation/ground_path; the first of them, through the engine, by gapbeam.results.paths
-    integer, parameter :: begin_powers(*) = [-40, -34, -28, -22]
+    !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
+    !> any force; tuned. Read by continuation/ground_path and, through the engine, by gapbeam.plots
+    real(wp), parameter :: load_begin = 2.0_wp**(-40)
 
     !> Values under trains that differ by less than this share of the largest may be the same, for they are not refined: half of
     !> the digits. Read by moving_load/train_bounds, train_support_bounds, train_envelope and train_curves

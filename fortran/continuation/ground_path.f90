@@ -5,7 +5,7 @@
 !> found one after the other (gapbeam_ground_narrow). Changes that undo each other between two places of the grid are not seen.
 module gapbeam_ground_path
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: begin_powers
+    use gapbeam_tolerances, only: load_begin
     use gapbeam_error, only: error_type
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground_solver, only: limit_on_ground
@@ -24,6 +24,9 @@ module gapbeam_ground_path
     !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
     !> that, powers of 2
     integer, parameter :: missing_powers(*) = [-20, -10]
+    !> Where the load at load_begin is nothing beside gaps and settlements, what acts from the beginning is what acts at one of the
+    !> next shares of the way
+    real(wp), parameter :: begins(*) = [load_begin, 2.0_wp**(-34), 2.0_wp**(-28), 2.0_wp**(-22)]
 
 contains
 
@@ -68,8 +71,8 @@ contains
 
         call find_limits(assembled, yields, levels_off)
         associate (factor => walk%last)
-            do k = 1, size(begin_powers)
-                at = factor*2.0_wp**begin_powers(k)
+            do k = 1, size(begins)
+                at = factor*begins(k)
                 if (allocated(walk%trouble)) deallocate (walk%trouble)
                 call hold(assembled, walk, at, now, error)
                 if (allocated(error)) return

@@ -8,10 +8,10 @@
 
 ! Thresholds and limits that Python reads too
 subroutine gbtole(place, endtol, cubic, begin, equal, ties, segmts, change)
-    use gapbeam_tolerances, only: position_tolerance, end_tolerance, cubic_rounding, begin_powers, train_equal
+    use gapbeam_tolerances, only: position_tolerance, end_tolerance, cubic_rounding, load_begin, train_equal
     use gapbeam_limits, only: most_extreme_ties, most_path_segments, changes_at_a_time
     implicit none
-    ! POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, 2**BEGIN_POWERS(1), TRAIN_EQUAL
+    ! POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, LOAD_BEGIN, TRAIN_EQUAL
     double precision, intent(out) :: place, endtol, cubic, begin, equal
     ! MOST_EXTREME_TIES, MOST_PATH_SEGMENTS, CHANGES_AT_A_TIME
     integer, intent(out) :: ties, segmts, change
@@ -19,7 +19,7 @@ subroutine gbtole(place, endtol, cubic, begin, equal, ties, segmts, change)
     place = position_tolerance
     endtol = end_tolerance
     cubic = cubic_rounding
-    begin = 2.0d0**begin_powers(1)
+    begin = load_begin
     equal = train_equal
     ties = most_extreme_ties
     segmts = most_path_segments
