@@ -14,8 +14,7 @@
 !>   * measure   gives how far a named change is away at a parameter: a continuous function of it, zero where it happens. `known`
 !>               is false where there is none, and what cannot be measured is found by bisection;
 !>   * next_stop tells how far to go before the next state is compared: a grid, or a step chosen by the last state;
-!>   * take_changes  records the changes at the parameters found;
-!>   * name_of   names a parameter in words, for errors.
+!>   * take_changes  records the changes at the parameters found.
 !>
 !> May be left as they are: look (a cheaper find, whose states need not be sure), refine (more digits of a parameter),
 !> approach_end (what else is known of an end of the states), take_end (records it, and says whether to go on beyond it), take
@@ -48,7 +47,8 @@ module gapbeam_path_problem
 
     !> A path, and what comes of it
     type, abstract :: path_problem_type
-        !> Where it ends
+        !> What its parameter is called, and where it ends
+        character(len=:), allocatable :: parameter
         real(wp) :: last = 0.0_wp
         !> Rounding of a parameter is a share of itself, or of this, whichever is larger
         real(wp) :: extent = 0.0_wp
@@ -63,7 +63,6 @@ module gapbeam_path_problem
         procedure(measure_interface), deferred :: measure
         procedure(next_stop_interface), deferred :: next_stop
         procedure(take_changes_interface), deferred :: take_changes
-        procedure(name_of_interface), deferred :: name_of
         procedure :: look
         procedure :: refine
         procedure :: approach_end
@@ -137,14 +136,6 @@ module gapbeam_path_problem
             !> No memory
             type(error_type), allocatable, intent(out) :: error
         end subroutine take_changes_interface
-
-        !> A parameter in the user's words
-        function name_of_interface(problem, at) result(name)
-            import :: path_problem_type, wp
-            class(path_problem_type), intent(in) :: problem
-            real(wp), intent(in) :: at
-            character(len=:), allocatable :: name
-        end function name_of_interface
 
     end interface
 

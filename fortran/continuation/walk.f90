@@ -5,6 +5,7 @@
 module gapbeam_walk
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
+    use gapbeam_words, only: shown
     use gapbeam_path_problem, only: point_type, path_problem_type, copy_point
     use gapbeam_bracket, only: bracket_change, make_sure
     implicit none
@@ -102,7 +103,8 @@ contains
             call copy_point(above, sure)
             if (.not. above%at < next%at) return
         end do
-        call fatal_error(error, gapbeam_not_converged, "changes near "//problem%name_of(now%at)//" are too many to be told apart")
+        call fatal_error(error, gapbeam_not_converged, "changes near "//problem%parameter//" "//trim(shown(now%at))// &
+                         " are too many to be told apart")
     end subroutine pass_changes
 
 end module gapbeam_walk
