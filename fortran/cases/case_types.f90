@@ -1,4 +1,4 @@
-!> What is asked of many cases of one beam and what comes of them: columns that belong to the caller.
+!> Numbers and solutions of many cases of one beam: columns that belong to the caller.
 !> What is null is not asked for, or as it is in the beam.
 module gapbeam_case_types
     use gapbeam_kinds, only: wp

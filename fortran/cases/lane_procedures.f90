@@ -1,4 +1,4 @@
-!> What this source and its copies for other processors, or for stiffnesses that differ from case to case, have compiled.
+!> The procedures that are compiled for one kind of processor, and for stiffnesses that all cases share or not.
 module gapbeam_lane_procedures
     use gapbeam_lane_compiled, only: compiled_type
     use gapbeam_lane_columns, only: take_columns, take_numbers, give_pack
