@@ -19,10 +19,10 @@ module gapbeam_segment_cases
     use gapbeam_cpu_dispatch, only: compiled_at
     implicit none
     private
-    public :: segments_type, fits_segments, solve_in_segments, least_alone
+    public :: segments_type, fits_segments, solve_in_segments
 
-    !> Least links: shorter segments feel each other too much; from so many on several cases are solved faster one by one, too
-    integer, parameter :: least_links = 200, least_alone = 700
+    !> Least links: shorter segments feel each other too much
+    integer, parameter :: least_links = 200
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: segments_type
