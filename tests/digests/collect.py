@@ -1,10 +1,10 @@
 """Digests of what one gapbeam makes of scenes; it knows nothing of the package but what users call.
 
-    python tests/digests/collect.py SCENES FIRST LAST [LIBRARY [TESTS]]
+    python tests/digests/collect.py [--numbers] SCENES FIRST LAST [LIBRARY [TESTS]]
 
 Each line of SCENES is a name and a scene; those from FIRST to before LAST are solved. Each line printed is a name, the way that it
-went, and a digest for every kind of number: `steps.supports.reaction` is one. LIBRARY is called by the `clibrary.py` of the folder
-TESTS: that of its own commit, for structures grow.
+went, and a digest for every kind of number: `steps.supports.reaction` is one. With ``--numbers`` these are the numbers themselves.
+LIBRARY is called by the `clibrary.py` of the folder TESTS: that of its own commit, for structures grow.
 """
 
 import contextlib
@@ -40,24 +40,38 @@ def spelled(value):
     return value.item() if isinstance(value, np.generic) else value
 
 
-def sort_out(value, kind, found):
+def sort_out(value, kind, found, written):
     """Put numbers to others of their kind: the keys that lead to them, whatever their place in lists of dicts."""
     if isinstance(value, dict):
         for key, item in value.items():
             if key not in NOT_NUMBERS:
-                sort_out(item, f"{kind}.{key}" if kind else str(key), found)
+                sort_out(item, f"{kind}.{key}" if kind else str(key), found, written)
     elif isinstance(value, (list, tuple)) and any(isinstance(item, dict) for item in value):
         found[f"{kind}#"].append(len(value))
         for item in value:
-            sort_out(item, kind, found)
+            sort_out(item, kind, found, written)
     else:
-        found[kind].append(spelled(value))
+        found[kind].append(written(value))
+
+
+def numbers(value):
+    """All numbers of every kind in a value, and words that are no message; what has another shape has another number of them."""
+    found = defaultdict(list)
+    sort_out(value, "", found, flat)
+    return found
+
+
+def flat(value):
+    """A value as numbers."""
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [flat(item) for item in value]
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def digests(value):
     """The sha256 of every kind of number in a value."""
     found = defaultdict(list)
-    sort_out(value, "", found)
+    sort_out(value, "", found, spelled)
     return {kind: hashlib.sha256(json.dumps(values).encode()).hexdigest() for kind, values in found.items()}
 
 
@@ -149,8 +163,8 @@ def callers(library, tests):
     raise SystemExit(f"{tests}: there is no clibrary.py")
 
 
-def main(scenes, first, last, library=None, tests=None):
-    """Print the digests of scenes of a file."""
+def main(scenes, first, last, library=None, tests=None, made_of=digests):
+    """Print the digests of scenes of a file, or what else is made of their numbers."""
     called = library and callers(library, tests or Path(__file__).resolve().parents[1])
     with open(scenes, encoding="utf-8") as lines:
         for line in itertools.islice(lines, int(first), int(last)):
@@ -164,8 +178,11 @@ def main(scenes, first, last, library=None, tests=None):
                 calls["C"] = (in_c, made, called[0])
                 calls["Fortran 77"] = (in_fortran_77, made, *called)
             for what, call in calls.items():
-                print(json.dumps([name, what, digests(attempt(*call))]), flush=True)
+                print(json.dumps([name, what, made_of(attempt(*call))]), flush=True)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    if sys.argv[1] == "--numbers":
+        main(*sys.argv[2:], made_of=numbers)
+    else:
+        main(*sys.argv[1:])

@@ -2,7 +2,9 @@
 
 import argparse
 import hashlib
+import itertools
 import json
+import math
 import os
 import re
 import shutil
@@ -88,16 +90,16 @@ class Side(Workshop):
         if process.returncode:
             raise RuntimeError(f"ninja: {''.join(last)[-1500:]}")
 
-    def collect(self, scenes, number):
+    def collect(self, scenes, number, options):
         """Digests of all scenes, several processes at a time; of a commit those that were found before are kept."""
         made = hashlib.sha256(scenes.read_bytes() + COLLECTOR.read_bytes()).hexdigest()[:16]
-        kept = self.folder / f"digests-{made}"
+        kept = self.folder / f"digests{''.join(options)}-{made}"
         if self.commit and kept.exists():
             return read_digests(kept)
         library = next((self.programs / "fortran").glob("libgapbeam.so"))
         keys = {"PYTHONPATH": str(self.site), "PYTHONDONTWRITEBYTECODE": "1"}
         progress = Progress(f"solving with {self.commit[:12] or 'this tree'}", "scenes")
-        lines = collect(scenes, number, progress, library, self.top / "tests", **keys)
+        lines = collect(scenes, number, progress, library, self.top / "tests", options=options, **keys)
         kept.write_bytes(b"".join(lines))
         return read_digests(kept)
 
@@ -121,7 +123,7 @@ class Progress:
             print(f"... {self._what}: {done:,} of {number:,} {self._of}", flush=True)
 
 
-def collect(scenes, number, progress, *library, **environment):
+def collect(scenes, number, progress, *library, options=(), **environment):
     """Solve all scenes with the gapbeam of an environment.
 
     Parameters
@@ -132,6 +134,8 @@ def collect(scenes, number, progress, *library, **environment):
     progress : Progress
     library
         Path of the library, and folder of the tests that know how to call it; may be left out.
+    options : tuple of str
+        Of the collector.
     environment
         Variables.
 
@@ -142,7 +146,7 @@ def collect(scenes, number, progress, *library, **environment):
     """
 
     def some(first):
-        command = [sys.executable, str(COLLECTOR), str(scenes), str(first), str(first + AT_A_TIME), *map(str, library)]
+        command = [sys.executable, str(COLLECTOR), *options, str(scenes), str(first), str(first + AT_A_TIME), *map(str, library)]
         done = subprocess.run(command, env=dict(os.environ, **environment), capture_output=True, check=False)
         if done.returncode:
             raise SystemExit(f"the collector of scenes {first} and on ended with {done.returncode}: {done.stderr.decode()[-600:]}")
@@ -166,7 +170,36 @@ def read_digests(path):
     }
 
 
-def changed(ours, theirs):
+def alike(one, other, within):
+    """Tell whether values differ by no more than a share of the largest of their kind in the scene.
+
+    Parameters
+    ----------
+    one, other
+        Digests, or lists of numbers and words.
+    within : float
+        The share; 0 for the same.
+    """
+    if one == other or not within or not (isinstance(one, list) and isinstance(other, list)):
+        return one == other
+    pairs = list(pairs_of(one, other))
+    largest = max((abs(b) for pair in pairs for b in pair if isinstance(b, float) and math.isfinite(b)), default=0.0)
+    return all(
+        a == b or (isinstance(a, float) and isinstance(b, float) and (abs(a - b) <= within * largest or (a != a and b != b)))
+        for a, b in pairs
+    )
+
+
+def pairs_of(one, other):
+    """Values at the same places; where there are not as many, a pair that differs."""
+    if isinstance(one, list) and isinstance(other, list):
+        for a, b in itertools.zip_longest(one, other, fillvalue="none"):
+            yield from pairs_of(a, b)
+    else:
+        yield one, other
+
+
+def changed(ours, theirs, within=0.0):
     """What differs: scene, way and kind of number, and the kinds that only this tree has in any scene.
 
     A kind that is new is no change; one that is gone is.
@@ -174,7 +207,7 @@ def changed(ours, theirs):
     known = {key[1:] for key in theirs}
     new = sorted({key[1:] for key in ours} - known)
     keys = {key for key in ours.keys() | theirs.keys() if key[1:] in known}
-    return sorted(key for key in keys if ours.get(key) != theirs.get(key)), new
+    return sorted(key for key in keys if not alike(ours.get(key), theirs.get(key), within)), new
 
 
 def full_name(commit):
@@ -191,6 +224,8 @@ def main(arguments=None):
     parser = argparse.ArgumentParser("python tests/digests", description=__doc__.splitlines()[0])
     parser.add_argument("--beside", metavar="COMMIT", help="the other commit (default: the one before)")
     parser.add_argument("--count", type=int, default=500, help="scenes drawn at random (default 500)")
+    parser.add_argument("--within", type=float, default=0.0, metavar="SHARE",
+                        help="compare numbers themselves, to this share of the largest of their kind in a scene")  # fmt: skip
     parser.add_argument("--folder", type=Path, default=TOP / ".venv" / "digests", help="where both are built (.venv/digests)")
     chosen = parser.parse_args(arguments)
     chosen.folder.mkdir(parents=True, exist_ok=True)
@@ -198,13 +233,14 @@ def main(arguments=None):
     number = write_scenes(chosen.count, scenes)
     beside = full_name(chosen.beside)
     theirs, ours = Side(chosen.folder / beside[:12], beside), Side(chosen.folder / "here", "")
-    there, here = theirs.collect(scenes, number), ours.collect(scenes, number)
-    return said(here, there, number, beside[:12])
+    options = ("--numbers",) if chosen.within else ()
+    there, here = theirs.collect(scenes, number, options), ours.collect(scenes, number, options)
+    return said(here, there, number, beside[:12], chosen.within)
 
 
-def said(here, there, number, beside):
+def said(here, there, number, beside, within=0.0):
     """Print what was compared and what has changed; the exit status."""
-    differences, new = changed(here, there)
+    differences, new = changed(here, there, within)
     for name, what, kind in differences[:MOST_SHOWN]:
         print(f"changed: {name} ({what}): {kind}")
     if len(differences) > MOST_SHOWN:

@@ -5,10 +5,10 @@ import json
 import numpy as np
 
 from digests import command
-from digests.collect import digests, is_for_all
+from digests.collect import digests, is_for_all, numbers
 from digests.drawn import FAMILIES, write_scenes
 
-COUNT = 500
+COUNT = 150
 
 
 def test_the_last_bit_is_seen_and_words_are_not():
@@ -27,6 +27,17 @@ def test_numbers_are_sorted_by_the_keys_that_lead_to_them():
     steps[0]["supports"].reverse()
     other = digests({"steps": steps})
     assert [kind for kind in one if one[kind] != other[kind]] == ["steps.supports.reaction"]
+
+
+def test_numbers_may_be_compared_to_a_share_of_the_largest():
+    one = numbers({"steps": [{"w": np.array([1e6, 1.0])}, {"w": np.array([2.0, 3.0]), "state": "closed"}]})
+    assert one == {"steps#": [2], "steps.w": [[1e6, 1.0], [2.0, 3.0]], "steps.state": ["closed"]}
+    near = {**one, "steps.w": [[1e6, 1.0], [2.0, 3.0 + 1e-9]]}
+    assert all(command.alike(one[kind], near[kind], 1e-12) for kind in one)
+    assert not command.alike(one["steps.w"], near["steps.w"], 0.0)
+    for other in ([[1e6, 1.0], [2.0, 3.0 + 1e-5]], [[1e6, 1.0], [2.0]], [[1e6, 1.0]], [[1e6, 1.0], [2.0, float("nan")]]):
+        assert not command.alike(one["steps.w"], other, 1e-12)
+    assert not command.alike(["closed"], ["open"], 1.0)
 
 
 def test_two_processes_give_the_same_digests(tmp_path, installed):

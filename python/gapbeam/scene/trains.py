@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from ..base.errors import SceneError
-from .places import END_TOLERANCE, POSITION_TOLERANCE
+from ..engine.tolerances import END_TOLERANCE, POSITION_TOLERANCE
 from .structs import Scene, Train
 from .wording import choice, number, shown
 
