@@ -125,6 +125,7 @@ contains
             first%change = crossing%change
             first%at = crossing%at
             first%slope = crossing%slope
+            first%one_further = crossing%one_further
             first%place = crossing%place
             call move_alloc(crossing%near, first%near)
             found = .true.

@@ -122,6 +122,10 @@ contains
             if (.not. is_over) call become(near, now)
         end do
         crossing%at = now%at
+        crossing%one_further = now%at
+        if (abs(now%margin) > 0.0_wp) then
+            crossing%one_further = max(min(near%at, over%at), min(max(near%at, over%at), near%at - near%margin/slope))
+        end if
         crossing%slope = slope
         crossing%place = now%place
         call move_alloc(near%point, crossing%near)

@@ -13,20 +13,9 @@ module gapbeam_ground_path
     private
     public :: follow_on_ground
 
-<<<<<<< HEAD
-    !> Parts into which the loading history is cut before changes are looked for
-    integer, parameter :: parts = 64
-    !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
-    !> that, powers of 2
-    integer, parameter :: missing_powers(*) = [-20, -10]
     !> Where the load at load_begin is nothing beside gaps and settlements, what acts from the beginning is what acts at one of the
     !> next shares of the way
     real(wp), parameter :: begins(*) = [load_begin, 2.0_wp**(-34), 2.0_wp**(-28), 2.0_wp**(-22)]
-=======
-    !> What acts at this share of the way, a power of 2, acts from the beginning: at factor 0 a beam without dead load lies there
-    !> without any force. Where so small a load is nothing beside gaps and settlements, it is what acts at one of the next shares
-    integer, parameter :: begin_powers(*) = [-40, -34, -28, -22]
->>>>>>> hlp4
 
 contains
 
@@ -62,26 +51,8 @@ contains
         logical :: ended
         integer :: k
 
-<<<<<<< HEAD
-        call find_limits(assembled, yields, levels_off)
-        associate (factor => walk%last)
-            do k = 1, size(begins)
-                at = factor*begins(k)
-                if (allocated(walk%trouble)) deallocate (walk%trouble)
-                call hold(assembled, walk, at, now, error)
-                if (allocated(error)) return
-                if (.not. allocated(walk%trouble)) exit
-            end do
-            if (.not. now%stands) then
-                call move_alloc(walk%trouble, error)
-                path%beyond = 0.0_wp
-                return
-            end if
-            call add_segment(0.0_wp, now, path, error)
-=======
-        do k = 1, size(begin_powers)
-            call problem%find(problem%last*2.0_wp**begin_powers(k), start, error)
->>>>>>> hlp4
+        do k = 1, size(begins)
+            call problem%find(problem%last*begins(k), start, error)
             if (allocated(error)) return
             if (.not. allocated(start%trouble)) exit
         end do

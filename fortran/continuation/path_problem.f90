@@ -41,6 +41,8 @@ module gapbeam_path_problem
         type(change_type) :: change
         !> Parameter, slope of the margin over it there, and the place of the change along the beam
         real(wp) :: at = 0.0_wp, slope = 0.0_wp, place = 0.0_wp
+        !> Where one secant more from the smooth side has it
+        real(wp) :: one_further = 0.0_wp
         !> What was measured next to it, on the side on which the margin is smooth
         class(point_type), allocatable :: near
     end type crossing_type
@@ -153,15 +155,16 @@ contains
         call problem%find(at, point, error, near)
     end subroutine look
 
-    !> More digits of the parameter of a change, if there are more
+    !> All digits of the parameter of a change
     subroutine refine(problem, crossing, found)
         class(path_problem_type), intent(inout) :: problem
         type(crossing_type), intent(inout) :: crossing
         !> Is it still one
         logical, intent(out) :: found
 
-        associate (unused => problem, as_well => crossing)
+        associate (unused => problem)
         end associate
+        crossing%at = crossing%one_further
         found = .true.
     end subroutine refine
 
