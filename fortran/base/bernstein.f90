@@ -3,14 +3,13 @@
 !> interval (de Casteljau) show the rest.
 module gapbeam_bernstein
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: narrowest_interval
     implicit none
     private
     public :: highest_degree, sample_points, to_coefficients, value_of, halve, first_below, crossing
 
     !> Degrees at most
     integer, parameter :: highest_degree = 7
-    !> Halves narrower than this are not looked into
-    real(wp), parameter :: narrowest = 2.0_wp**(-50)
 
 contains
 
@@ -122,7 +121,7 @@ contains
             whole(0:n) = waiting(0:n, count)
             if (all(whole(0:n) >= level)) then
                 count = count - 1
-            else if (whole(0) < level .or. width(count) < narrowest .or. count == size(width)) then
+            else if (whole(0) < level .or. width(count) < narrowest_interval .or. count == size(width)) then
                 u = from(count)
                 return
             else

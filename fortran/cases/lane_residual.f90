@@ -1,15 +1,13 @@
 !> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: find_rest, find_rest_at_restraints, find_rest_along
-
-    !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
 
 contains
 
@@ -151,14 +149,14 @@ contains
         !> Compatibility; equilibrium, or deflection where it is known
         real(wp), intent(out), dimension(0:n) :: turn_rest, shear_rest
         ! Of the links, from that before the first node on: rotations of both ends and shear
-        real(wp), dimension(0:block) :: start_high, start_low, end_high, end_low, shear_high, shear_low
+        real(wp), dimension(0:cache_block) :: start_high, start_low, end_high, end_low, shear_high, shear_low
         real(wp) :: high, low, other_high, other_low
         integer :: from, to, i, k
 
-        do from = 0, n, block
-            to = min(from + block - 1, n)
+        do from = 0, n, cache_block
+            to = min(from + cache_block - 1, n)
             ! There are no links beyond the ends
-            do k = 0, block, to - from + 1
+            do k = 0, cache_block, to - from + 1
                 start_high(k) = 0.0_wp
                 start_low(k) = 0.0_wp
                 end_high(k) = 0.0_wp

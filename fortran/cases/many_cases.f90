@@ -1,6 +1,7 @@
 !> Cases of a beam, side by side where lanes hold them (gapbeam_lane_cases), else one by one.
 module gapbeam_many_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: least_cases, least_alone_links
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite, gapbeam_stopped
     use gapbeam_memory, only: enough_memory, for_solving
@@ -13,13 +14,10 @@ module gapbeam_many_cases
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_lane_spans, only: fits_spans
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
-    use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments, least_alone
+    use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     implicit none
     private
     public :: case_room_type, solve_cases
-
-    !> Fewer cases leave most lanes idle
-    integer, parameter :: few = 4
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: case_room_type
@@ -85,7 +83,7 @@ contains
                     call solve_in_lanes(assembled, loads, factors, values, spans, room%lanes_with_own_spans, closed, w, ml, mr, &
                                         reaction, solves, done)
                 end if
-            else if (room%is_long .and. (size(status) < few .or. size(assembled%beam%links) >= least_alone)) then
+            else if (room%is_long .and. (size(status) < least_cases .or. size(assembled%beam%links) >= least_alone_links)) then
                 call solve_in_segments(assembled, loads, factors, values, room%segments, closed, w, ml, mr, reaction, solves, done)
                 ! Lanes hold ends that open
                 do i = 1, size(status)

@@ -3,11 +3,12 @@
 !>
 !> The solution is followed along itself (gapbeam_outgoing_directions), so the load factor may fall; nothing is stepped and nothing
 !> iterates.
-!> As no region is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 11). A support that
+!> As no region is crossed twice, a path of laws without memory has finitely many segments (docs/method.md 8). A support that
 !> unloads in a way of its own has its law written anew from the point where it is: its breakpoints up to there become one, at
 !> that point, before which lies a line with the slope of the first piece, down to its set.
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
     use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
@@ -218,7 +219,7 @@ contains
                         j = beam%order(i)
                         associate (other => beam%supports(j))
                             if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
-                            if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
+                            if (abs(other%contact - s%contact) > same_breakpoint*abs(s%contact)) cycle
                             rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
                             if (other%breakpoint == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp &
                                 .and. other%stiffness > huge(rate)
@@ -272,7 +273,7 @@ contains
                 if (.not. at_hand(k)) cycle
                 associate (zero => zeros(k))
                     zero = zero_of(responses(k))
-                    slack = max(64*epsilon(zero)*passed, width_at(responses(k), zero)/abs(responses(k)%v1))
+                    slack = max(same_breakpoint*passed, width_at(responses(k), zero)/abs(responses(k)%v1))
                     if (abs(zero) <= slack) zero = 0.0_wp
                     if (abs(zero - target) <= slack) zero = target
                     ! What is behind by rounding is here
@@ -316,7 +317,7 @@ contains
             end do
             at_hand(:) = way < huge(way)
             if (.not. any(at_hand)) return
-            at_hand(:) = at_hand .and. way <= minval(way)*(1 + 64*epsilon(way))
+            at_hand(:) = at_hand .and. way <= minval(way)*(1 + same_breakpoint)
             branch%deflection(:) = branch%deflection + minval(way)*motion
         end associate
     end subroutine turn_on

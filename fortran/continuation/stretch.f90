@@ -2,6 +2,7 @@
 !> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: agreement, same_factor
     use gapbeam_band, only: band_ok
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -14,12 +15,7 @@ module gapbeam_stretch
     use gapbeam_linear_region, only: region_type
     implicit none
     private
-    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, response_in, same_factor
-
-    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
-    real(wp), parameter :: same_factor = 1e-15_wp
-    !> Share of its factor by which an event may be off in doubles; if it may be more, it is found in quadruple precision
-    real(wp), parameter :: coarse = 1e-9_wp
+    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, response_in
 
     !> What is known on a stretch of the path
     type :: stretch_type
@@ -185,7 +181,7 @@ contains
             response = response_in(beam, closed, near(j), stretch)
             there(j) = abs(value_at(response, next)) <= width_at(response, next)
             if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(response, next, limit) &
-                .or. width_at(response, next) > coarse*abs(next*response%v1)
+                .or. width_at(response, next) > agreement*abs(next*response%v1)
         end do
         at_zero = [at_zero, pack(near, there)]
     end subroutine next_in_queue

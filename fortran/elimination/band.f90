@@ -1,6 +1,6 @@
 !> Factor of the mixed system, 2x2-block tridiagonal in (M, w) node by node.
 !>
-!> Rows of node i (docs/method.md 2), V the shear, psi the rotation of the section:
+!> Rows of node i (docs/method.md 3), V the shear, psi the rotation of the section:
 !>
 !>     compatibility   psi_left - psi_right = 0        column M_i, diagonal -(f_bb + f_aa) <= 0
 !>     equilibrium     V_left - V_right + R = P        column w_i, diagonal c_i >= 0
@@ -20,6 +20,7 @@
 !> the sweep passes on moment and shear by statics alone and finds the deflection on the way back.
 module gapbeam_band
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: pivot_digits
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_nodes, only: plain, hinge, restrained
@@ -201,10 +202,9 @@ contains
         real(wp), intent(in) :: phi, beta, delta
         logical, intent(in) :: floating
         logical :: same
-        real(wp), parameter :: digits = 4*epsilon(1.0_wp)
 
-        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= digits*phi &
-            .and. abs(beta - pivot%beta) <= digits*beta .and. abs(delta - pivot%delta) <= digits*delta
+        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= pivot_digits*phi &
+            .and. abs(beta - pivot%beta) <= pivot_digits*beta .and. abs(delta - pivot%delta) <= pivot_digits*delta
     end function repeats
 
     !> The right end of the beam: no link follows

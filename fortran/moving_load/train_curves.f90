@@ -1,7 +1,7 @@
 !> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_slack, train_equal
+    use gapbeam_path_tolerances, only: train_slack, train_equal, train_rounding, most_lost
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: sample_points, to_coefficients
@@ -18,7 +18,6 @@ module gapbeam_train_curves
     use gapbeam_train_columns, only: at_distance
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link, &
         slopes_in_link, greatest_curvature
-    use gapbeam_train_bounds, only: most_lost
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     implicit none
@@ -27,8 +26,6 @@ module gapbeam_train_curves
 
     !> What a place is passed for: to note values that it reaches, to bound them, to look at them with all digits
     integer, parameter :: reaching = 1, bounding = 2, looking = 3
-    !> Values that differ by less than this share of the largest on the beam need not be told apart
-    real(wp), parameter :: the_same = 2.0_wp**(-46)
 
 contains
 
@@ -240,9 +237,9 @@ contains
             if (to > from) last(:) = fields_seen(q, cell, to)
             rise(:) = ((to - from)*view%columns%to_length)**2/8*curvature(:, track%link(piece(q)))
             wanted(q) = any(max(first, last) + rise >= reached(1, :, q) - train_slack*sizes .and. &
-                            max(first, last) + rise > value(1, :, q) + the_same*sizes) .or. &
+                            max(first, last) + rise > value(1, :, q) + train_rounding*sizes) .or. &
                 any(rise - min(first, last) >= reached(2, :, q) - train_slack*sizes .and. &
-                    min(first, last) - rise < value(2, :, q) - the_same*sizes)
+                    min(first, last) - rise < value(2, :, q) - train_rounding*sizes)
         end subroutine glance
 
         !> Values that are reached at a place
