@@ -1,7 +1,7 @@
 !> Thresholds along paths and under trains, each told once: what it bounds, why this value, who reads it. What is only tuned says
 !> so. Those that decide a state stand in gapbeam_tolerances.
 module gapbeam_path_tolerances
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, qp
     implicit none
     private
     public :: load_begin, train_slack, train_equal
@@ -26,14 +26,14 @@ module gapbeam_path_tolerances
     !
     !> The first factor at which a linear region is looked for is above the given one by this share of the way; tuned. Read by
     !> continuation/linear_region
-    real(wp), parameter :: first_share_of_way = 2.0_wp**(-40)
+    real(qp), parameter :: first_share_of_way = 2.0_qp**(-40)
     !> None nearer than this is: rounding of the factor. Read by continuation/linear_region
-    real(wp), parameter :: last_share_of_way = 2.0_wp**(-48)
+    real(qp), parameter :: last_share_of_way = 2.0_qp**(-48)
     !> What happens within this share of the way is not seen where even quadruple precision cannot tell what falls; tuned. Read by
     !> continuation/linear_region
-    real(wp), parameter :: unseen_share = 2.0_wp**(-24)
+    real(qp), parameter :: unseen_share = 2.0_qp**(-24)
     !> Weak springs that hold a beam that is free to move, relative to those of the search. Read by continuation/linear_region
-    real(wp), parameter :: weaker_springs = 2.0_wp**(-24)
+    real(qp), parameter :: weaker_springs = 2.0_qp**(-24)
     !> Share of the factor by which the contact state beyond an event is looked for; tuned. Read by continuation/path
     real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same; and events that may be off
@@ -44,14 +44,14 @@ module gapbeam_path_tolerances
     !> Rounding errors beyond which a value on a path is not near zero; tuned. Read by continuation/path
     real(wp), parameter :: far_from_zero = 2.0_wp**16
     !> Rounding errors within which another breakpoint is at zero too; tuned. Read by continuation/region_responses
-    real(wp), parameter :: near_breakpoint = 2.0_wp**10
+    real(qp), parameter :: near_breakpoint = 2.0_qp**10
     !> Share of the rates beside it below which a rate is none, in quadruple precision. Read by continuation/region_responses
-    real(wp), parameter :: no_rate = 2.0_wp**(-70)
+    real(qp), parameter :: no_rate = 2.0_qp**(-70)
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor. Read by
     !> continuation/path, continuation/stretch
     real(wp), parameter :: same_factor = 1e-15_wp
-    !> Breakpoints and ways that differ by less than this share are the same: as position_tolerance. Read by continuation/branch
-    real(wp), parameter :: same_breakpoint = 64*epsilon(1.0_wp)
+    !> Breakpoints and ways that differ by less than this share are the same, in quadruple precision: as position_tolerance. Read by continuation/branch
+    real(qp), parameter :: same_breakpoint = 64*epsilon(1.0_qp)
 
     !
     ! Trains

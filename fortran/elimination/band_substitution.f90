@@ -148,8 +148,8 @@ contains
             if (pivot%floating) then
                 small = .not. (abs(m) > 0.0_wp .or. abs(p) > 0.0_wp)
             else
-                small = abs(e) <= hidden_change*(pivot%phi*moment + pivot%beta*w) &
-                    .and. abs(p) <= hidden_change*(pivot%beta*moment + pivot%delta*w)
+                small = abs(e) <= hidden_change*(abs(pivot%phi)*moment + abs(pivot%beta)*w) &
+                    .and. abs(p) <= hidden_change*(abs(pivot%beta)*moment + abs(pivot%delta)*w)
             end if
         end associate
     end function fades
