@@ -198,7 +198,7 @@ module gapbeam_limits
     !> Links of a beam that is cut into segments: shorter segments feel each other too much; tuned. Read by cases/segment_cases
     integer, parameter :: least_segment_links = 200
     !> From so many links on several cases are solved faster one by one in segments: 64 cases of 1,000 spans took 47 us each side
-    !> by side, 71 to 107 us in segments; tuned. Read by cases/many_cases
+    !> by side, 71 to 107 us in segments; tuned. Read by cases/many_cases, cases/segment_cases
     integer, parameter :: least_alone_links = 700
     !> Solves in segments; tuned. Read by cases/segment_search
     integer, parameter :: most_segment_solves = 50

@@ -50,7 +50,8 @@ module gapbeam_path_tolerances
     !> What happens so near to each other, relative to the factor or the way, happens at the same factor. Read by
     !> continuation/path, continuation/stretch
     real(wp), parameter :: same_factor = 1e-15_wp
-    !> Breakpoints and ways that differ by less than this share are the same, in quadruple precision: as position_tolerance. Read by continuation/branch
+    !> Breakpoints and ways that differ by less than this share are the same, in quadruple precision: as position_tolerance. Read
+    !> by continuation/branch, continuation/branch_state
     real(qp), parameter :: same_breakpoint = 64*epsilon(1.0_qp)
 
     !

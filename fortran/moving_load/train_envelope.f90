@@ -6,7 +6,7 @@
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: bound_trials
-    use gapbeam_path_tolerances, only: train_slack, train_equal, most_lost
+    use gapbeam_path_tolerances, only: train_slack, train_equal, most_lost, lebesgue
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
@@ -20,7 +20,7 @@ module gapbeam_train_envelope
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, &
-        bound_fields, degree_along, lebesgue
+        bound_fields, degree_along
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
