@@ -1,6 +1,6 @@
 !> All pieces between two nodes condensed into one link, exactly, and recovered again.
 !>
-!> A link is the simply supported bar of docs/method.md 1 between two nodes. Its flexibilities are kept in
+!> A link is the simply supported bar of docs/method.md 2 between two nodes. Its flexibilities are kept in
 !> the form of the elastic centre: the total bending flexibility, its centroid and its spread. Every one of
 !> them is a sum of terms of one sign, so they lose no digits however many pieces there are.
 module gapbeam_link
@@ -31,7 +31,7 @@ module gapbeam_link
         real(wp) :: length, inverse
         !> int 1/EI, int (1-xi)/EI = f_aa + f_ab, int xi/EI = f_ab + f_bb
         real(wp) :: bending, sum_a, sum_b
-        !> Flexibilities of docs/method.md 1 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
+        !> Flexibilities of docs/method.md 2 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
         real(wp) :: faa, fab, fbb, determinant
         !> Rotations t_a, t_b of the ends of the simple bar under its loads
         real(wp) :: turn_a(2), turn_b(2)

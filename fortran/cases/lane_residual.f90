@@ -1,15 +1,13 @@
 !> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: find_rest, find_rest_at_restraints, find_rest_along
-
-    !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
 
 contains
 
@@ -131,8 +129,8 @@ contains
         real(wp) :: high, low, link_high, link_low
         integer :: from, to, i, k
 
-        do from = 1, n - 1, block
-            to = min(from + block - 1, n - 1)
+        do from = 1, n - 1, cache_block
+            to = min(from + cache_block - 1, n - 1)
             call residual_of_block(to - from + 1, length(from:to + 1), faa(from:to + 1), fab(from:to + 1), fbb(from:to + 1), &
                                    left(from:to), right(from:to), force(from:to), known(from:to), spring(from:to), &
                                    held(from:to), m(from - 1:to + 1), w(from - 1:to + 1), turn_rest(from:to), shear_rest(from:to))

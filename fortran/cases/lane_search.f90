@@ -6,6 +6,7 @@
 !> gapbeam_extended_precision itself. A scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_lane_solves
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_sweeps, only: sweep_chain
@@ -15,8 +16,6 @@ module gapbeam_lane_search
     private
     public :: search_pack, add_loads, apply_scheme
 
-    !> Solves before a case is given up
-    integer, parameter :: most_solves = 80
     !> Solves without progress before fewer supports are changed at a time
     real(wp), parameter :: non_monotone_steps = 4.5_wp
 
@@ -114,7 +113,7 @@ contains
         alive(:) = 1.0_wp
         proximal_weight(:) = 0.0_wp
         count(:) = 0.0_wp
-        do solve = 1, most_solves
+        do solve = 1, most_lane_solves
             if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
                                              pack%contact, pack%shear)
             pack%is_solved = is_easy

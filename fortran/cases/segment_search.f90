@@ -5,22 +5,14 @@
 !> is looked at again (segment_finish), and a scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_segment_search
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_segment_solves, segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, &
+        few_segment_solves, most_segment_rounds, neighbourhood
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
     use gapbeam_segment_two_sided_sweep, only: solve_segments
     implicit none
     private
     public :: search_segments
-
-    !> Solves at most, without progress, and with an end that is wrong
-    integer, parameter :: most_solves = 50, non_monotone_steps = 5, end_non_monotone_steps = 3
-    !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
-    !> are not. Before that boundaries move, which takes long step by step
-    integer, parameter :: few = 16, few_solves = 2
-    !> Rounds of a solve (gapbeam_segment_two_sided_sweep): what is not yet exact goes on with the next one
-    integer, parameter :: most_rounds = 2
-    !> So many nodes farther on supports hardly turn each other round
-    integer, parameter :: neighbourhood = 20
 
 contains
 
@@ -47,8 +39,8 @@ contains
         room%support(1, 5, beam%start(1)) = 0.0_wp
         room%support(half + 1, 5, beam%start(2)) = 0.0_wp
         if (.not. ends_hold(beam, room)) return
-        do while (solves < most_solves)
-            call solve_segments(beam, most_rounds, room, exact)
+        do while (solves < most_segment_solves)
+            call solve_segments(beam, most_segment_rounds, room, exact)
             solves = solves + 1
             call find_wrong(beam%columns, beam%link, room%solution, room%support, room%wrong, room%changed, columns, number)
             middle_is_wrong = 0.0_wp < badness(room%middle_support, room%middle(2), &
@@ -60,12 +52,12 @@ contains
             found = number == 0 .and. ends_are_right .and. exact
             if (found) call take_scheme(beam, room)
             with_wrong_end = merge(0, with_wrong_end + 1, ends_are_right)
-            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_steps) return
+            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_solves) return
             if (number == 0) cycle
             idle = merge(0, idle + 1, number < fewest)
             fewest = min(fewest, number)
-            if (idle > non_monotone_steps) return
-            if (idle > 0 .and. (number <= few .or. idle > few_solves)) call keep_local_worst(beam, &
+            if (idle > segment_non_monotone_solves) return
+            if (idle > 0 .and. (number <= few_in_segments .or. idle > few_segment_solves)) call keep_local_worst(beam, &
                 room%changed(:columns), room)
             call change(room%changed(:columns), room%wrong, room%support, room%row)
             if (middle_is_wrong) then

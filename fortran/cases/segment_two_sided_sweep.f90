@@ -8,8 +8,9 @@
 !> other. The way back is the same.
 module gapbeam_segment_two_sided_sweep
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: kept_columns
     use gapbeam_lane_types, only: lanes
-    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half, kept
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half
     implicit none
     private
     public :: solve_segments
@@ -69,7 +70,7 @@ contains
         !> What comes in, and what is passed on in the end, which stays where nothing is other than before; phi, beta, delta, e, p
         real(wp), intent(in) :: entry(lanes, 5)
         real(wp), intent(inout) :: leaves(lanes, 5)
-        real(wp), intent(inout) :: passed(lanes, 5, kept), eliminated(lanes, 6, columns)
+        real(wp), intent(inout) :: passed(lanes, 5, kept_columns), eliminated(lanes, 6, columns)
         !> Has it ended there
         logical, intent(out) :: as_before
         real(wp), dimension(lanes) :: phi, beta, delta, e, p, differs
@@ -100,7 +101,7 @@ contains
                 l = merge(1, half + 1, k == 1)
                 call begin_at_end(link(l, :, s), row(l, :, s), eliminated(l, :, s), phi(l), beta(l), delta(l), e(l), p(l))
             end do
-            if (s > kept) cycle
+            if (s > kept_columns) cycle
             if (again) then
                 differs(:) = abs(passed(:, 1, s) - phi) + abs(passed(:, 2, s) - beta) + abs(passed(:, 3, s) - delta) &
                     + abs(passed(:, 4, s) - e) + abs(passed(:, 5, s) - p)

@@ -4,6 +4,7 @@
 !> formed first.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
@@ -11,9 +12,6 @@ module gapbeam_residual
     implicit none
     private
     public :: residual_chain, residual_inside, size_type
-
-    !> So many nodes at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
 
     !> Sums of the absolute values of the terms of a node's rows. A difference of deflections or moments is one term: only
     !> the length that divides it can be off
@@ -134,13 +132,13 @@ contains
         real(wp), intent(in), contiguous :: moment(0:), deflection(0:)
         !> Residuals of compatibility and of equilibrium, or of the known deflection, shape (0:n); those at the ends are not set
         real(wp), intent(inout), contiguous :: turn(0:), shear(0:)
-        real(wp), dimension(block + 1) :: length, faa, fab, fbb
-        real(wp), dimension(block) :: left, right, force, known, stiffness, held
+        real(wp), dimension(cache_block + 1) :: length, faa, fab, fbb
+        real(wp), dimension(cache_block) :: left, right, force, known, stiffness, held
         integer :: from, to, i, m
 
         if (checked) call require(all(nodes(1:size(links) - 1)%kind == plain), "residual_inside: nodes")
-        do from = 1, size(links) - 1, block
-            to = min(from + block - 1, size(links) - 1)
+        do from = 1, size(links) - 1, cache_block
+            to = min(from + cache_block - 1, size(links) - 1)
             m = to - from + 1
             do i = from, to + 1
                 length(i - from + 1) = links(i)%length

@@ -202,3 +202,28 @@ def test_every_file_of_the_package_is_installed():
 def test_dir_shows_what_users_use():
     assert gapbeam.solve
     assert dir(gapbeam) == sorted(gapbeam.__all__)
+
+
+THRESHOLDS = ("tolerances", "path_tolerances", "limits")
+"""Files of `fortran/base` in which every threshold and every limit of a count stands."""
+
+
+def test_thresholds_say_who_reads_them():
+    readers = {}
+    for folder in FORTRAN:
+        for path in (TOP / "fortran" / folder).glob("*.[fF]90"):
+            if path.stem.startswith("python"):
+                continue  # what Python reads is named by who reads it there
+            text = re.sub(r"&\n\s*", "", path.read_text())
+            for module, names in re.findall(rf"use gapbeam_({'|'.join(THRESHOLDS)}), only: (.*)", text):
+                for name in names.split(","):
+                    readers.setdefault((module, name.split("=>")[-1].strip()), set()).add(f"{folder}/{path.stem}")
+    told = {}
+    for module in THRESHOLDS:
+        text = (TOP / "fortran" / "base" / f"{module}.f90").read_text()
+        for comment, name in re.findall(r"((?:^ *!> .*\n)+) +\S.*parameter :: (\w+) =", text, re.MULTILINE):
+            words = " ".join(re.findall(r"!> (.*)", comment)).partition(" Read by ")[2]
+            told[module, name] = set(re.findall(r"[a-z_]+/\w+", words))
+        public = " ".join(re.findall(r"public :: (.*)", text)).replace(",", " ").split()
+        assert {(module, name) for name in public} == {one for one in told if one[0] == module}
+    assert told == readers
