@@ -5,7 +5,7 @@ module gapbeam_tolerances
     implicit none
     private
     public :: sign_width, worst_digits, worst_correction, rounding_unit, extreme_margin, proximal_ratio, splitter
-    public :: position_tolerance, end_tolerance, train_slack, train_equal, most_unit_power
+    public :: position_tolerance, end_tolerance, cubic_rounding, load_begin, train_slack, train_equal, most_unit_power
 
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time.
@@ -32,10 +32,18 @@ module gapbeam_tolerances
     real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
     !> Positions whose difference is at most this share of the larger one are the same place: sums of some sixty spans may be so
-    !> far off. Read by scene/ and result/; python/gapbeam/scene/places.py has the same, which tests hold
+    !> far off. Read by scene/ and, through the engine, by gapbeam.scene.places
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
     !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off
+    !> Read by scene/ and, through the engine, by gapbeam.scene.trains
     real(wp), parameter :: end_tolerance = 1.0e-12_wp
+    !> By this share k2 of a cubic law may be less than what is allowed: decimals are rounded. Read by scene/check_ground_laws and,
+    !> through the engine, by gapbeam.scene.laws
+    real(wp), parameter :: cubic_rounding = 2.0_wp**(-50)
+
+    !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
+    !> any force; tuned. Read by continuation/ground_path and, through the engine, by gapbeam.plots
+    real(wp), parameter :: load_begin = 2.0_wp**(-40)
 
     !> Values under trains that differ by less than this share of the largest may be the same, for they are not refined: half of
     !> the digits. Read by moving_load/train_bounds, train_support_bounds, train_envelope and train_curves

@@ -73,6 +73,8 @@ module gapbeam_workspace
         integer :: method = method_mixed
         !> Relative residuals of the last solve
         real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
+        !> By how much elimination has let rounding errors grow, as the corrections of an update tell
+        real(wp) :: growth = 1.0_wp
     end type workspace_type
 
 contains

@@ -150,8 +150,8 @@ contains
             if (pivot%floating) then
                 small = .not. (abs(m) > 0.0_wp .or. abs(p) > 0.0_wp)
             else
-                small = abs(e) <= below_rounding*(pivot%phi*moment + pivot%beta*w) &
-                    .and. abs(p) <= below_rounding*(pivot%beta*moment + pivot%delta*w)
+                small = abs(e) <= below_rounding*(abs(pivot%phi)*moment + abs(pivot%beta)*w) &
+                    .and. abs(p) <= below_rounding*(abs(pivot%beta)*moment + abs(pivot%delta)*w)
             end if
         end associate
     end function fades

@@ -14,6 +14,7 @@ module gapbeam_api_cases
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
     use gapbeam_cases, only: case_loads_type, split_loads
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
     use gapbeam_query, only: node_places
     use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
@@ -82,9 +83,9 @@ contains
                            deflection, moment_left, moment_right, solves)
         !> Prepared; by prepare_cases from it
         type(prepared_type), intent(in) :: beam
-        type(cases_type), intent(inout) :: cases
+        type(cases_type), intent(inout), target :: cases
         !> Factor of every load, shape (nload, ncase)
-        real(wp), intent(in) :: factors(:, :)
+        real(wp), intent(in), contiguous, target :: factors(:, :)
         !> gapbeam_solved, gapbeam_no_equilibrium, or the code of the error that solve_beam would give, shape (ncase)
         integer, intent(out) :: status(:)
         !> gapbeam_bad_input: nothing is solved; also where supports vary that have laws.
@@ -105,9 +106,11 @@ contains
         integer, intent(out), optional :: solves(:)
         type(environment_type) :: environment
         type(options_type) :: chosen
-        integer, allocatable :: codes(:)
-        real(wp) :: own_spans(2, 0, 0)
-        integer :: supports, nodes, first, last, given, n, i, stat
+        type(case_numbers_type) :: numbers
+        type(case_solutions_type) :: solutions
+        integer, allocatable, target :: codes(:)
+        integer :: supports, nodes, first, last, n, i, stat
+        logical :: given
 
         call require_beam(beam, error)
         if (allocated(error)) return
@@ -118,8 +121,8 @@ contains
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
         supports = size(beam%lowered%model%supports)
         nodes = size(beam%lowered%node_point)
-        given = merge(supports, 0, present(settlement) .or. present(gap) .or. present(stiffness))
-        if (given > 0) call require_own_supports(beam%lowered, error)
+        given = present(settlement) .or. present(gap) .or. present(stiffness)
+        if (given) call require_own_supports(beam%lowered, error)
         if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
         if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
         if (present(stiffness)) call check_values(beam%lowered, size(status), stiffness, "stiffness", error)
@@ -135,7 +138,7 @@ contains
             if (allocated(error)) exit
             last = min(first + most - 1, size(status))
             n = last - first + 1
-            do i = 1, merge(n, 0, given > 0)
+            do i = 1, merge(n, 0, given)
                 associate (own => beam%lowered%model%supports, values => cases%values(:, :, i), c => first + i - 1)
                     values(1, :) = own%settlement
                     values(2, :) = own%gap
@@ -146,12 +149,17 @@ contains
                 end associate
             end do
             cases%closed(:, :n) = spread(cases%start, 2, n)
-            call solve_in_room(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), own_spans, &
-                               chosen%rule, cases%room, cases%closed(:, :n), &
-                               cases%w(:merge(cases%nodes, 0, present(deflection)), :n), &
-                               cases%ml(:merge(cases%nodes, 0, present(moment_left)), :n), &
-                               cases%mr(:merge(cases%nodes, 0, present(moment_right)), :n), &
-                               cases%reaction(:merge(cases%supports, 0, present(reaction)), :n), cases%solves(:n), codes(:n))
+            numbers%factors => factors(:, first:last)
+            numbers%rule = chosen%rule
+            if (given) numbers%supports => cases%values(:, :, :n)
+            solutions%closed => cases%closed(:, :n)
+            if (present(deflection)) solutions%w => cases%w(:, :n)
+            if (present(moment_left)) solutions%ml => cases%ml(:, :n)
+            if (present(moment_right)) solutions%mr => cases%mr(:, :n)
+            if (present(reaction)) solutions%reaction => cases%reaction(:, :n)
+            solutions%solves => cases%solves(:n)
+            solutions%status => codes(:n)
+            call solve_in_room(beam%lowered, cases%loads, numbers, cases%room, solutions)
             if (codes(1) == gapbeam_no_memory) call no_memory(error)
             if (codes(1) == gapbeam_stopped) call end_if_stopped(beam%lowered%beam%watch, error)
             if (allocated(error)) exit

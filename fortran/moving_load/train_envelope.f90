@@ -18,8 +18,8 @@ module gapbeam_train_envelope
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_traversal, only: traversal_type
-    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
-        degree_along, lebesgue
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, &
+        bound_fields, degree_along, lebesgue
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
@@ -65,7 +65,7 @@ contains
         integer :: powers(bending_count), c, f, i, k, last, m, n, sampled, stat
 
         m = size(assembled%model%supports)
-        call new_samples(assembled, track, train, samples, error)
+        call new_samples(assembled, track, train, degree_in_position(train), samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, bending_count), of_supports(2, at_support, m), envelope%supports(2, at_support, m), &

@@ -7,14 +7,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..engine.tolerances import CUBIC_ROUNDING
 from .table import NotNegative, Positive, Table
 
 PIECES = 96
 """Pieces of the polyline that a curve is followed with, before it is solved itself."""
-
-
-ROUNDING = 2.0**-50
-"""By so much k2 may be less than what is allowed: decimals are rounded."""
 
 
 class _Law(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
@@ -271,7 +268,7 @@ def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
             return key, value, more + {None: " above 0", 0.0: " of 0 or more", -inf: ""}[least]
     if isinstance(law, CubicLaw):
         least = law.least_k2()
-        if law.k2 < least * (1 + ROUNDING):
+        if law.k2 < least * (1 + CUBIC_ROUNDING):
             return "k2", law.k2, f"-2*sqrt(k1*k3) = {least:.9g} or more, since a support that pushes cannot pull"
         if law.k1 == law.k2 == law.k3 == 0.0:
             return "k1", law.k1, "a number above 0 for k1, k2 or k3"

@@ -29,8 +29,8 @@ from ...base.errors import EngineError
 from ...base.hints import no_such
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
+from ...engine.tolerances import POSITION_TOLERANCE
 from ...scene.columns import columns, curves
-from ...scene.places import POSITION_TOLERANCE
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ...scene.wording import choice, shown
 from ..state.arguments import finite
