@@ -3,6 +3,7 @@
 !> interval (de Casteljau) show the rest.
 module gapbeam_bernstein
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: narrowest_interval
     use gapbeam_polynomial, only: roots_between, most_roots => highest_degree
     implicit none
     private
@@ -10,8 +11,6 @@ module gapbeam_bernstein
 
     !> Degrees at most
     integer, parameter :: highest_degree = 7
-    !> Halves narrower than this are not looked into
-    real(wp), parameter :: narrowest = 2.0_wp**(-50)
 
 contains
 
@@ -176,7 +175,7 @@ contains
             whole(0:n) = waiting(0:n, count)
             if (all(whole(0:n) >= level)) then
                 count = count - 1
-            else if (whole(0) < level .or. width(count) < narrowest .or. count == size(width)) then
+            else if (whole(0) < level .or. width(count) < narrowest_interval .or. count == size(width)) then
                 u = from(count)
                 return
             else

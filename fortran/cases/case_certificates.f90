@@ -2,6 +2,7 @@
 !> Where something is in doubt, or lanes do not hold them (gapbeam_lane_certificate), one by one (gapbeam_certificate).
 module gapbeam_case_certificates
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: cut_load_error
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_converged, gapbeam_stopped
     use gapbeam_model_quad, only: fine_beam_type => beam_type
@@ -249,7 +250,7 @@ contains
                 rounding%slip(k) = sum(assembled%pieces(first:last)%shear_flexibility*assembled%pieces(first:last)%length)
                 ! A link of one piece has nothing to be summed
                 rounding%of_fields(k) = 0.0_wp
-                if (last > first) rounding%of_fields(k) = rounding%of_loads + 6*epsilon(1.0_wp)
+                if (last > first) rounding%of_fields(k) = rounding%of_loads + cut_load_error
             end associate
         end do
     end subroutine find_rounding

@@ -3,6 +3,7 @@
 !> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_lane_links
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type
@@ -17,9 +18,6 @@ module gapbeam_lane_cases
     private
     public :: lane_room_type, fits_lanes, solve_in_lanes, find_contact_states
 
-    !> Most links: eight cases of longer beams leave the processor's memory, and a case alone is solved faster by itself. From 300
-    !> links on gapbeam_search keeps a solution up to date, so that the last digits of solve_case may be others
-    integer, parameter :: most_links = 1000
     !> Ways in which schemes are solved
     integer, parameter :: ways = 3
 
@@ -45,7 +43,7 @@ contains
 
         associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
-            fits = n > 1 .and. n <= most_links .and. .not. allocated(beam%ground)
+            fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &

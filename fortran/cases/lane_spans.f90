@@ -1,6 +1,7 @@
 !> Links of cases whose spans have stiffnesses of their own (gapbeam_lane_links).
 module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_stiffness_power, most_stiffness_unit, most_load_terms
     use gapbeam_tolerances, only: proximal_ratio
     use gapbeam_element, only: moment_integrals
     use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
@@ -14,12 +15,6 @@ module gapbeam_lane_spans
     private
     public :: span_room_type, fits_spans, prepare_spans, take_spans, proximal_weight_of
 
-    !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
-    integer, parameter :: most_power = 100
-    !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles
-    integer, parameter :: most_unit = 900
-    !> Pieces of links times loads on them: beyond that they leave the processor's memory
-    integer, parameter :: most_terms = 100000
     !> No load on a piece
     type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
@@ -40,7 +35,7 @@ contains
         type(case_loads_type), intent(in) :: loads
         logical :: fits
 
-        fits = terms_of(assembled, loads) <= most_terms
+        fits = terms_of(assembled, loads) <= most_load_terms
     end function fits_spans
 
     !> Pieces of links times loads on them, not much above most_terms
@@ -54,7 +49,7 @@ contains
             associate (i => loads%of_links(k)%link)
                 number = number + assembled%node_point(i) - assembled%node_point(i - 1)
             end associate
-            if (number > most_terms) return
+            if (number > most_load_terms) return
         end do
     end function terms_of
 
@@ -80,10 +75,10 @@ contains
             made = stat == 0
             if (.not. made) return
             powers = [turning_unit(units) + units%length, units%force - rotation_unit(units)]
-            if (all(abs(powers) < most_unit)) then
+            if (all(abs(powers) < most_stiffness_unit)) then
                 spans%power = scale(1.0_wp, -powers)
-                spans%least = scale(1.0_wp, powers - most_power)
-                spans%most = scale(1.0_wp, powers + most_power)
+                spans%least = scale(1.0_wp, powers - most_stiffness_power)
+                spans%most = scale(1.0_wp, powers + most_stiffness_power)
             end if
             spans%softest = least_stiffness(assembled%beam%supports)
             spans%last(:) = pieces%last

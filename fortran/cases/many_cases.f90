@@ -14,13 +14,10 @@ module gapbeam_many_cases
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     use gapbeam_single_cases, only: single_room_type, solve_one_by_one
+    use gapbeam_limits, only: least_cases, least_alone_links
     implicit none
     private
     public :: case_room_type, solve_cases
-
-    !> Fewer cases left over leave most lanes idle: of a long beam they are solved faster in segments. Measured on 200 to 1,000
-    !> spans, where eight cases in lanes take as long as 3 to 8 in segments, one sixth of which has to be solved again
-    integer, parameter :: few = 4
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: case_room_type
@@ -67,7 +64,7 @@ contains
             else
                 if (room%is_long) then
                     left = modulo(cases, lanes)
-                    if (left >= few) left = 0
+                    if (left >= least_cases) left = 0
                     if (.not. room%fits) left = cases
                     call solve_in_segments(assembled, loads, numbers, [(cases - left + i, i=1, left)], room%segments, &
                                            solutions, done)

@@ -3,6 +3,7 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: least_segment_links, least_alone_links
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
@@ -20,9 +21,6 @@ module gapbeam_segment_cases
     implicit none
     private
     public :: segments_type, fits_segments, solve_in_segments
-
-    !> Least links: shorter segments feel each other too much
-    integer, parameter :: least_links = 200
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: segments_type
@@ -46,7 +44,7 @@ contains
 
         associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
-            fits = n >= least_links .and. .not. allocated(beam%ground)
+            fits = n >= least_segment_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &

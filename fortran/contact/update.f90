@@ -5,6 +5,8 @@
 !> Residuals in twice the working precision, formed from the solution itself, keep errors from adding up over many changes.
 module gapbeam_update
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: nodes_apart, most_corrections
+    use gapbeam_tolerances, only: last_correction, harmless_correction
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: answer_type, factor_chain, band_ok
     use gapbeam_band_substitution, only: correct_chain
@@ -16,13 +18,6 @@ module gapbeam_update
     implicit none
     private
     public :: start_updates, keep_factor, update_scheme, find_groups
-
-    !> Nodes between two changes that are made in one
-    integer, parameter :: apart = 16
-
-    !> A correction this small relative to the solution is the last one; one this small did not cost digits; how many there may be
-    real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp)), harmless_correction = 10.0_wp
-    integer, parameter :: most_corrections = 5
 
 contains
 
@@ -96,7 +91,7 @@ contains
         count = 0
         do i = 1, size(nodes)
             if (count > 0) then
-                if (nodes(i) - groups(2, count) <= apart) then
+                if (nodes(i) - groups(2, count) <= nodes_apart) then
                     groups(2, count) = nodes(i)
                     cycle
                 end if

@@ -9,6 +9,7 @@
 !> that point, before which lies a line with the slope of the first piece, down to its set.
 module gapbeam_branch
     use gapbeam_kinds, only: wp => qp, dp => wp
+    use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
     use gapbeam_polyline_quad, only: break_law, rewrite_law
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
@@ -343,7 +344,7 @@ contains
             end do
             at_hand(:) = way < huge(way)
             if (.not. any(at_hand)) return
-            at_hand(:) = at_hand .and. way <= minval(way)*(1 + 64*epsilon(way))
+            at_hand(:) = at_hand .and. way <= minval(way)*(1 + same_breakpoint)
             branch%deflection(:) = branch%deflection + minval(way)*motion
         end associate
     end subroutine turn_on

@@ -1,6 +1,7 @@
 !> A path on its way: the beam with its laws as they have become, the way at hand, and what was known on the way there.
 module gapbeam_branch_state
     use gapbeam_kinds, only: wp => qp, dp => wp
+    use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_polyline, only: coarse_support_type => node_support_type
     use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint, break_law, rewrite_law
     use gapbeam_model_quad, only: beam_type
@@ -108,7 +109,7 @@ contains
                         j = beam%order(i)
                         associate (other => beam%supports(j))
                             if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
-                            if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
+                            if (abs(other%contact - s%contact) > same_breakpoint*abs(s%contact)) cycle
                             rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
                             if (other%breakpoint == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp &
                                 .and. other%stiffness > huge(rate)

@@ -1,6 +1,7 @@
 !> Load path through given factors, past limit points, with supports that soften, break or keep a set.
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_idle_segments
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
     use gapbeam_words, only: shown
@@ -32,8 +33,6 @@ module gapbeam_history
     !> Kinds of limit. A path may also have ended without an end in sight: no further breakpoint, whatever the load; or after so
     !> many stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
-    !> Stretches without length in turn, beyond four for every breakpoint, after which the path is given up
-    integer, parameter :: most_idle = 1000
 
     !> A stretch of the path on which all pieces of all laws stay the same
     type :: stretch_type
@@ -228,7 +227,7 @@ contains
                 if (allocated(error)) exit
                 moves = direction == turn .or. abs(real(segment%to, wp) - real(segment%from, wp)) > 0.0_wp
                 idle = merge(0, idle + 1, moves)
-                if (idle > 4*size(closed) + most_idle) then
+                if (idle > 4*size(closed) + most_idle_segments) then
                     call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &
                                      trim(shown(real(branch%factor, wp)))//", where rounding hides which support gives way "// &
                                      "first: bring the magnitudes of the beam nearer to each other")

@@ -2,6 +2,7 @@
 !> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: agreement, same_factor
     use gapbeam_band, only: band_ok
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -15,19 +16,14 @@ module gapbeam_stretch
     implicit none
     private
     public :: stretch_type, new_stretch, start_stretch, change_supports, queue_all, add_those_at_zero, next_in_queue
-    public :: response_in, unloads_from_here, same_factor
-
-    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
-    real(wp), parameter :: same_factor = 1e-15_wp
-    !> Share of its factor by which an event may be off in doubles; if it may be more, it is found in quadruple precision
-    real(wp), parameter :: coarse = 1e-9_wp
+    public :: response_in, unloads_from_here
 
     !> What is known on a stretch of the path. Where the load falls, factors and lines are those of its negative
     type :: stretch_type
         !> Direction in which the load goes, 1 or -1
         real(wp) :: direction = 1.0_wp
         !> Share of its factor by which an event may be off in doubles
-        real(wp) :: share_off = coarse
+        real(wp) :: share_off = agreement
         !> Which supports unload in a way of their own from wherever they are, if any do, shape (size(supports)); does one of them
         !> turn back, or may it
         logical, allocatable :: keeps_set(:)

@@ -23,6 +23,7 @@
 !> the sweep passes on moment and shear by statics alone and finds the deflection on the way back.
 module gapbeam_band
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: pivot_digits
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_nodes, only: plain, hinge, restrained
@@ -207,10 +208,9 @@ contains
         real(wp), intent(in) :: phi, beta, delta
         logical, intent(in) :: floating
         logical :: same
-        real(wp), parameter :: digits = 4*epsilon(1.0_wp)
 
-        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= digits*abs(phi) &
-            .and. abs(beta - pivot%beta) <= digits*abs(beta) .and. abs(delta - pivot%delta) <= digits*abs(delta)
+        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= pivot_digits*abs(phi) &
+            .and. abs(beta - pivot%beta) <= pivot_digits*abs(beta) .and. abs(delta - pivot%delta) <= pivot_digits*abs(delta)
     end function repeats
 
     !> The right end of the beam: no link follows

@@ -2,6 +2,7 @@
 module gapbeam_api_cases
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: case_batch
     use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_stopped
@@ -21,9 +22,6 @@ module gapbeam_api_cases
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
-
-    !> Cases that are solved in one go, so that what they need stays in the cache
-    integer, parameter :: most = 256
 
     !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
     type :: cases_type
@@ -58,9 +56,9 @@ contains
             end if
             n = size(lowered%node_point)
             m = size(lowered%beam%supports)
-            allocate (cases%start(m), cases%closed(m, most), cases%solves(most), cases%w(n, most), cases%ml(n, most), &
-                      cases%mr(n, most), cases%reaction(m, most), cases%values(3, size(lowered%model%supports), most), &
-                      cases%loads, stat=stat)
+            allocate (cases%start(m), cases%closed(m, case_batch), cases%solves(case_batch), cases%w(n, case_batch), &
+                      cases%ml(n, case_batch), cases%mr(n, case_batch), cases%reaction(m, case_batch), &
+                      cases%values(3, size(lowered%model%supports), case_batch), cases%loads, stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -132,11 +130,11 @@ contains
         if (present(moment_right)) call check_shape([nodes, size(status)], shape(moment_right), error)
         if (present(condition)) call check_shape([supports, size(status)], shape(condition), error)
         if (present(solves)) call check_shape([size(status)], shape(solves), error)
-        allocate (codes(min(most, size(status))), stat=stat)
+        allocate (codes(min(case_batch, size(status))), stat=stat)
         if (stat /= 0 .and. .not. allocated(error)) call no_memory(error)
-        do first = 1, size(status), most
+        do first = 1, size(status), case_batch
             if (allocated(error)) exit
-            last = min(first + most - 1, size(status))
+            last = min(first + case_batch - 1, size(status))
             n = last - first + 1
             do i = 1, merge(n, 0, given)
                 associate (own => beam%lowered%model%supports, values => cases%values(:, :, i), c => first + i - 1)

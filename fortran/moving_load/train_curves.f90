@@ -1,7 +1,7 @@
 !> Largest and smallest values at chosen places of the beam while a train goes over it.
 module gapbeam_train_curves
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_slack, train_equal
+    use gapbeam_path_tolerances, only: train_slack, train_equal, train_rounding, most_lost
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: part_of, find_greatest
@@ -14,7 +14,6 @@ module gapbeam_train_curves
     use gapbeam_train, only: train_type, track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cells_type, cell_ends
     use gapbeam_train_traversal, only: traversal_type
-    use gapbeam_train_bounds, only: most_lost
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch
     use gapbeam_train_places, only: places_type, new_places, reach, exceed
@@ -26,8 +25,6 @@ module gapbeam_train_curves
 
     !> What a place is passed for: to note values that it reaches, to bound them, to look at them with all digits
     integer, parameter :: reaching = 1, bounding = 2, looking = 3
-    !> Values that differ by less than this share of the largest on the beam need not be told apart
-    real(wp), parameter :: the_same = 2.0_wp**(-46)
 
 contains
 
@@ -149,8 +146,8 @@ contains
             integer, intent(in) :: q
 
             associate (known => value(:, :, places%given(q)), sizes => screen%sizes)
-                places%threshold(q, :, 1) = max(places%reached(q, :, 1) - train_slack*sizes, known(1, :) + the_same*sizes)
-                places%threshold(q, :, 2) = max(places%reached(q, :, 2) - train_slack*sizes, the_same*sizes - known(2, :))
+                places%threshold(q, :, 1) = max(places%reached(q, :, 1) - train_slack*sizes, known(1, :) + train_rounding*sizes)
+                places%threshold(q, :, 2) = max(places%reached(q, :, 2) - train_slack*sizes, train_rounding*sizes - known(2, :))
             end associate
         end subroutine set_threshold
 
@@ -298,7 +295,7 @@ contains
             last = share_of(to)
             values(:, :) = matmul(screen%matrix, values)
             associate (known => value(:, :, places%given(q)), where_known => position(:, :, places%given(q)), &
-                       same => the_same*screen%sizes, &
+                       same => train_rounding*screen%sizes, &
                        least => places%reached(q, :, :) - train_slack*spread(screen%sizes, 2, 2))
                 do field = 1, bending_count
                     part(:) = part_of(values(:, field), first, last)

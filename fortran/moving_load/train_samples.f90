@@ -5,6 +5,7 @@
 !> with a uniform load.
 module gapbeam_train_samples
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: lebesgue
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
@@ -29,11 +30,7 @@ module gapbeam_train_samples
     implicit none
     private
     public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, powers_along, &
-        bound_fields, degree_along, lebesgue
-
-    !> No polynomial of these degrees leaves its samples by more than this times what they differ by (the Lebesgue constant of the
-    !> sample points is 2.2 at most)
-    real(wp), parameter :: lebesgue = 2.5_wp
+        bound_fields, degree_along
 
     !> What is sampled of a stretch
     type :: samples_type
