@@ -178,6 +178,8 @@ contains
             if (stretch%in_doubt .or. size(at_zero) /= 1) return
             if (next <= here + near .or. next + (next - first) + near >= goal) return
             k = at_zero(1)
+            ! What is there but for rounding is at 0
+            if (abs(next) <= near) next = 0.0_wp
             next = stretch%direction*next
             found = clear_event
         end associate

@@ -4,15 +4,16 @@ program test_band
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, factor_chain, band_ok, band_mechanism, &
-        band_needs_pivoting, plain, hinge, restrained
+        band_needs_pivoting, count_unstable_pivots, plain, hinge, restrained
     use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain, size_type
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
-    use gapbeam_pivoting, only: solve_pivoting
+    use gapbeam_pivoting, only: solve_pivoting, count_unstable
     implicit none
     integer :: status
 
     call every_kind_of_node()
+    call falling_springs()
     call rigid_supports_only()
     call mechanisms()
     call rigid_beam_on_rigid_supports()
@@ -129,6 +130,38 @@ contains
         nodes(4) = node_type(restrained, .false., 2.0_wp, 0.3_wp)
         call compare(nodes, links, rhs, "sprung in the middle alone")
     end subroutine every_kind_of_node
+
+    !> Springs whose force falls: the pivots tell in how many ways the beam gives way, as elimination with all unknowns does
+    subroutine falling_springs()
+        type(link_type), allocatable :: links(:)
+        type(rhs_type), allocatable :: rhs(:)
+        type(node_type) :: nodes(0:9)
+        type(pivot_type) :: pivots(0:9)
+        integer :: seed, draw, i, state, place, index
+        logical :: seen(0:2)
+
+        seed = 11
+        seen = .false.
+        do draw = 1, 60
+            call make(seed, 9, links, rhs)
+            nodes = node_type()
+            do i = 0, 9
+                if (fraction_of(seed) < 0.6_wp) nodes(i)%stiffness = 3*(fraction_of(seed) - 0.3_wp)
+                nodes(i)%held = fraction_of(seed) < 0.2_wp
+                if (fraction_of(seed) < 0.2_wp) then
+                    nodes(i)%kind = restrained
+                    nodes(i)%compliance = fraction_of(seed)
+                end if
+            end do
+            nodes(4)%kind = hinge
+            call factor_chain(nodes, links, pivots, state, place)
+            if (state /= band_ok) cycle
+            call count_unstable(nodes, links, index)
+            call check(count_unstable_pivots(nodes, pivots) == index, "the index of springs whose force falls")
+            seen(min(index, 2)) = .true.
+        end do
+        call check(all(seen), "stable and unstable beams are drawn")
+    end subroutine falling_springs
 
     !> Three-moment equations against the mixed system
     subroutine rigid_supports_only()
