@@ -1,7 +1,7 @@
 !> Load path of a beam on the ground: changes of zones of contact and supports at their factors (gapbeam_ground_problem).
 module gapbeam_ground_path
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: load_begin
+    use gapbeam_path_tolerances, only: load_begin
     use gapbeam_error, only: error_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type

@@ -8,7 +8,8 @@
 
 ! Thresholds and limits that Python reads too
 subroutine gbtole(place, endtol, cubic, begin, equal, ties, segmts, change)
-    use gapbeam_tolerances, only: position_tolerance, end_tolerance, cubic_rounding, load_begin, train_equal
+    use gapbeam_tolerances, only: position_tolerance, end_tolerance, cubic_rounding
+    use gapbeam_path_tolerances, only: load_begin, train_equal
     use gapbeam_limits, only: most_extreme_ties, most_path_segments, changes_at_a_time
     implicit none
     ! POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, LOAD_BEGIN, TRAIN_EQUAL

@@ -1,6 +1,7 @@
 !> Extreme values of a train at all places that tie.
 module gapbeam_train_ties
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: same_tie
     use gapbeam_limits, only: most_extreme_ties
     use gapbeam_law, only: both
     implicit none
@@ -73,10 +74,9 @@ contains
         pure function same(x, position, other_x, other_position)
             real(wp), intent(in) :: x, position, other_x, other_position
             logical :: same
-            real(wp), parameter :: near = 1e-9_wp
 
-            same = abs(x - other_x) <= near*max(1.0_wp, abs(x)) .and. &
-                abs(position - other_position) <= near*max(1.0_wp, abs(position))
+            same = abs(x - other_x) <= same_tie*max(1.0_wp, abs(x)) .and. &
+                abs(position - other_position) <= same_tie*max(1.0_wp, abs(position))
         end function same
 
     end subroutine add_tie

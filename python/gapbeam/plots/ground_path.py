@@ -122,10 +122,6 @@ def note_on_ground(result: Result) -> str:
     ----------
     result : Result
         Of a beam on the ground.
-
-    Returns
-    -------
-    str
     """
     marked = [MARKERS.get(event.event, END) for event in _marked(result)]
     circles = [words for marker, words in NOTES.items() if marker in marked]

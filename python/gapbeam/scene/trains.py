@@ -250,10 +250,6 @@ def nearest(train: Train, end: float) -> float:
         From `joined`.
     end : float
         Length of the beam.
-
-    Returns
-    -------
-    float
     """
     return POSITION_TOLERANCE * (end + max(distance for distance, _ in train.axles))
 

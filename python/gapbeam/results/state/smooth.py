@@ -104,10 +104,6 @@ class SmoothLaws:
             Displacements of the nodes, positive downward.
         force, way : numpy.ndarray
             Forces, and which way the supports are pressed (1 downward).
-
-        Returns
-        -------
-        bool
         """
         moved = motion[self.nodes]
         gives_all = (way * moved > 0.0) & (force >= (1.0 - DIGITS) * np.array([curve.bound() for curve in self.curves]))
@@ -186,10 +182,6 @@ class SmoothLaws:
             A point of each line, in the scene's units; forces upward.
         slope : numpy.ndarray
             Slopes of the lines.
-
-        Returns
-        -------
-        Beam
         """
         units, breakpoints = beam.units, beam.breakpoints.copy()
         lines = np.array([
@@ -288,10 +280,6 @@ def with_openings(beam: Beam, solution: Solution) -> Solution:
         With smooth laws, or lines instead of them.
     solution : Solution
         On the laws.
-
-    Returns
-    -------
-    Solution
     """
     laws = SmoothLaws(beam)
     d, _ = laws.past_the_gap(laws.deflections(solution))
@@ -313,10 +301,6 @@ def factor_on_curves(beam: Beam, factor: float, closed: np.ndarray, support: int
         The scheme before.
     support : int
         Number of the support or breakpoint in the engine.
-
-    Returns
-    -------
-    float
     """
     node, contact = beam.places.support_nodes[support], beam.breakpoints[0, support]
     ordinary = int(beam.numbers[support]) not in beam.laws
