@@ -10,6 +10,7 @@ from ..scene.names import DEAD, cases_of, label
 from . import formatting as fmt
 from .envelopes.envelope import AT_SUPPORTS
 from .paths.path import Event
+from .state.breakpoints import OF_SUPPORTS, OF_ZONES
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
@@ -20,14 +21,7 @@ if TYPE_CHECKING:
 
 STATES = {"closed": "in contact", "open": "no contact", "bilateral": "two-way"}
 """States of supports and zones in reports; the names in results and files stay."""
-OF_SUPPORTS = {
-    "opens": "lifts off", "closes": "comes into contact", "turns": "stops the beam, which has turned freely",
-    "yields": "yields", "hardens": "hardens", "softens": "softens", "breaks": "breaks", "unloads": "unloads",
-}  # fmt: skip
-OF_ZONES = {
-    "zone appears": "a contact zone appears", "zone vanishes": "a contact zone vanishes", "zones merge": "two contact zones merge",
-    "zone splits": "a contact zone splits", "end reaches": "contact reaches the end", "end leaves": "contact leaves the end",
-}  # fmt: skip
+EVENT_WORDS = dict((OF_SUPPORTS | OF_ZONES).values())
 LIMITS = {"limit": "Limit load", "bifurcation": "Bifurcation", "mechanism": "Limit load (mechanism)"}
 """Kinds of limits of the load."""
 LOST = ("yields", "softens", "breaks")
@@ -132,9 +126,9 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
         of = f" of segment {branch}" if branch > 1 else ""
         known = len(scene.foundation) > 1 or scene.foundation[0].name is not None
         name = f"ground {label(scene.foundation, event.foundation)}: " if known else "ground: "
-        return f"{name}{OF_ZONES.get(event.event, event.event)}{of} at x = {x}"
+        return f"{name}{EVENT_WORDS[event.event]}{of} at x = {x}"
     force = f" ({fmt.value(scene, 'reaction', abs(reaction))})" if reaction else ""
-    return f"{fmt.support(scene, event.support)} (x = {x}) {OF_SUPPORTS.get(event.event, event.event)}{force}"
+    return f"{fmt.support(scene, event.support)} (x = {x}) {EVENT_WORDS[event.event]}{force}"
 
 
 def limits_of_load_in_words(result: Result, envelope: PathEnvelope | None, most: int) -> list[str]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..engine.quantities import QUANTITIES
 from .data import SCHEMA
+from .state.breakpoints import OF_SUPPORTS, OF_ZONES
 
 WORDS = {
     "Schema": [SCHEMA],
@@ -23,6 +24,11 @@ WORDS = {
 def _along(of: str) -> dict[str, tuple[str, str]]:
     """Give a key for every field along the beam."""
     return {f"{one.name}?": (of, one.meaning) for one in QUANTITIES}
+
+
+def _names(events: dict[int, tuple[str, str]]) -> str:
+    """Give the names of events."""
+    return ", ".join(name for name, _ in events.values())
 
 
 STATE = {
@@ -106,8 +112,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "foundation?": ("integer", "number of the foundation."),
         "name?": ("string", "Its name, where it has one."),
         "x": ("number", "Position (length)."),
-        "event": ("string", "opens, closes, turns; yields, hardens, softens, breaks, unloads; of the ground zone appears, "
-                  "zone vanishes, zones merge, zone splits, end reaches, end leaves."),
+        "event": ("string", f"{_names(OF_SUPPORTS)}; of the ground {_names(OF_ZONES)}."),
         "branch?": ("integer", "Number of the equilibrium branch, from 2 on."),
     }),
     "TrainEvent": ("A change of the contact state at the exact position of a train.", {

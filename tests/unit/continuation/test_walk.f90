@@ -4,7 +4,7 @@ program test_walk
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use walk_sample, only: sample_type, sample_point_type
+    use walk_sample, only: sample_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_walk, only: walk_along
     implicit none
@@ -32,7 +32,7 @@ contains
         call check(.not. allocated(error), "no error")
     end subroutine walk
 
-    !> Changes at sqrt(2), twice at 2.1, and beyond the stretch without states
+    !> Changes at 1.3, sqrt(2), twice at 2.1, and beyond the stretch without states
     subroutine all_changes()
         type(sample_type) :: sample
         logical :: ended
@@ -40,10 +40,10 @@ contains
         sample%goes_on = .true.
         call walk(sample, ended)
         call check(.not. ended, "goes on beyond the stretch without states")
-        call check(sample%number == 4, "as many changes as there are")
-        call check(all(sample%support(:4) == [1, 2, 3, 4]), "each of them its own")
-        call check_close(sample%changed_at(:4), [sqrt(2.0_wp), 2.1_wp, 2.1_wp + 2.0_wp**(-40), 3.8_wp], "where they happen", &
-                         relative=1e-14_wp)
+        call check(sample%number == 5, "as many changes as there are")
+        call check(all(sample%support(:5) == [1, 2, 3, 4, 5]), "each of them its own")
+        call check_close(sample%changed_at(:5), [1.3_wp, sqrt(2.0_wp), 2.1_wp, 2.1_wp + 2.0_wp**(-40), 3.8_wp], &
+                         "where they happen", relative=1e-14_wp)
         call check_close(sample%from, 3.0_wp, "where states end", relative=4*epsilon(1.0_wp))
         call check_close(sample%until, 3.5_wp, "where they begin again", relative=4*epsilon(1.0_wp))
         call check(sample%ascending, "points are recorded in ascending order")
@@ -55,7 +55,7 @@ contains
         logical :: ended
 
         call walk(sample, ended)
-        call check(ended .and. sample%number == 3, "the path ends with its states")
+        call check(ended .and. sample%number == 4, "the path ends with its states")
         call check(.not. sample%until > 0.0_wp, "nothing is recorded beyond")
     end subroutine ends_at_a_limit
 
@@ -67,8 +67,8 @@ contains
         sample%goes_on = .true.
         sample%misleads = .true.
         call walk(sample, ended)
-        call check(sample%number == 4, "a look that misleads makes no change")
-        call check_close(sample%changed_at(1), sqrt(2.0_wp), "and hides none", relative=1e-14_wp)
+        call check(sample%number == 5, "a look that misleads makes no change")
+        call check_close(sample%changed_at(2), sqrt(2.0_wp), "and hides none", relative=1e-14_wp)
     end subroutine not_misled
 
 end program test_walk

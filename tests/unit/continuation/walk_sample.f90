@@ -9,7 +9,7 @@ module walk_sample
     private
     public :: sample_type, sample_point_type
 
-    real(wp), parameter :: closes_at(4) = [sqrt(2.0_wp), 2.1_wp, 2.1_wp + 2.0_wp**(-40), 3.8_wp]
+    real(wp), parameter :: closes_at(5) = [1.3_wp, sqrt(2.0_wp), 2.1_wp, 2.1_wp + 2.0_wp**(-40), 3.8_wp]
 
     !> A state
     type, extends(point_type) :: sample_point_type
@@ -55,7 +55,7 @@ contains
         if (present(near)) problem%solves = problem%solves + 1
         allocate (found)
         found%at = at
-        if (abs(at - closes_at(1)) < 2.0_wp**(-36)) then
+        if (abs(at - closes_at(2)) < 2.0_wp**(-36)) then
             call fatal_error(trouble, gapbeam_not_converged, "too near to tell")
             call move_alloc(trouble, found%trouble)
         else
@@ -78,7 +78,7 @@ contains
         select type (point)
         type is (sample_point_type)
             point%sure = .not. problem%misleads
-            if (problem%misleads .and. abs(at - 0.5_wp) < 0.1_wp) point%closed(4) = .true.
+            if (problem%misleads .and. abs(at - 0.5_wp) < 0.1_wp) point%closed(5) = .true.
         end select
     end subroutine look
 
@@ -118,7 +118,7 @@ contains
         end select
     end subroutine list_changes
 
-    !> A distance that bends where it is zero; that of support 4 is not known
+    !> A distance that bends where it is zero; that of support 5 is not known
     subroutine measure(problem, change, at, near, point, margin, place, known, other)
         class(sample_type), intent(inout) :: problem
         type(change_type), intent(in) :: change
@@ -135,7 +135,7 @@ contains
             margin = merge(1000*way, way + 0.1_wp*way**2, way > 0.0_wp)
         end associate
         place = 1.0_wp
-        known = change%support /= 4
+        known = change%support /= 5
     end subroutine measure
 
     !> Steps of a half

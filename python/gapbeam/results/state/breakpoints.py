@@ -9,11 +9,19 @@ import numpy as np
 from ...engine.beam import Beam
 from ...engine.states import Solution
 
-EVENTS = {
-    0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads",
-    20: "zone appears", 21: "zone vanishes", 22: "zones merge", 23: "zone splits", 24: "end reaches", 25: "end leaves",
+OF_SUPPORTS = {
+    0: ("opens", "lifts off"), 1: ("closes", "comes into contact"), 3: ("turns", "stops the beam, which has turned freely"),
+    4: ("yields", "yields"), 5: ("hardens", "hardens"), 6: ("softens", "softens"), 7: ("breaks", "breaks"),
+    8: ("unloads", "unloads"),
 }  # fmt: skip
-"""What happens, by the codes of gapbeam_pieces."""
+OF_ZONES = {
+    20: ("zone appears", "a contact zone appears"), 21: ("zone vanishes", "a contact zone vanishes"),
+    22: ("zones merge", "two contact zones merge"), 23: ("zone splits", "a contact zone splits"),
+    24: ("end reaches", "contact reaches the end"), 25: ("end leaves", "contact leaves the end"),
+}  # fmt: skip
+"""Events of supports and of zones of the ground by the codes of gapbeam_pieces: name in results, and words in reports."""
+EVENTS = {code: name for code, (name, _) in (OF_SUPPORTS | OF_ZONES).items()}
+"""Their names."""
 
 
 class Piece(NamedTuple):
