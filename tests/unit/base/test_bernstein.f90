@@ -2,8 +2,8 @@
 program test_bernstein
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_bernstein, only: highest_degree, sample_points, to_coefficients, value_of, halve, part_of, find_greatest, first_below, &
-        crossing
+    use gapbeam_bernstein, only: highest_degree, sample_points, to_coefficients, value_of, halve, part_of, find_greatest, &
+        first_below, crossing
     use gapbeam_patch, only: patch_type, greatest_on_patch
     implicit none
     integer :: status
