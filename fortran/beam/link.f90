@@ -12,13 +12,13 @@ module gapbeam_link
     public :: along_type, next_piece, moments_about_right_end
 
     !> A prismatic piece
-    type, bind(c) :: piece_type
+    type :: piece_type
         !> Length, 1/EI, 1/GA
         real(wp) :: length, flexibility, shear_flexibility
     end type piece_type
 
     !> Loads on a piece and on the point at its right end
-    type, bind(c) :: piece_load_type
+    type :: piece_load_type
         !> Load per length at the left and right end, imposed curvature
         real(wp) :: qa, qb, kappa
         !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
@@ -26,7 +26,7 @@ module gapbeam_link
     end type piece_load_type
 
     !> A condensed link; index 1 dead, 2 live
-    type, bind(c) :: link_type
+    type :: link_type
         !> Distance of the two nodes and its reciprocal
         real(wp) :: length, inverse
         !> int 1/EI, int (1-xi)/EI = f_aa + f_ab, int xi/EI = f_ab + f_bb

@@ -364,12 +364,6 @@ contains
         off = changing*((1.0_wp - closed)*(w - contact) - closed*reaction)
     end function wrong_way
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_audit

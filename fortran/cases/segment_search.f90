@@ -120,14 +120,8 @@ contains
     pure subroutine apply(support, row)
         real(wp), intent(in) :: support(:)
         real(wp), intent(inout) :: row(:)
-        real(wp) :: held, spring, free
 
-        held = support(6)*support(3)
-        spring = support(6)*support(2)
-        free = 1.0_wp - held
-        row(1) = spring*free + held
-        row(2) = free
-        row(4) = (support(1) + spring*support(4))*free + held*support(4)
+        call make_row(support(6), support(1), support(2), support(3), support(4), row(1), row(2), row(4))
     end subroutine apply
 
     !> Which supports have the wrong state, but for the node in the middle and the ends
@@ -141,13 +135,13 @@ contains
         integer, intent(out) :: number_of_columns
         !> How many supports are wrong
         integer, intent(out) :: number
-        real(wp) :: m, outward, inward, force, pressing, bad, acts, side, total, of_column(lanes)
+        real(wp) :: m, outward, inward, force, bad, acts, side, total, of_column(lanes)
         integer :: s, l
 
         number_of_columns = 0
         number = 0
         do s = 1, columns
-            !$omp simd private(m, outward, inward, force, pressing, bad, acts, side)
+            !$omp simd private(m, outward, inward, force, bad, acts, side)
             do l = 1, lanes
                 side = support(l, 5, s)
                 acts = support(l, 6, s)
@@ -155,10 +149,8 @@ contains
                 outward = (solution(l, 1, s - 1) - m)*link(l, 1, s - 1)
                 inward = (solution(l, 1, s + 1) - m)*link(l, 1, s)
                 ! From left to right
-                force = -side*((support(l, 1, s) + merge(outward, inward, l <= half)) + merge(inward, outward, l <= half))
-                pressing = side*(solution(l, 2, s) - support(l, 4, s))
-                bad = pressing - acts*(pressing + pressing*support(l, 2, s))
-                bad = merge(force, bad, acts*support(l, 3, s) > 0.5_wp)
+                force = (support(l, 1, s) + merge(outward, inward, l <= half)) + merge(inward, outward, l <= half)
+                bad = wrongness(side, acts, support(l, 2, s), acts*support(l, 3, s), support(l, 4, s), solution(l, 2, s), force)
                 of_column(l) = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
             end do
             total = sum(of_column)
@@ -194,12 +186,7 @@ contains
         real(wp), intent(in) :: w, left, right
         real(wp) :: bad
 
-        if (support(6)*support(3) > 0.5_wp) then
-            bad = -support(5)*((support(1) + left) + right)
-        else
-            bad = support(5)*(w - support(4))
-            bad = bad - support(6)*(bad + bad*support(2))
-        end if
+        bad = wrongness(support(5), support(6), support(2), support(6)*support(3), support(4), w, (support(1) + left) + right)
     end function badness
 
     !> One change in every neighbourhood: put back the support that is penetrated most; where there is none, release the one that
@@ -251,21 +238,17 @@ contains
         integer, intent(in) :: changed(:)
         real(wp), intent(in) :: wrong(:, :)
         real(wp), intent(inout), contiguous :: support(:, :, :), row(:, :, :)
-        real(wp) :: acts, held, spring, free
+        real(wp) :: acts
         integer :: j, l
 
         do j = 1, size(changed)
             associate (s => changed(j))
-                !$omp simd private(acts, held, spring, free)
+                !$omp simd private(acts)
                 do l = 1, lanes
                     acts = abs(support(l, 6, s) - wrong(l, s))
                     support(l, 6, s) = acts
-                    held = acts*support(l, 3, s)
-                    spring = acts*support(l, 2, s)
-                    free = 1.0_wp - held
-                    row(l, 1, s) = spring*free + held
-                    row(l, 2, s) = free
-                    row(l, 4, s) = (support(l, 1, s) + spring*support(l, 4, s))*free + held*support(l, 4, s)
+                    call make_row(acts, support(l, 1, s), support(l, 2, s), support(l, 3, s), support(l, 4, s), row(l, 1, s), &
+                                  row(l, 2, s), row(l, 4, s))
                 end do
             end associate
         end do
@@ -285,5 +268,9 @@ contains
         end do
         room%closed(beam%n/2) = room%middle_support(6)
     end subroutine take_scheme
+
+    include 'cases/row_of_node.inc'
+
+    include 'cases/wrongness.inc'
 
 end module gapbeam_segment_search

@@ -196,20 +196,16 @@ contains
         !> inverse is 1/l; what high lacks by its rounding is in low
         real(wp), intent(in) :: a(2), b(2), l(2), inverse(2)
         real(wp), intent(out) :: high(2), low(2)
-        real(wp), dimension(2) :: d, t, lost, p, h1, h2, l1, l2
+        real(wp), dimension(2) :: d, t, lost, p
 
         d = a - b
         t = d - a
         lost = (a - (d - t)) - (b + t)
         high = d*inverse
         p = high*l
-        h1 = splitter*high
-        h1 = h1 - (h1 - high)
-        h2 = high - h1
-        l1 = splitter*l
-        l1 = l1 - (l1 - l)
-        l2 = l - l1
-        low = (((d - p) - (((h1*l1 - p) + h1*l2 + h2*l1) + h2*l2)) + lost)*inverse
+        low = (((d - p) - product_error(high, l, p)) + lost)*inverse
     end subroutine divide_difference
+
+    include 'elimination/product_error.inc'
 
 end module gapbeam_elements

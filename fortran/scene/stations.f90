@@ -51,20 +51,12 @@ contains
         integer, intent(out) :: span
         real(wp), intent(out) :: offset
         integer :: low, high, middle
-        logical :: by_share
 
         low = 0
         high = ubound(ends, 1)
-        by_share = .true.
-        ! The last end that is not right of x, but never the right end of the beam; every other guess is by the share of the length,
-        ! which finds it at once where spans are alike
+        ! The last end that is not right of x, but never the right end of the beam
         do while (high - low > 1)
             middle = low + (high - low)/2
-            if (by_share .and. x > ends(low) .and. x < ends(high)) then
-                middle = low + int((high - low)*((x - ends(low))/(ends(high) - ends(low))))
-                middle = min(max(middle, low + 1), high - 1)
-            end if
-            by_share = .not. by_share
             if (ends(middle) <= x) then
                 low = middle
             else

@@ -49,6 +49,18 @@ def test_fortran_modules_use_no_other_in_a_circle():
         left -= free
 
 
+def test_sources_that_include_are_compiled_anew_with_what_they_include():
+    """Meson follows no include: fortran/meson.build has both in lists."""
+    build = (TOP / "fortran" / "meson.build").read_text()
+    included, including = (set(re.findall(r"'(\S+)'", re.search(rf"^{name} = [\[f].*?^[\])]", build, re.M | re.S)[0]))
+                           for name in ("included", "including"))  # fmt: skip
+    texts = {path: re.findall(r"^ *include '(\S+)'", path.read_text(), re.M) for path in (TOP / "fortran").rglob("*.[fi]*")}
+    assert included == {name for names in texts.values() for name in names}
+    assert included == {path.relative_to(TOP / "fortran").as_posix() for path in texts if path.suffix == ".inc"}
+    users = [path.relative_to(TOP / "fortran") for path, used in texts.items() if used and path.suffix == ".f90"]
+    assert including == {path.with_suffix("").as_posix() for path in users}
+
+
 def imports(path):
     """Folders of the package that a module imports from."""
     depth = len(path.relative_to(TOP / "python" / "gapbeam").parts)

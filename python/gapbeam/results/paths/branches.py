@@ -176,17 +176,7 @@ class BranchPath(Pickled):
         return float(found)
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
-        """Give the scheme of a segment.
-
-        Parameters
-        ----------
-        segment : BranchSegment
-            One of the segments.
-
-        Returns
-        -------
-        numpy.ndarray of int
-        """
+        """Give the scheme of a segment, as `Path.closed`."""
         return self._history.closed[segment.number].astype(np.int32)
 
     def beam(self, segment: BranchSegment) -> Beam:
@@ -238,19 +228,7 @@ class BranchPath(Pickled):
         return found
 
     def step(self, segment: BranchSegment, factor: float) -> Step:
-        """Give the state on a segment at a load factor.
-
-        Parameters
-        ----------
-        segment : BranchSegment
-            One of the segments.
-        factor : float
-            One of its load factors.
-
-        Returns
-        -------
-        Step
-        """
+        """Give the state on a segment at a load factor, as `Path.step`."""
         return self._step(segment.number, factor)
 
     def begin(self, segment: BranchSegment) -> Step:
@@ -291,18 +269,7 @@ class BranchPath(Pickled):
         return Step(self._beam_at(k), factor, GIVEN, read_only(self._history.closed[k].astype(np.int32)))
 
     def find(self, factor: float) -> BranchSegment | None:
-        """Find the segment that a load factor belongs to.
-
-        Parameters
-        ----------
-        factor : float
-            Load factor.
-
-        Returns
-        -------
-        BranchSegment or None
-            The last one with it, a stable one if there is any; None if the path does not pass it.
-        """
+        """Find the segment that a load factor belongs to, as `Path.find`."""
         there = [s for s in self.segments if min(s.start, s.stop) <= factor <= max(s.start, s.stop)]
         return max(there, key=lambda s: (s.stable, s.number), default=None)
 

@@ -148,10 +148,14 @@ class TrainEnvelope(PartVerbs):
         for number, member in enumerate(self._members):
             found, where = member.curves(places, left)
             for (half, at), (i, sign) in product(halves, enumerate((1.0, -1.0))):
-                better = sign * found[i][:, half] > sign * values[i][:, at]
+                here, known = found[i][:, half], values[i][:, at]
+                better = sign * here > sign * known
                 row, column = np.nonzero(better)
-                values[i][row, at[column]] = found[i][:, half][better]
-                positions[i][row, at[column]] = where[i][:, half][better]
+                values[i][row, at[column]] = here[better]
+                # Of members that tie the first one is named
+                apart = sign * (here[better] - known[better]) > TRAIN_EQUAL * np.abs(here[better])
+                row, column = row[apart], column[apart]
+                positions[i][row, at[column]] = where[i][:, half][row, column]
                 members[i][row, at[column]] = number
         values[np.isinf(values)] = np.nan
         tables = (values, members, positions)

@@ -312,15 +312,5 @@ class Trains(Mapping[str, TrainResult]):
             train.traversals  # noqa: B018
 
     def _members(self, combination: str | None = None) -> list[Member]:
-        """What an envelope is made of: every train in every direction.
-
-        Parameters
-        ----------
-        combination : str, optional
-            Name of the combination.
-
-        Returns
-        -------
-        list of Member
-        """
+        """Go through the trains as what an envelope is made of, as `TrainResult._members`."""
         return [member for train in self.values() for member in train._members(combination)]
