@@ -7,7 +7,7 @@ module gapbeam_capi
     use gapbeam_events, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, count_supports, &
         count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
-    use gapbeam_handles, only: beam_handle, state_handle, find_handle
+    use gapbeam_handles, only: handle_type, state_tag, find_handle
     use gapbeam_capi_model, only: c_model, model_from_c
     use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
     implicit none
@@ -53,8 +53,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         type(options_type) :: chosen
 
@@ -78,8 +77,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         type(options_type) :: chosen
         type(event_type), allocatable :: events(:)
@@ -104,9 +102,9 @@ contains
         type(c_ptr), intent(in), value :: state
         type(c_info), intent(inout), optional :: info
         integer(c_int) :: status
-        type(state_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
-        call find_handle(state, handle)
+        call find_handle(state, state_tag, handle)
         status = gapbeam_bad_input
         if (.not. present(info)) return
         status = gapbeam_other_version
@@ -127,8 +125,7 @@ contains
         real(c_double), intent(inout), optional :: reaction(*), deflection(*), opening(*), couple(*)
         integer(c_int), intent(inout), optional :: condition(*)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
@@ -174,8 +171,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
@@ -191,8 +187,7 @@ contains
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2, 6), x(2, 6)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         real(c_double) :: values(2, 6), places(2, 6)
 
@@ -209,8 +204,7 @@ contains
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: x(*), motion(*)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         integer :: n
 
@@ -231,8 +225,7 @@ contains
         type(c_certificate), intent(inout), optional :: certificate
         integer(c_int), intent(inout), optional :: undecided(*)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         type(certificate_type) :: found
         logical, allocatable :: doubtful(:)

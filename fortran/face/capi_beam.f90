@@ -4,7 +4,7 @@ module gapbeam_capi_beam
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_scene, only: model_type, load_type
     use gapbeam_api, only: replace_loads, count_supports, count_nodes
-    use gapbeam_handles, only: beam_handle, beam_tag, state_tag, find_handle, free_handle, new_beam, new_state
+    use gapbeam_handles, only: handle_type, beam_tag, state_tag, find_handle, free_handle, new_beam, new_state
     use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c
     use gapbeam_capi_objects, only: get_beam, report
     implicit none
@@ -61,7 +61,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
         type(load_type), allocatable :: list(:)
 
@@ -76,9 +76,9 @@ contains
     function c_count_supports(beam) result(number) bind(c, name="gapbeam_count_supports")
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
-        call find_handle(beam, handle)
+        call find_handle(beam, beam_tag, handle)
         number = 0
         if (associated(handle)) number = count_supports(handle%beam)
     end function c_count_supports
@@ -87,9 +87,9 @@ contains
     function c_count_nodes(beam) result(number) bind(c, name="gapbeam_count_nodes")
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
-        call find_handle(beam, handle)
+        call find_handle(beam, beam_tag, handle)
         number = 0
         if (associated(handle)) number = count_nodes(handle%beam)
     end function c_count_nodes

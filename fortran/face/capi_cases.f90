@@ -4,7 +4,7 @@ module gapbeam_capi_cases
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: options_type, count_supports, count_nodes
     use gapbeam_api_cases, only: solve_cases, get_nodes
-    use gapbeam_handles, only: beam_handle, cases_handle, cases_tag, find_handle, free_handle, new_cases
+    use gapbeam_handles, only: handle_type, cases_tag, find_handle, free_handle, new_cases
     use gapbeam_capi_objects, only: c_options, get_beam, read_options, report
     implicit none
     private
@@ -18,7 +18,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
+        type(handle_type), pointer :: prepared
         type(error_type), allocatable :: error
 
         if (present(cases)) cases = c_null_ptr
@@ -48,8 +48,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(cases_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, handle
         type(error_type), allocatable :: error
         type(options_type) :: chosen
         real(c_double), pointer :: shares(:, :), moves(:, :), gaps(:, :), springs(:, :), forces(:, :), w(:, :), left(:, :), &
@@ -57,7 +56,7 @@ contains
         integer(c_int), pointer :: statuses(:), conditions(:, :)
         integer :: loads, supports, nodes
 
-        call find_handle(cases, handle)
+        call find_handle(cases, cases_tag, handle)
         call get_beam(beam, prepared, error)
         if (allocated(error)) then
             continue
@@ -98,7 +97,7 @@ contains
         real(c_double), intent(inout), optional :: x(*)
         integer(c_int), intent(inout), optional :: support_node(*)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
+        type(handle_type), pointer :: prepared
         type(error_type), allocatable :: error
         real(c_double), allocatable :: places(:)
         integer, allocatable :: nodes(:)

@@ -2,7 +2,7 @@
 module gapbeam_capi_combinations
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
-    use gapbeam_handles, only: beam_handle, new_combination
+    use gapbeam_handles, only: handle_type, new_combination
     use gapbeam_capi_objects, only: get_beam, report
     implicit none
     private
@@ -18,7 +18,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
 
         if (present(combined)) combined = c_null_ptr

@@ -5,7 +5,7 @@ module gapbeam_capi_ground
     use gapbeam_api, only: options_type
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type
     use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
     implicit none
     private
@@ -26,8 +26,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(options_type) :: chosen
         type(ground_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
@@ -59,8 +58,7 @@ contains
         real(c_double), intent(inout), optional :: from(*), to(*), resultant(*)
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(contact_type), allocatable :: zones(:)
         type(error_type), allocatable :: error
         integer :: k
@@ -88,8 +86,7 @@ contains
         real(c_double), intent(inout), optional :: from(*), to(*), sag(*)
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(free_span_type), allocatable :: spans(:)
         type(error_type), allocatable :: error
         integer :: k
@@ -117,8 +114,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
@@ -134,8 +130,7 @@ contains
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2), x(2)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         real(c_double) :: values(2), places(2)
 

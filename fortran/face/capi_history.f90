@@ -4,7 +4,7 @@ module gapbeam_capi_history
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_api_history, only: solve_on_path
-    use gapbeam_handles, only: beam_handle, state_handle, history_handle, history_tag, find_handle, free_handle, new_history
+    use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, new_history
     use gapbeam_capi_objects, only: get_beam, get_both, report
     implicit none
     private
@@ -28,7 +28,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
+        type(handle_type), pointer :: prepared
         type(error_type), allocatable :: error
 
         if (present(history)) history = c_null_ptr
@@ -58,7 +58,7 @@ contains
         type(c_ptr), intent(in), value :: history
         type(c_history_info), intent(inout), optional :: info
         integer(c_int) :: status
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: nodes
 
         status = gapbeam_bad_input
@@ -66,7 +66,7 @@ contains
         status = gapbeam_other_version
         if (info%size /= c_sizeof(info)) return
         status = gapbeam_not_prepared
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. associated(handle)) return
         associate (h => handle%history)
             nodes = 0
@@ -83,11 +83,11 @@ contains
         real(c_double), intent(inout), optional :: from(*), to(*)
         integer(c_int), intent(inout), optional :: leg(*), direction(*), stable(*), index(*), ways(*), skipped(*)
         integer(c_int) :: status
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: k
 
         status = gapbeam_not_prepared
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%stretches)
             associate (s => handle%history%stretches(k))
@@ -110,11 +110,11 @@ contains
         real(c_double), intent(inout), optional :: factor(*)
         integer(c_int), intent(inout), optional :: support(*), condition(*), change(*), stretch(*)
         integer(c_int) :: status
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: k
 
         status = gapbeam_not_prepared
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%events)
             associate (event => handle%history%events(k))
@@ -134,11 +134,11 @@ contains
         real(c_double), intent(inout), optional :: factor(*)
         integer(c_int), intent(inout), optional :: kind(*), leg(*), stretch(*), landing(*)
         integer(c_int) :: status
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: k
 
         status = gapbeam_not_prepared
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. associated(handle)) return
         do k = 1, size(handle%history%limits)
             associate (limit => handle%history%limits(k))
@@ -157,10 +157,10 @@ contains
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: x(*), motion(*)
         integer(c_int) :: status
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
         status = gapbeam_not_prepared
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. associated(handle)) return
         if (.not. allocated(handle%history%motion)) return
         associate (h => handle%history)
@@ -179,13 +179,11 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
-        type(history_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, solved, handle
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        call find_handle(history, handle)
+        call find_handle(history, history_tag, handle)
         if (.not. allocated(error) .and. .not. associated(handle)) then
             call fatal_error(error, gapbeam_not_prepared, "history is none: make one with gapbeam_follow_history")
         end if

@@ -4,7 +4,7 @@ module gapbeam_capi_objects
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_api, only: options_type
-    use gapbeam_handles, only: beam_handle, state_handle, find_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag, find_handle
     implicit none
     private
     public :: c_options, get_beam, get_both, read_options, check_points, report
@@ -20,21 +20,20 @@ contains
     !> The beam behind a handle, refused where there is none
     subroutine get_beam(beam, prepared, error)
         type(c_ptr), intent(in) :: beam
-        type(beam_handle), pointer, intent(out) :: prepared
+        type(handle_type), pointer, intent(out) :: prepared
         type(error_type), allocatable, intent(out) :: error
 
-        call find_handle(beam, prepared)
+        call find_handle(beam, beam_tag, prepared)
         if (.not. associated(prepared)) call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam")
     end subroutine get_beam
 
     !> A beam and a state, refused where one is missing
     subroutine get_both(beam, state, prepared, solved, error)
         type(c_ptr), intent(in) :: beam, state
-        type(beam_handle), pointer, intent(out) :: prepared
-        type(state_handle), pointer, intent(out) :: solved
+        type(handle_type), pointer, intent(out) :: prepared, solved
         type(error_type), allocatable, intent(out) :: error
 
-        call find_handle(state, solved)
+        call find_handle(state, state_tag, solved)
         call get_beam(beam, prepared, error)
         if (.not. allocated(error) .and. .not. associated(solved)) then
             call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")

@@ -4,7 +4,7 @@ module gapbeam_capi_quantities
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
     use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves
-    use gapbeam_handles, only: beam_handle, state_handle, passing_handle
+    use gapbeam_handles, only: handle_type
     use gapbeam_capi_objects, only: get_both, check_points, report
     use gapbeam_capi_trains, only: get_train, as_numbers
     implicit none
@@ -23,8 +23,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
@@ -47,8 +46,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(state_handle), pointer :: solved
+        type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         real(c_double) :: values(2, max(quantities, 0)), places(2, max(quantities, 0))
 
@@ -73,8 +71,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, handle
         type(train_extreme_type) :: found(2, max(quantities, 0))
         type(error_type), allocatable :: error
         integer :: i, k
@@ -104,8 +101,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, handle
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)

@@ -4,7 +4,7 @@ module gapbeam_capi_trains
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: count_supports
     use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, get_train_curves
-    use gapbeam_handles, only: beam_handle, passing_handle, passing_tag, find_handle, free_handle, new_passing
+    use gapbeam_handles, only: handle_type, beam_tag, passing_tag, find_handle, free_handle, new_passing
     use gapbeam_capi_objects, only: get_beam, check_points, report
     implicit none
     private
@@ -23,7 +23,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
+        type(handle_type), pointer :: prepared
         type(moving_train_type) :: train
         type(error_type), allocatable :: error
         integer :: stat
@@ -69,11 +69,11 @@ contains
         integer(c_int), intent(inout), optional :: support(*), condition(*), change(*)
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: k
 
         status = gapbeam_not_prepared
-        call find_handle(passing, handle)
+        call find_handle(passing, passing_tag, handle)
         if (.not. associated(handle)) return
         associate (events => handle%passing%events)
             if (present(number)) number = size(events)
@@ -96,11 +96,11 @@ contains
         integer(c_int), intent(inout), optional :: reason(*)
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: handle
         integer :: k
 
         status = gapbeam_not_prepared
-        call find_handle(passing, handle)
+        call find_handle(passing, passing_tag, handle)
         if (.not. associated(handle)) return
         associate (gaps => handle%passing%gaps)
             if (present(number)) number = size(gaps)
@@ -118,16 +118,15 @@ contains
         type(c_ptr), intent(in), value :: beam, passing
         real(c_double), intent(inout), optional :: fields(4, 2, 4), supports(4, 2, 4, *)
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, handle
         type(train_extreme_type) :: of_fields(2, 4)
         type(train_extreme_type), allocatable :: of_supports(:, :, :)
         type(error_type), allocatable :: error
         integer :: f, i, k
 
         status = gapbeam_not_prepared
-        call find_handle(beam, prepared)
-        call find_handle(passing, handle)
+        call find_handle(beam, beam_tag, prepared)
+        call find_handle(passing, passing_tag, handle)
         if (.not. (associated(prepared) .and. associated(handle))) return
         allocate (of_supports(2, 4, count_supports(prepared%beam)))
         call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
@@ -147,12 +146,11 @@ contains
     !> A beam and a train on its way, refused where one is missing
     subroutine get_train(beam, passing, prepared, handle, error)
         type(c_ptr), intent(in) :: beam, passing
-        type(beam_handle), pointer, intent(out) :: prepared
-        type(passing_handle), pointer, intent(out) :: handle
+        type(handle_type), pointer, intent(out) :: prepared, handle
         type(error_type), allocatable, intent(out) :: error
 
-        call find_handle(beam, prepared)
-        call find_handle(passing, handle)
+        call find_handle(beam, beam_tag, prepared)
+        call find_handle(passing, passing_tag, handle)
         if (associated(prepared) .and. associated(handle)) return
         call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
     end subroutine get_train
@@ -175,8 +173,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(beam_handle), pointer :: prepared
-        type(passing_handle), pointer :: handle
+        type(handle_type), pointer :: prepared, handle
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)

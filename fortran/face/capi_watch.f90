@@ -3,7 +3,7 @@ module gapbeam_capi_watch
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_funptr, c_loc
     use gapbeam_error, only: gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_watch, only: begin_watch, end_watched
-    use gapbeam_handles, only: beam_handle, find_handle
+    use gapbeam_handles, only: handle_type, beam_tag, find_handle
     implicit none
     private
     public :: c_set_watch, c_stop
@@ -17,10 +17,10 @@ contains
         type(c_ptr), intent(in), value :: data
         real(c_double), intent(in), value :: seconds
         integer(c_int) :: status
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
         status = gapbeam_not_prepared
-        call find_handle(beam, handle)
+        call find_handle(beam, beam_tag, handle)
         if (.not. associated(handle)) return
         status = gapbeam_bad_input
         if (.not. seconds >= 0.0_c_double) return
@@ -32,9 +32,9 @@ contains
     !> See the header
     subroutine c_stop(beam) bind(c, name="gapbeam_stop")
         type(c_ptr), intent(in), value :: beam
-        type(beam_handle), pointer :: handle
+        type(handle_type), pointer :: handle
 
-        call find_handle(beam, handle)
+        call find_handle(beam, beam_tag, handle)
         if (associated(handle)) call end_watched(handle%watch)
     end subroutine c_stop
 

@@ -97,7 +97,7 @@ subroutine ghload(beam, nload, iload, aload, info)
     use gapbeam_scene, only: load_type
     use gapbeam_api, only: replace_loads
     use gapbeam_arrays, only: loads_from_arrays
-    use gapbeam_handles, only: beam_handle
+    use gapbeam_handles, only: handle_type, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     ! Left as it is where a load is refused
@@ -108,12 +108,12 @@ subroutine ghload(beam, nload, iload, aload, info)
     double precision, intent(in) :: aload(4, *)
     ! -1, -2; -3: bad load; 14, 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
     type(load_type), allocatable :: loads(:)
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. nload < 0) info = -2
     if (info /= 0) return
     call loads_from_arrays(iload(:, 1:nload), aload(:, 1:nload), loads, error)
@@ -143,7 +143,7 @@ end subroutine ghstat
 subroutine ghsolv(beam, factor, rule, start, state, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: options_type, solve_beam
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -156,14 +156,13 @@ subroutine ghsolv(beam, factor, rule, start, state, info)
     ! -1, also of a beam whose state depends on the loading history (GHHIST); -2, -3, -4; -5, also where START is 1 and nothing is
     ! solved there; 1, 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. start /= 0 .and. start /= 1) info = -4
-    call find(state, 5, solved, info)
+    call find(state, 5, state_tag, solved, info)
     if (info == 0) then
         if (start == 1 .and. solved%result%status < 0) info = -5
     end if
@@ -179,7 +178,7 @@ subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
     use gapbeam_error, only: error_type
     use gapbeam_events, only: event_type
     use gapbeam_api, only: options_type, follow_load
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -197,16 +196,15 @@ subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
     integer, intent(inout) :: ievent(2, *)
     ! -1, also of a beam on a foundation, or whose state depends on the loading history (GHHIST); -2, -3, -4, -5; 1, 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     type(event_type), allocatable :: events(:)
     integer :: k
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. maxev < 0) info = -4
-    call find(state, 5, solved, info)
+    call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
     call follow_load(prepared%beam, factor, options_type(rule), events, solved%result, error)
     info = info_of(error, 1, ["factor", "rule  "], [2, 3])
@@ -221,7 +219,7 @@ end subroutine ghevnt
 
 ! What a state says in a few numbers
 subroutine ghinfo(state, factor, ninfo, info)
-    use gapbeam_handles, only: state_handle
+    use gapbeam_handles, only: handle_type, state_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: state
@@ -232,10 +230,10 @@ subroutine ghinfo(state, factor, ninfo, info)
     integer, intent(inout) :: ninfo(5)
     ! -1, also where nothing is solved
     integer, intent(out) :: info
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: solved
 
     info = 0
-    call find(state, 1, solved, info)
+    call find(state, 1, state_tag, solved, info)
     if (info /= 0) return
     associate (r => solved%result)
         if (r%status < 0) info = -1

@@ -4,7 +4,7 @@
 subroutine ghcase(beam, cases, info)
     use, intrinsic :: iso_c_binding, only: c_ptr
     use gapbeam_error, only: error_type
-    use gapbeam_handles, only: beam_handle, new_cases
+    use gapbeam_handles, only: handle_type, beam_tag, new_cases
     use gapbeam_fortran77_info, only: find, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -12,13 +12,13 @@ subroutine ghcase(beam, cases, info)
     integer(8), intent(out) :: cases
     ! -1, also of a beam that is not taken: on a foundation, or whose state depends on the loading history; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
     type(c_ptr) :: address
     type(error_type), allocatable :: error
 
     cases = 0
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info /= 0) return
     call new_cases(prepared%beam, address, error)
     cases = number_of(address)
@@ -31,7 +31,7 @@ subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react,
     use gapbeam_error, only: error_type
     use gapbeam_input_error, only: of_loads, of_supports
     use gapbeam_api, only: count_supports, count_nodes
-    use gapbeam_handles, only: beam_handle, cases_handle
+    use gapbeam_handles, only: handle_type, cases_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     use gapbeam_fortran77_shapes, only: solve_shaped
     implicit none
@@ -54,13 +54,12 @@ subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react,
     ! -1, -2, -3; -4: no finite number, ISTAT(1) is the number of the case; -5; -6: impossible, ISTAT(1) is the number of the case,
     ! or 0 where supports of this beam cannot vary: one has a law; -7; 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(cases_handle), pointer :: room
+    type(handle_type), pointer :: prepared, room
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(cases, 2, room, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(cases, 2, cases_tag, room, info)
     if (info == 0 .and. ncase < 0) info = -3
     if (info == 0 .and. nvary /= 0 .and. nvary /= 1) info = -5
     if (info /= 0) return

@@ -53,7 +53,7 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: options_type
     use gapbeam_api_ground, only: ground_event_type, follow_ground
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     ! On foundations
@@ -73,16 +73,15 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     integer, intent(inout) :: ievent(4, *)
     ! -1, also of a beam without foundations, or whose state depends on the loading history; -2, -3, -4, -5; 1, 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     type(ground_event_type), allocatable :: events(:)
     integer :: k
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. maxev < 0) info = -4
-    call find(state, 5, solved, info)
+    call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
     call follow_ground(prepared%beam, factor, options_type(rule), events, solved%result, error)
     info = info_of(error, 1, ["factor", "rule  "], [2, 3])
@@ -99,7 +98,7 @@ end subroutine ghgevt
 subroutine ghcont(beam, state, maxzn, nzone, zone, izone, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: contact_type, get_contact
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -115,15 +114,14 @@ subroutine ghcont(beam, state, maxzn, nzone, zone, izone, info)
     integer, intent(inout) :: izone(2, *)
     ! -1, -2, -3; 14: a force out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(contact_type), allocatable :: zones(:)
     type(error_type), allocatable :: error
     integer :: k
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. maxzn < 0) info = -3
     if (info /= 0) return
     call get_contact(prepared%beam, solved%result, zones, error)
@@ -140,7 +138,7 @@ end subroutine ghcont
 subroutine ghfrsp(beam, state, maxfr, nfree, free, ifree, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: free_span_type, get_free_spans
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -154,15 +152,14 @@ subroutine ghfrsp(beam, state, maxfr, nfree, free, ifree, info)
     integer, intent(inout) :: ifree(*)
     ! -1, -2, -3; 14: a distance out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(free_span_type), allocatable :: spans(:)
     type(error_type), allocatable :: error
     integer :: k
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. maxfr < 0) info = -3
     if (info /= 0) return
     call get_free_spans(prepared%beam, solved%result, spans, error)
@@ -179,7 +176,7 @@ end subroutine ghfrsp
 subroutine ghpres(beam, state, nx, x, left, press, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -192,13 +189,12 @@ subroutine ghpres(beam, state, nx, x, left, press, info)
     double precision, intent(inout) :: press(*)
     ! -1, -2, -3; -4: a place off the beam; 14: a pressure out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
     call get_pressure(prepared%beam, solved%result, x(1:nx), press(1:nx), error, left /= 0)
@@ -209,7 +205,7 @@ end subroutine ghpres
 subroutine ghpxtr(beam, state, value, xvalue, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure_extremes
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -217,14 +213,13 @@ subroutine ghpxtr(beam, state, value, xvalue, info)
     double precision, intent(inout) :: value(2), xvalue(2)
     ! -1, -2; 14: a pressure out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     double precision :: values(2), places(2)
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info /= 0) return
     call get_pressure_extremes(prepared%beam, solved%result, values, places, error)
     info = info_of(error, 2)

@@ -6,7 +6,7 @@
 subroutine ghhist(beam, nfact, factor, limit, hist, number, info)
     use, intrinsic :: iso_c_binding, only: c_ptr
     use gapbeam_error, only: error_type
-    use gapbeam_handles, only: beam_handle, history_handle, new_history, find_handle
+    use gapbeam_handles, only: handle_type, history_tag, beam_tag, new_history, find_handle
     use gapbeam_fortran77_info, only: find, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -23,21 +23,20 @@ subroutine ghhist(beam, nfact, factor, limit, hist, number, info)
     integer, intent(inout) :: number(6)
     ! -1, also of a beam on a foundation; -2, -3, -4; 13 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(history_handle), pointer :: followed
+    type(handle_type), pointer :: prepared, followed
     type(c_ptr) :: address
     type(error_type), allocatable :: error
 
     hist = 0
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. nfact < 1) info = -2
     if (info /= 0) return
     call new_history(prepared%beam, factor(1:nfact), limit, address, error)
     info = info_of(error, 1, ["factors ", "at_limit"], [3, 4])
     if (info /= 0) return
     hist = number_of(address)
-    call find_handle(address, followed)
+    call find_handle(address, history_tag, followed)
     associate (h => followed%history)
         number = [size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, 0]
         if (allocated(h%motion)) number(6) = size(h%motion)
@@ -46,7 +45,7 @@ end subroutine ghhist
 
 ! What a history is made of
 subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, info)
-    use gapbeam_handles, only: history_handle
+    use gapbeam_handles, only: handle_type, history_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: hist
@@ -67,11 +66,11 @@ subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lm
     integer, intent(inout) :: ilimit(4, *)
     ! -1, -2, -5, -8
     integer, intent(out) :: info
-    type(history_handle), pointer :: followed
+    type(handle_type), pointer :: followed
     integer :: k
 
     info = 0
-    call find(hist, 1, followed, info)
+    call find(hist, 1, history_tag, followed, info)
     if (info == 0 .and. maxst < 0) info = -2
     if (info == 0 .and. maxev < 0) info = -5
     if (info == 0 .and. maxlim < 0) info = -8
@@ -98,7 +97,7 @@ end subroutine ghhget
 
 ! The motion in which a history ends
 subroutine ghhmot(hist, maxnd, xnode, motion, info)
-    use gapbeam_handles, only: history_handle
+    use gapbeam_handles, only: handle_type, history_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: hist
@@ -108,10 +107,10 @@ subroutine ghhmot(hist, maxnd, xnode, motion, info)
     double precision, intent(inout) :: xnode(*), motion(*)
     ! -1, also of a history that does not end in a motion; -2: too little room
     integer, intent(out) :: info
-    type(history_handle), pointer :: followed
+    type(handle_type), pointer :: followed
 
     info = 0
-    call find(hist, 1, followed, info)
+    call find(hist, 1, history_tag, followed, info)
     if (info /= 0) return
     associate (h => followed%history)
         if (.not. allocated(h%motion)) info = -1
@@ -127,7 +126,7 @@ end subroutine ghhmot
 subroutine ghhsol(beam, hist, nstrch, at, state, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_history, only: solve_on_path
-    use gapbeam_handles, only: beam_handle, state_handle, history_handle
+    use gapbeam_handles, only: handle_type, history_tag, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, hist
@@ -140,15 +139,13 @@ subroutine ghhsol(beam, hist, nstrch, at, state, info)
     ! -1; -2, also of another beam, or of other loads; -3: no such stretch; -4: no state at AT on it, or on the path; -5; 1, 12 to
     ! 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(history_handle), pointer :: followed
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, followed, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(hist, 2, followed, info)
-    call find(state, 5, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(hist, 2, history_tag, followed, info)
+    call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
     call solve_on_path(prepared%beam, followed%history, at, solved%result, error, nstrch)
     info = info_of(error, 4, ["stretch"], [3])

@@ -4,20 +4,10 @@ module gapbeam_fortran77_info
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_null_ptr
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_handles, only: beam_handle, state_handle, history_handle, cases_handle, passing_handle, find_handle
+    use gapbeam_handles, only: handle_type, find_handle
     implicit none
     private
     public :: find, address_of, number_of, info_of
-
-    !> The object behind a handle. INFO is -place where the argument there is no such handle; where it is not 0 before, nothing is
-    !> looked at
-    interface find
-        module procedure find_beam
-        module procedure find_state
-        module procedure find_history
-        module procedure find_cases
-        module procedure find_passing
-    end interface find
 
 contains
 
@@ -37,66 +27,22 @@ contains
         number = transfer(address, 0_c_intptr_t)
     end function number_of
 
-    subroutine find_beam(number, place, object, info)
+    !> The object behind a handle. INFO is -place where the argument there is no such handle; where it is not 0 before, nothing is
+    !> looked at
+    subroutine find(number, place, tag, handle, info)
         integer(int64), intent(in) :: number
         !> Among the arguments
         integer, intent(in) :: place
-        type(beam_handle), pointer, intent(out) :: object
+        !> What there has to be (gapbeam_handles)
+        integer(int64), intent(in) :: tag
+        type(handle_type), pointer, intent(out) :: handle
         integer, intent(inout) :: info
 
-        nullify (object)
+        nullify (handle)
         if (info /= 0) return
-        call find_handle(address_of(number), object)
-        if (.not. associated(object)) info = -place
-    end subroutine find_beam
-
-    subroutine find_state(number, place, object, info)
-        integer(int64), intent(in) :: number
-        integer, intent(in) :: place
-        type(state_handle), pointer, intent(out) :: object
-        integer, intent(inout) :: info
-
-        nullify (object)
-        if (info /= 0) return
-        call find_handle(address_of(number), object)
-        if (.not. associated(object)) info = -place
-    end subroutine find_state
-
-    subroutine find_history(number, place, object, info)
-        integer(int64), intent(in) :: number
-        integer, intent(in) :: place
-        type(history_handle), pointer, intent(out) :: object
-        integer, intent(inout) :: info
-
-        nullify (object)
-        if (info /= 0) return
-        call find_handle(address_of(number), object)
-        if (.not. associated(object)) info = -place
-    end subroutine find_history
-
-    subroutine find_cases(number, place, object, info)
-        integer(int64), intent(in) :: number
-        integer, intent(in) :: place
-        type(cases_handle), pointer, intent(out) :: object
-        integer, intent(inout) :: info
-
-        nullify (object)
-        if (info /= 0) return
-        call find_handle(address_of(number), object)
-        if (.not. associated(object)) info = -place
-    end subroutine find_cases
-
-    subroutine find_passing(number, place, object, info)
-        integer(int64), intent(in) :: number
-        integer, intent(in) :: place
-        type(passing_handle), pointer, intent(out) :: object
-        integer, intent(inout) :: info
-
-        nullify (object)
-        if (info /= 0) return
-        call find_handle(address_of(number), object)
-        if (.not. associated(object)) info = -place
-    end subroutine find_passing
+        call find_handle(address_of(number), tag, handle)
+        if (.not. associated(handle)) info = -place
+    end subroutine find
 
     !> INFO for what a procedure of the Fortran interface ended with. What is not prepared is the second argument: the first is
     !> a beam, which is prepared

@@ -7,7 +7,7 @@
 subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_quantities, only: get_quantities
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -22,13 +22,12 @@ subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
     double precision, intent(inout) :: value(nquan, *)
     ! -1, -2, -3, -4, -5; -6: a place off the beam; 14: a value out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info == 0 .and. nx < 0) info = -5
     if (info /= 0) return
@@ -40,7 +39,7 @@ end subroutine ghquan
 subroutine ghqxtr(beam, state, nquan, iquan, value, xvalue, info)
     use gapbeam_error, only: error_type
     use gapbeam_api_quantities, only: get_quantity_extremes
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -49,13 +48,12 @@ subroutine ghqxtr(beam, state, nquan, iquan, value, xvalue, info)
     double precision, intent(inout) :: value(2, *), xvalue(2, *)
     ! -1, -2, -3, -4; 14: a value out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info /= 0) return
     call get_quantity_extremes(prepared%beam, solved%result, iquan(1:nquan), value(:, 1:nquan), xvalue(:, 1:nquan), error)
@@ -66,7 +64,7 @@ end subroutine ghqxtr
 subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
     use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes
-    use gapbeam_handles, only: beam_handle, passing_handle
+    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
@@ -75,15 +73,14 @@ subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     double precision, intent(inout) :: value(4, 2, *)
     ! -1, -3, -4; -2, also of another beam, or of other loads; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: prepared, passed
     type(train_extreme_type), allocatable :: found(:, :)
     type(error_type), allocatable :: error
     integer :: i, k, stat
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(pass, 2, passed, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(pass, 2, passing_tag, passed, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info /= 0) return
     allocate (found(2, nquan), stat=stat)
@@ -106,7 +103,7 @@ end subroutine ghtqxt
 subroutine ghtqcr(beam, pass, nquan, iquan, nx, x, curve, posn, info)
     use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
     use gapbeam_api_trains, only: get_train_quantity_curves
-    use gapbeam_handles, only: beam_handle, passing_handle
+    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
@@ -118,15 +115,14 @@ subroutine ghtqcr(beam, pass, nquan, iquan, nx, x, curve, posn, info)
     double precision, intent(inout) :: curve(2, nquan, *), posn(2, nquan, *)
     ! -1 to -5; -6: a place off the beam; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: prepared, passed
     double precision, allocatable :: value(:, :, :), position(:, :, :)
     type(error_type), allocatable :: error
     integer :: stat
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(pass, 2, passed, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(pass, 2, passing_tag, passed, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info == 0 .and. nx < 0) info = -5
     if (info /= 0) return

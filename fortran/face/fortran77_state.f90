@@ -5,7 +5,7 @@
 subroutine ghsupp(beam, state, supval, kstate, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: get_supports, count_supports
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -15,14 +15,13 @@ subroutine ghsupp(beam, state, supval, kstate, info)
     integer, intent(inout) :: kstate(*)
     ! -1, -2
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     integer :: n
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info /= 0) return
     n = count_supports(prepared%beam)
     call get_supports(prepared%beam, solved%result, supval(1, 1:n), supval(2, 1:n), supval(3, 1:n), supval(4, 1:n), kstate(1:n), &
@@ -34,7 +33,7 @@ end subroutine ghsupp
 subroutine ghflds(beam, state, nx, x, left, field, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: get_fields
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -47,13 +46,12 @@ subroutine ghflds(beam, state, nx, x, left, field, info)
     double precision, intent(inout) :: field(6, *)
     ! -1, -2, -3; -4: a place off the beam; 14: a field out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
     call get_fields(prepared%beam, solved%result, x(1:nx), field(:, 1:nx), error, left /= 0)
@@ -64,7 +62,7 @@ end subroutine ghflds
 subroutine ghxtrm(beam, state, value, xvalue, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: get_extremes
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -72,13 +70,12 @@ subroutine ghxtrm(beam, state, value, xvalue, info)
     double precision, intent(inout) :: value(2, 6), xvalue(2, 6)
     ! -1, -2; 14: a field out of range; 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info /= 0) return
     call get_extremes(prepared%beam, solved%result, value, xvalue, error)
     info = info_of(error, 2)
@@ -88,7 +85,7 @@ end subroutine ghxtrm
 subroutine ghmotn(beam, state, maxnd, nnode, xnode, motion, info)
     use gapbeam_error, only: error_type
     use gapbeam_api, only: get_motion, count_nodes
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -100,13 +97,12 @@ subroutine ghmotn(beam, state, maxnd, nnode, xnode, motion, info)
     double precision, intent(inout) :: xnode(*), motion(*)
     ! -1; -2, also of a state that is not without equilibrium; -3: too little room, NNODE says how much it takes
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info /= 0) return
     nnode = count_nodes(prepared%beam)
     if (maxnd < nnode) info = -3
@@ -119,7 +115,7 @@ end subroutine ghmotn
 subroutine ghcert(beam, state, cert, known, iundec, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_api, only: certificate_type, get_certificate, count_supports
-    use gapbeam_handles, only: beam_handle, state_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, state
@@ -132,16 +128,15 @@ subroutine ghcert(beam, state, cert, known, iundec, info)
     integer, intent(inout) :: iundec(*)
     ! -1, -2; 12, 13: it cannot be checked in quadruple precision; 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(state_handle), pointer :: solved
+    type(handle_type), pointer :: prepared, solved
     type(certificate_type) :: certificate
     type(error_type), allocatable :: error
     logical, allocatable :: undecided(:)
     integer :: stat
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(state, 2, solved, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(state, 2, state_tag, solved, info)
     if (info /= 0) return
     allocate (undecided(count_supports(prepared%beam)), stat=stat)
     if (stat /= 0) info = gapbeam_no_memory

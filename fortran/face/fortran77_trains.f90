@@ -6,7 +6,7 @@ subroutine ghcmbn(beam, factor, settle, combnd, ientry, info)
     use, intrinsic :: iso_c_binding, only: c_ptr
     use gapbeam_error, only: error_type
     use gapbeam_input_error, only: of_supports
-    use gapbeam_handles, only: beam_handle, new_combination
+    use gapbeam_handles, only: handle_type, beam_tag, new_combination
     use gapbeam_fortran77_info, only: find, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -18,14 +18,14 @@ subroutine ghcmbn(beam, factor, settle, combnd, ientry, info)
     integer, intent(out) :: ientry
     ! -1; -2 or -3: no finite number, a load too great, or supports that leave no room for each other; 14, 15
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
     type(c_ptr) :: address
     type(error_type), allocatable :: error
 
     combnd = 0
     ientry = 0
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info /= 0) return
     associate (model => prepared%beam%lowered%model)
         call new_combination(prepared%beam, factor(1:size(model%loads)), settle(1:size(model%supports)), address, error)
@@ -44,7 +44,7 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_api_trains, only: moving_train_type
-    use gapbeam_handles, only: beam_handle, passing_handle, new_passing, find_handle
+    use gapbeam_handles, only: handle_type, passing_tag, beam_tag, new_passing, find_handle
     use gapbeam_fortran77_info, only: find, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
@@ -64,8 +64,7 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     ! -1, also of a beam on a foundation, or whose state depends on the loading history; -2, -3, -4, -5, -6; -7, also where there is
     ! no position from FROM to TO; 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: prepared, passed
     type(moving_train_type) :: train
     type(c_ptr) :: address
     type(error_type), allocatable :: error
@@ -73,7 +72,7 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
 
     pass = 0
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. naxle < 1) info = -2
     if (info == 0 .and. left /= 0 .and. left /= 1) info = -5
     if (info /= 0) return
@@ -90,13 +89,13 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     info = info_of(error, 1, ["distance", "force   ", "q       ", "from    ", "to      "], [3, 3, 4, 6, 7])
     if (info /= 0) return
     pass = number_of(address)
-    call find_handle(address, passed)
+    call find_handle(address, passing_tag, passed)
     number = [size(passed%passing%events), size(passed%passing%gaps), passed%passing%solves]
 end subroutine ghtran
 
 ! What changes while a train passes, and the positions that are not solved
 subroutine ghtget(pass, maxev, evpos, ievent, maxgap, gap, igap, info)
-    use gapbeam_handles, only: passing_handle
+    use gapbeam_handles, only: handle_type, passing_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: pass
@@ -112,11 +111,11 @@ subroutine ghtget(pass, maxev, evpos, ievent, maxgap, gap, igap, info)
     integer, intent(inout) :: igap(*)
     ! -1, -2, -5
     integer, intent(out) :: info
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: passed
     integer :: k
 
     info = 0
-    call find(pass, 1, passed, info)
+    call find(pass, 1, passing_tag, passed, info)
     if (info == 0 .and. maxev < 0) info = -2
     if (info == 0 .and. maxgap < 0) info = -5
     if (info /= 0) return
@@ -139,7 +138,7 @@ subroutine ghtxtr(beam, pass, field, supval, info)
     use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
     use gapbeam_api, only: count_supports
     use gapbeam_api_trains, only: train_extreme_type, get_train_extremes
-    use gapbeam_handles, only: beam_handle, passing_handle
+    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
@@ -150,16 +149,15 @@ subroutine ghtxtr(beam, pass, field, supval, info)
     double precision, intent(inout) :: supval(4, 2, 4, *)
     ! -1; -2, also of another beam, or of other loads; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: prepared, passed
     type(train_extreme_type) :: fields(2, 4)
     type(train_extreme_type), allocatable :: supports(:, :, :)
     type(error_type), allocatable :: error
     integer :: i, j, k, stat
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(pass, 2, passed, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(pass, 2, passing_tag, passed, info)
     if (info /= 0) return
     allocate (supports(2, 4, count_supports(prepared%beam)), stat=stat)
     if (stat /= 0) info = gapbeam_no_memory
@@ -192,7 +190,7 @@ end subroutine ghtxtr
 subroutine ghtcrv(beam, pass, nx, x, curve, posn, info)
     use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
     use gapbeam_api_trains, only: get_train_curves
-    use gapbeam_handles, only: beam_handle, passing_handle
+    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
     use gapbeam_fortran77_info, only: find, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
@@ -203,15 +201,14 @@ subroutine ghtcrv(beam, pass, nx, x, curve, posn, info)
     double precision, intent(inout) :: curve(2, 4, *), posn(2, 4, *)
     ! -1, -2, -3; -4: a place off the beam; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
-    type(passing_handle), pointer :: passed
+    type(handle_type), pointer :: prepared, passed
     double precision, allocatable :: value(:, :, :), position(:, :, :)
     type(error_type), allocatable :: error
     integer :: stat
 
     info = 0
-    call find(beam, 1, prepared, info)
-    call find(pass, 2, passed, info)
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(pass, 2, passing_tag, passed, info)
     if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
     allocate (value(2, 4, nx), position(2, 4, nx), stat=stat)

@@ -6,7 +6,7 @@
 subroutine ghwtch(beam, ask, idata, second, info)
     use, intrinsic :: iso_c_binding, only: c_int, c_loc, c_funloc
     use gapbeam_watch, only: begin_watch
-    use gapbeam_handles, only: beam_handle
+    use gapbeam_handles, only: handle_type, beam_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     interface
@@ -27,10 +27,10 @@ subroutine ghwtch(beam, ask, idata, second, info)
     double precision, intent(in) :: second
     ! -1, -4
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. .not. second >= 0.0d0) info = -4
     if (info == 0) call begin_watch(prepared%watch, c_funloc(ask), c_loc(idata), second)
 end subroutine ghwtch
@@ -39,7 +39,7 @@ end subroutine ghwtch
 subroutine ghlimt(beam, second, info)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_null_funptr
     use gapbeam_watch, only: begin_watch
-    use gapbeam_handles, only: beam_handle
+    use gapbeam_handles, only: handle_type, beam_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: beam
@@ -47,10 +47,10 @@ subroutine ghlimt(beam, second, info)
     double precision, intent(in) :: second
     ! -1, -2
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0 .and. .not. second >= 0.0d0) info = -2
     if (info == 0) call begin_watch(prepared%watch, c_null_funptr, c_null_ptr, second)
 end subroutine ghlimt
@@ -58,15 +58,15 @@ end subroutine ghlimt
 ! End all calls with a beam, from any thread
 subroutine ghstop(beam, info)
     use gapbeam_watch, only: end_watched
-    use gapbeam_handles, only: beam_handle
+    use gapbeam_handles, only: handle_type, beam_tag
     use gapbeam_fortran77_info, only: find
     implicit none
     integer(8), intent(in) :: beam
     ! -1
     integer, intent(out) :: info
-    type(beam_handle), pointer :: prepared
+    type(handle_type), pointer :: prepared
 
     info = 0
-    call find(beam, 1, prepared, info)
+    call find(beam, 1, beam_tag, prepared, info)
     if (info == 0) call end_watched(prepared%watch)
 end subroutine ghstop
