@@ -36,7 +36,7 @@ ROOMS = {f"fortran/{name}": purpose for name, purpose in FORTRAN.items()} | {f"p
 def files_of(room):
     """Sources of a room, by name."""
     there = sorted((TOP / room).iterdir())
-    return [path for path in there if path.suffix in (".f90", ".F90", ".c", ".py") and not path.stem.startswith("__")]
+    return [path for path in there if path.suffix in (".f90", ".F90", ".inc", ".c", ".py") and not path.stem.startswith("__")]
 
 
 def head_of(path, ends=".:"):

@@ -3,14 +3,14 @@
 !> interval (de Casteljau) show the rest.
 module gapbeam_bernstein
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: narrowest_interval
+    use gapbeam_polynomial, only: roots_between, most_roots => highest_degree
     implicit none
     private
-    public :: highest_degree, sample_points, to_coefficients, value_of, halve, first_below, crossing
+    public :: highest_degree, sample_points, to_coefficients, value_of, halve, part_of, find_greatest, first_below, crossing
 
     !> Degrees at most
     integer, parameter :: highest_degree = 7
-    !> Halves narrower than this are not looked into
-    real(wp), parameter :: narrowest = 2.0_wp**(-50)
 
 contains
 
@@ -101,6 +101,59 @@ contains
         end do
     end subroutine halve
 
+    !> Coefficients on a part of the interval
+    pure function part_of(b, first, last) result(part)
+        !> Shape (0:degree)
+        real(wp), intent(in) :: b(0:)
+        !> Ends of the part, 0 to 1
+        real(wp), intent(in) :: first, last
+        real(wp), dimension(0:ubound(b, 1)) :: part, whole, rest
+
+        part(:) = b
+        if (last < 1.0_wp) then
+            whole(:) = part
+            call halve(whole, last, part, rest)
+        end if
+        if (first > 0.0_wp .and. last > 0.0_wp) then
+            whole(:) = part
+            call halve(whole, first/last, rest, part)
+        end if
+    end function part_of
+
+    !> The greatest value of a polynomial, and where it is: at an end, or where the slope changes its sign
+    pure subroutine find_greatest(b, value, u)
+        !> Shape (0:degree), degree at most most_roots + 1
+        real(wp), intent(in) :: b(0:)
+        real(wp), intent(out) :: value, u
+        real(wp) :: slope(0:ubound(b, 1) - 1), roots(most_roots), here
+        integer :: j, k, n, number
+
+        n = ubound(b, 1)
+        value = b(0)
+        u = 0.0_wp
+        if (b(n) > value) then
+            value = b(n)
+            u = 1.0_wp
+        end if
+        if (.not. maxval(b) > value) return
+        slope(:) = b(1:) - b(:n - 1)
+        do j = 1, n - 1
+            do k = n - 1, j, -1
+                slope(k) = slope(k) - slope(k - 1)
+            end do
+        end do
+        do j = 0, n - 1
+            slope(j) = binomial(n - 1, j)*slope(j)
+        end do
+        call roots_between(slope, 1.0_wp, roots, number)
+        do k = 1, number
+            here = value_of(b, roots(k))
+            if (.not. here > value) cycle
+            value = here
+            u = roots(k)
+        end do
+    end subroutine find_greatest
+
     !> The first place at which a polynomial is below a level
     pure function first_below(b, level) result(u)
         !> Shape (0:degree)
@@ -122,7 +175,7 @@ contains
             whole(0:n) = waiting(0:n, count)
             if (all(whole(0:n) >= level)) then
                 count = count - 1
-            else if (whole(0) < level .or. width(count) < narrowest .or. count == size(width)) then
+            else if (whole(0) < level .or. width(count) < narrowest_interval .or. count == size(width)) then
                 u = from(count)
                 return
             else

@@ -7,6 +7,8 @@
 !> keeps its sign, what is greatest is at the edges at which such places enter or leave.
 module gapbeam_patch
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_waiting_patches
+    use gapbeam_tolerances, only: narrowest_patch, patch_rounding, newton_leaves
     use gapbeam_bernstein, only: highest_degree, value_of, halve
     implicit none
     private
@@ -14,13 +16,6 @@ module gapbeam_patch
 
     !> Degree in the first variable at most
     integer, parameter :: most_along = 5
-    !> The same of patches; what is left to find there is less than rounding
-    real(wp), parameter :: narrowest_patch = 2.0_wp**(-30)
-    !> What coefficients that should be equal differ by at most, as a share of the largest. With less, values that stay the
-    !> same in one direction are cut there without end; what is found within it is made exact by Newton's method
-    real(wp), parameter :: rounding = 2.0_wp**(-45)
-    !> Patches that wait at most
-    integer, parameter :: most_waiting = 120
 
     !> A polynomial on the unit square, sum of b(j, k) B_j(v) B_k(u), or on a part of it
     type :: patch_type
@@ -45,14 +40,14 @@ contains
         real(wp), intent(out) :: v, u
         !> Places at v = 0 and 1 (first index) for u = 0 and 1 (second one), linear between: a field in a cell that moves
         real(wp), intent(in), optional :: ends(2, 2)
-        type(patch_type) :: waiting(most_waiting), part
+        type(patch_type) :: waiting(most_waiting_patches), part
         real(wp) :: slack
         integer :: count, rises
 
         value = whole%b(0, 0)
         v = 0.0_wp
         u = 0.0_wp
-        slack = rounding*maxval(abs(whole%b(0:whole%along, 0:whole%across)))
+        slack = patch_rounding*maxval(abs(whole%b(0:whole%along, 0:whole%across)))
         count = 1
         waiting(1) = whole
         waiting(1)%v = 0.0_wp
@@ -66,7 +61,7 @@ contains
             if (maxval(part%b(0:part%along, 0:part%across)) <= max(value, known) + slack) cycle
             call drop_to_edges(part)
             if (part%along == 0 .and. part%across == 0) cycle
-            if (max(part%width_v, part%width_u) < narrowest_patch .or. count + 3 > most_waiting) cycle
+            if (max(part%width_v, part%width_u) < narrowest_patch .or. count + 3 > most_waiting_patches) cycle
             if (present(ends) .and. part%along > 0 .and. part%across > 0) then
                 rises = way_at_places(part, ends, slack)
                 if (rises /= 0) then
@@ -268,7 +263,7 @@ contains
                 new_v = v - fv/fvv
             end if
             ! What is found is exact enough for this to be a small step
-            if (max(abs(new_u - u), abs(new_v - v)) > 2.0_wp**(-16) .or. min(new_u, new_v, 1 - new_u, 1 - new_v) < 0.0_wp) exit
+            if (max(abs(new_u - u), abs(new_v - v)) > newton_leaves .or. min(new_u, new_v, 1 - new_u, 1 - new_v) < 0.0_wp) exit
             u = new_u
             v = new_v
         end do

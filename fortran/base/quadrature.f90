@@ -2,6 +2,7 @@
 !> Stroud, Secrest, Gaussian Quadrature Formulas, 1966.
 module gapbeam_quadrature
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_panels
     implicit none
     private
     public :: panels_type, cut_into_panels, points_of, most_points
@@ -32,8 +33,6 @@ module gapbeam_quadrature
         0.11674626826917740438_wp, 0.12457352290670139250_wp, &
         0.013576229705877047426_wp, 0.031126761969323946431_wp, 0.047579255841246392405_wp, 0.062314485627766936026_wp, &
         0.074797994408288366041_wp, 0.084578259697501269095_wp, 0.091301707522461794433_wp, 0.094725305227534248143_wp]
-    !> Panels of half a stretch at most: they grow the faster the farther they are from the end
-    integer, parameter :: most_panels = 64
 
     !> Panels of 0..1
     type :: panels_type

@@ -7,6 +7,8 @@
 !> caller cuts it, no digits are lost by that.
 module gapbeam_curved
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_steps_on_curves
+    use gapbeam_tolerances, only: largest_field, no_curve_slope, beginning_of_way, step_caution, shortest_step
     use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer
     use gapbeam_foundation, only: stretch_link_type, link_of_halves
     use gapbeam_law_series, only: curve_type, law_series_type, order, begin_series, next_term, force_scale, &
@@ -23,19 +25,6 @@ module gapbeam_curved
         type(curve_type), allocatable :: curves(:)
         real(wp) :: left(4) = 0.0_wp, right(4) = 0.0_wp
     end type curved_type
-
-    !> More steps a stretch is not given
-    integer, parameter :: most_steps = 512
-    !> A shorter step, in parts of the stretch, gets nowhere
-    real(wp), parameter :: shortest_step = 1/real(most_steps, wp)**2
-    !> Beyond this size there are no fields
-    real(wp), parameter :: largest = sqrt(sqrt(huge(1.0_wp)))
-    !> Slopes of a law, relative to its steepest, that are none: elimination would lose its range to them
-    real(wp), parameter :: no_slope = 2.0_wp**(-100)
-    !> Part of a way at which it is seen on which side of the contact it begins: beyond rounding, before it can turn
-    real(wp), parameter :: beginning = 2.0_wp**(-8)
-    !> Part of the length that the last terms allow
-    real(wp), parameter :: cautious = 0.9_wp
 
 contains
 
@@ -96,7 +85,9 @@ contains
             end do
             step = step_of(c(4, :), sum(abs(c(4, 0:3))))
             do i = 1, size(series)
-                if (sum(abs(series(i)%k(0:3))) > no_slope*slope_scale(series(i))) modulus(0:order) = modulus(0:order) + series(i)%k
+                if (sum(abs(series(i)%k(0:3))) > no_curve_slope*slope_scale(series(i))) then
+                    modulus(0:order) = modulus(0:order) + series(i)%k
+                end if
                 forces(0:order, i) = series(i)%r
                 step = min(step, step_of(series(i)%r, force_scale(series(i))), step_of(series(i)%k, slope_scale(series(i))), &
                            longest_step(series(i)))
@@ -119,8 +110,8 @@ contains
             logical :: negative
             real(wp) :: there, ahead
 
-            there = xi + beginning*way
-            ahead = beginning*h
+            there = xi + beginning_of_way*way
+            ahead = beginning_of_way*h
             associate (g => curved%stretch%shear_flexibility)
                 negative = curve%side*(w + (y(2) + g*y(4))*ahead &
                                        + (curved%load%kappa - curved%stretch%flexibility*y(3))*ahead**2/2 &
@@ -138,7 +129,9 @@ contains
 
         step = 1.0_wp
         do n = order - 1, order
-            if (abs(c(n)) > epsilon(1.0_wp)*scale) step = min(step, cautious*(epsilon(1.0_wp)*(scale/abs(c(n))))**(1/real(n, wp)))
+            if (abs(c(n)) > epsilon(1.0_wp)*scale) then
+                step = min(step, step_caution*(epsilon(1.0_wp)*(scale/abs(c(n))))**(1/real(n, wp)))
+            end if
         end do
     end function step_of
 
@@ -168,8 +161,8 @@ contains
             end do
         end if
         if (present(forces)) forces = 0.0_wp
-        do number = 1, most_steps
-            lost = .not. all(abs(values) <= largest)
+        do number = 1, most_steps_on_curves
+            lost = .not. all(abs(values) <= largest_field)
             if (lost) return
             call expand_curved(curved, at, values, left, c, modulus, r, step)
             lost = .not. step > shortest_step
@@ -332,7 +325,7 @@ contains
         real(wp), allocatable, intent(out) :: places(:)
         !> v, psi, M, V in their middles, shape (4, number)
         real(wp), allocatable, intent(out) :: middles(:, :)
-        real(wp) :: ends(0:most_steps, 2), inside(4, most_steps, 2)
+        real(wp) :: ends(0:most_steps_on_curves, 2), inside(4, most_steps_on_curves, 2)
         integer :: number(2)
 
         call step_to_middle(0.0_wp, curved%left, number(1), ends(:, 1), inside(:, :, 1))
@@ -356,11 +349,13 @@ contains
 
             y = start
             ends(0) = from
-            do number = 1, most_steps
+            do number = 1, most_steps_on_curves
                 way = 0.5_wp - ends(number - 1)
                 call expand_curved(curved, ends(number - 1), y, way, c, modulus, forces, step)
                 ! Fields that run away are nobody's: the rest is one part
-                if (number == most_steps .or. .not. (all(abs(y) <= largest) .and. step > shortest_step)) step = 1.0_wp
+                if (number == most_steps_on_curves .or. .not. (all(abs(y) <= largest_field) .and. step > shortest_step)) then
+                    step = 1.0_wp
+                end if
                 do i = 1, 4
                     inside(i, number) = value_of(c(i, :), step/2)
                     y(i) = value_of(c(i, :), step)

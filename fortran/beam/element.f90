@@ -2,7 +2,7 @@
 !>
 !> Local coordinate s = 0..l to the right, t = s/l; EI, GA and the imposed curvature are constant,
 !> the load q is linear from qa to qb. Signs: deflection and load downward, moment sagging,
-!> V = M', rotation and couples clockwise (docs/method.md 1). The unknowns are those of the bar of the
+!> V = M', rotation and couples clockwise (docs/method.md 2). The unknowns are those of the bar of the
 !> "second kind" of Ignatiev et al. 2021: end deflections and end moments.
 module gapbeam_element
     use gapbeam_kinds, only: wp

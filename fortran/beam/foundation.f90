@@ -1,6 +1,6 @@
 !> Stiffness of a prismatic stretch of beam on elastic ground (Winkler 1867; Hetenyi 1946).
 !>
-!> The unknowns are those of the simply supported bar of docs/method.md 1, deflections and moments of both ends; a
+!> The unknowns are those of the simply supported bar of docs/method.md 2, deflections and moments of both ends; a
 !> modulus of zero leaves that bar. Local coordinate x = 0..L to the right, xi = x/L. Signs as there: deflection, load and
 !> ground's pressure K w with the load against it, moment sagging, V = M', psi = w' - V/GA:
 !> psi' = -M/EI + kappa, V' = K w - q.

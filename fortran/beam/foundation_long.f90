@@ -5,6 +5,7 @@
 !> exponential falls, so nothing overflows.
 module gapbeam_foundation_long
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: no_decay_length
     use gapbeam_foundation_series, only: end_functions_type, triple_type, response_type, short_ends, short_response
     implicit none
     private
@@ -205,7 +206,7 @@ contains
         end if
         scaled%cosine_p = (1 + fall**2)/2
         d = sqrt(abs(long%d2))
-        if (d*s < 1e-18_wp) then
+        if (d*s < no_decay_length) then
             scaled%sine_d = fall*s
             scaled%cosine_d = fall
         else if (long%d2 < 0.0_wp) then

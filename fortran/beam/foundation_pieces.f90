@@ -1,7 +1,9 @@
 !> Fields of a stretch on elastic ground as polynomials, piece by piece, with their rounding errors
 module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
-    use gapbeam_foundation_taylor, only: expand, terms_of, most_terms
+    use gapbeam_limits, only: most_taylor_terms
+    use gapbeam_tolerances, only: ground_ulps
+    use gapbeam_foundation_taylor, only: expand, terms_of
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
@@ -12,9 +14,6 @@ module gapbeam_foundation_pieces
 
     !> The functions whose zeros are sought, numbered as the fields whose slopes they are
     integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4
-
-    !> Units of the last place that a value may be wrong by, of the sum of what it is made of
-    real(wp), parameter :: ulps = 16.0_wp
 
     !> What is asked, of which stretch
     type :: question_type
@@ -36,7 +35,7 @@ module gapbeam_foundation_pieces
     type :: piece_type
         real(wp) :: middle, half
         integer :: degree
-        real(wp) :: a(0:most_terms)
+        real(wp) :: a(0:most_taylor_terms)
         !> Rounding error of its values
         real(wp) :: noise
     end type piece_type
@@ -62,7 +61,7 @@ contains
         type(piece_type), intent(out) :: piece
         !> v, psi, M, V in its middle, where they are known
         real(wp), intent(in), optional :: in_middle(:)
-        real(wp) :: c(1, 4, 0:most_terms), y(1, 4), w, scale(4), tail, pressed
+        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed
         integer :: n, j
 
         associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
@@ -110,7 +109,7 @@ contains
                 end do
                 piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed
             end select
-            piece%noise = ulps*epsilon(1.0_wp)*piece%noise
+            piece%noise = ground_ulps*epsilon(1.0_wp)*piece%noise
             ! What no coefficient can feel is left off
             tail = 0.0_wp
             do while (n > 1)
@@ -133,7 +132,7 @@ contains
 
         associate (q => question, xi => piece%middle)
             stiffness = q%side*[q%stiffness_a*(1 - xi) + q%stiffness_b*xi, (q%stiffness_b - q%stiffness_a)*piece%half]
-            degree = min(degree + 1, most_terms)
+            degree = min(degree + 1, most_taylor_terms)
             piece%a(degree) = stiffness(1)*piece%a(degree - 1)
             do j = degree - 1, 1, -1
                 piece%a(j) = stiffness(0)*piece%a(j) + stiffness(1)*piece%a(j - 1)
@@ -229,17 +228,17 @@ contains
             w(1) = (p%qb - p%qa + p%qc*(eta - xi))*half
             w(2) = -p%qc*half**2
             w = w/s%modulus_a
-            piece%noise = ulps*epsilon(1.0_wp)*(abs(p%qa) + abs(p%qb) + abs(p%qc))/s%modulus_a
+            piece%noise = ground_ulps*epsilon(1.0_wp)*(abs(p%qa) + abs(p%qb) + abs(p%qc))/s%modulus_a
             select case (question%what)
             case (over_line)
                 a(0:2) = w
                 a(0) = a(0) - (question%line_a*eta + question%line_b*xi)
                 a(1) = a(1) - (question%line_b - question%line_a)*half
-                piece%noise = piece%noise + ulps*epsilon(1.0_wp)*(abs(question%line_a) + abs(question%line_b))
+                piece%noise = piece%noise + ground_ulps*epsilon(1.0_wp)*(abs(question%line_a) + abs(question%line_b))
             case (slope_of_w)
                 a(0) = (w(1)/half - question%line_a)/s%length
                 a(1) = 2*w(2)/(half*s%length)
-                piece%noise = (piece%noise + ulps*epsilon(1.0_wp)*abs(question%line_a))/s%length
+                piece%noise = (piece%noise + ground_ulps*epsilon(1.0_wp)*abs(question%line_a))/s%length
             case (slope_of_psi)
                 a(0) = -2*p%qc/(s%modulus_a*s%length**2)
             case default

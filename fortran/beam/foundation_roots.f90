@@ -5,6 +5,7 @@
 !> beyond its rounding error: what crosses by no more than that, as at an end that is itself a zero, does not count.
 module gapbeam_foundation_roots
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: no_decay_left, root_piece_length, most_root_pieces, root_place
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_curved, only: curved_type, cut_into_steps
     use gapbeam_foundation_pieces, only: question_type, piece_type, over_line, has_middle, fading, &
@@ -13,8 +14,6 @@ module gapbeam_foundation_roots
     private
     public :: find_crossings, find_limits, find_peaks
 
-    !> Length of a piece in decay lengths; pieces at most; decay lengths after which nothing is left but the load's own deflection
-    real(wp), parameter :: piece_length = 1.5_wp, most_pieces = 1e6_wp, layer = 1.1_wp*digits(1.0_wp)*0.7_wp
     !> Zeros found so far, in rising order
     type :: zeros_type
         integer :: number = 0
@@ -125,16 +124,16 @@ contains
         integer :: n, i
 
         length = decay_lengths(question%stretch)
-        n = max(1, ceiling(min(length/piece_length, most_pieces)))
+        n = max(1, ceiling(min(length/root_piece_length, most_root_pieces)))
         if (allocated(question%curved)) then
             call cut_into_steps(question%curved, places, middles)
             do i = 1, size(middles, 2)
                 call piece_between(question, places(i - 1), places(i), piece, middles(:, i))
                 call add_zeros(question, piece, zeros)
             end do
-        else if (length > 2*layer + 4*piece_length .and. decays(question)) then
-            part = layer/length
-            n = ceiling(layer/piece_length)
+        else if (length > 2*no_decay_left + 4*root_piece_length .and. decays(question)) then
+            part = no_decay_left/length
+            n = ceiling(no_decay_left/root_piece_length)
             do i = 1, n
                 call add_piece(question, (i - 1)*part/n, i*part/n, zeros)
             end do
@@ -291,7 +290,7 @@ contains
             if (abs(slope)*(high - low) > abs(f)) then
                 if (t - f/slope >= low .and. t - f/slope <= high) next = t - f/slope
             end if
-            if (abs(next - t) <= 2*epsilon(1.0_wp)) exit
+            if (abs(next - t) <= root_place) exit
             t = next
         end do
         ! One step by the fields themselves: their rounding is less than the polynomial's

@@ -5,10 +5,12 @@
 !> and the caller cuts stretches to that.
 module gapbeam_foundation_taylor
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_taylor_terms
+    use gapbeam_tolerances, only: taylor_tail
     implicit none
     private
     public :: stretch_type, stretch_load_type, half_type
-    public :: half_link, half_of_transfer, advance, expand, terms_of, most_terms
+    public :: half_link, half_of_transfer, advance, expand, terms_of
     public :: mirrored, turned, is_sloped
 
     !> A prismatic stretch on elastic ground
@@ -34,9 +36,6 @@ module gapbeam_foundation_taylor
         real(wp) :: df, dg, dh, determinant
     end type half_type
 
-    !> More terms no series is given
-    integer, parameter :: most_terms = 120
-
 contains
 
     !> What the left end feels; for the right one give the stretch and its loads mirrored
@@ -49,7 +48,7 @@ contains
         !> Rotation and shear by each of the loads, shape (size(loads))
         real(wp), intent(out) :: turn(:), shear(:)
         !> v, psi, M, V at the right end from each of them at the left end, and from the loads, terms by terms
-        real(wp) :: c(4 + size(loads), 4, 0:most_terms), start(4 + size(loads), 4)
+        real(wp) :: c(4 + size(loads), 4, 0:most_taylor_terms), start(4 + size(loads), 4)
         integer :: n, i, j
 
         start = 0.0_wp
@@ -104,7 +103,7 @@ contains
         real(wp), intent(in) :: step
         !> The same at the other place
         real(wp), intent(out) :: values(4)
-        real(wp) :: c(1, 4, 0:most_terms)
+        real(wp) :: c(1, 4, 0:most_taylor_terms)
         integer :: n, i
 
         n = terms_of(stretch, step)
@@ -169,13 +168,13 @@ contains
         rate = sqrt(k*stretch%shear_flexibility + sqrt(k*(stretch%length*step)**2*stretch%flexibility))
         n = 1
         term = rate
-        do while (term > epsilon(1.0_wp)/16 .and. n < most_terms)
+        do while (term > taylor_tail .and. n < most_taylor_terms)
             n = n + 1
             term = term*rate/n
         end do
         ! A modulus that changes gives five terms in place of four, with shear three in place of two; a load begins late
         if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
-        n = min(n + 6, most_terms)
+        n = min(n + 6, most_taylor_terms)
     end function terms_of
 
     !> A stretch seen from the other side

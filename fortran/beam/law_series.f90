@@ -4,6 +4,7 @@
 !> one; parameters are linear along the stretch.
 module gapbeam_law_series
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: same_parameters, tanh_is_one
     use gapbeam_laws, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, parameters_of_law
     implicit none
     private
@@ -14,10 +15,6 @@ module gapbeam_law_series
     integer, parameter :: parameters_of_curve = parameters_of_law + 1
     !> Degree of all series: with as many terms as digits need that shrink by e**2 each, the fewest operations for a length
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
-    !> Parameters keep a ratio if they do to this share: they are rounded to doubles
-    real(wp), parameter :: same_to_rounding = 2.0_wp**(-47)
-    !> From here on a tanh is 1 to rounding
-    real(wp), parameter :: level = 0.35_wp*digits(1.0_wp) + 0.7_wp
 
     !> A layer of ground under a stretch, on a piece of its law that is a curve
     type :: curve_type
@@ -67,7 +64,7 @@ contains
         associate (a => curve%parameter_a, b => curve%parameter_b)
             cross = [a(1)*b(2), b(1)*a(2)]
             if (curve%law == law_polyline) cross = [a(3)*b(4), b(3)*a(4)]
-            series%keeps_ratio = abs(cross(1) - cross(2)) <= same_to_rounding*maxval(abs(cross))
+            series%keeps_ratio = abs(cross(1) - cross(2)) <= same_parameters*maxval(abs(cross))
             if (.not. series%keeps_ratio) return
             if (curve%law == law_polyline) then
                 series%ratio = a(4)/a(3)
@@ -108,7 +105,7 @@ contains
                 exponential = exp(-2*abs(s%z(0)))
                 s%b(0) = 4*exponential/(1 + exponential)**2
                 ! As far as longest_step goes
-                if (abs(s%z(0)) > level + 1) s%b(0) = 0.0_wp
+                if (abs(s%z(0)) > tanh_is_one + 1) s%b(0) = 0.0_wp
             else if (s%b(0) > 0.0_wp) then
                 s%a(n) = derivative_product(s%z, s%b, n)/n
                 s%b(n) = -product_term(s%a, s%a, n)
@@ -223,7 +220,9 @@ contains
         step = 1.0_wp
         if (s%law == law_tanh) then
             way = sum(abs(s%z(1:3)))
-            if (abs(s%z(0)) > level .and. way > abs(s%z(0)) - level) step = max(1.0_wp, abs(s%z(0)) - level)/max(1.0_wp, way)
+            if (abs(s%z(0)) > tanh_is_one .and. way > abs(s%z(0)) - tanh_is_one) then
+                step = max(1.0_wp, abs(s%z(0)) - tanh_is_one)/max(1.0_wp, way)
+            end if
         end if
         if (s%keeps_ratio .or. s%law == law_cubic) return
         divisor = merge(1, 2, s%law == law_hardening)

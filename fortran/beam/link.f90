@@ -1,6 +1,6 @@
 !> All pieces between two nodes condensed into one link, exactly, and recovered again.
 !>
-!> A link is the simply supported bar of docs/method.md 1 between two nodes. Its flexibilities are kept in
+!> A link is the simply supported bar of docs/method.md 2 between two nodes. Its flexibilities are kept in
 !> the form of the elastic centre: the total bending flexibility, its centroid and its spread. Every one of
 !> them is a sum of terms of one sign, so they lose no digits however many pieces there are.
 module gapbeam_link
@@ -12,13 +12,13 @@ module gapbeam_link
     public :: along_type, next_piece, moments_about_right_end
 
     !> A prismatic piece
-    type, bind(c) :: piece_type
+    type :: piece_type
         !> Length, 1/EI, 1/GA
         real(wp) :: length, flexibility, shear_flexibility
     end type piece_type
 
     !> Loads on a piece and on the point at its right end
-    type, bind(c) :: piece_load_type
+    type :: piece_load_type
         !> Load per length at the left and right end, imposed curvature
         real(wp) :: qa, qb, kappa
         !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
@@ -26,12 +26,12 @@ module gapbeam_link
     end type piece_load_type
 
     !> A condensed link; index 1 dead, 2 live
-    type, bind(c) :: link_type
+    type :: link_type
         !> Distance of the two nodes and its reciprocal
         real(wp) :: length, inverse
         !> int 1/EI, int (1-xi)/EI = f_aa + f_ab, int xi/EI = f_ab + f_bb
         real(wp) :: bending, sum_a, sum_b
-        !> Flexibilities of docs/method.md 1 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
+        !> Flexibilities of docs/method.md 2 and the determinant f_aa f_bb - f_ab**2, formed without subtraction
         real(wp) :: faa, fab, fbb, determinant
         !> Rotations t_a, t_b of the ends of the simple bar under its loads
         real(wp) :: turn_a(2), turn_b(2)

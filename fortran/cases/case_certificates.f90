@@ -2,6 +2,7 @@
 !> Where something is in doubt, or lanes do not hold them (gapbeam_lane_certificate), one by one (gapbeam_certificate).
 module gapbeam_case_certificates
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: cut_load_error
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_converged, gapbeam_stopped
     use gapbeam_model_quad, only: fine_beam_type => beam_type
@@ -13,13 +14,13 @@ module gapbeam_case_certificates
     use gapbeam_assembled_model, only: assembled_type, find_length_errors
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: certify_state, detail_of
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
     use gapbeam_cases, only: case_loads_type
-    use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, new_pack
+    use gapbeam_combinations, only: combination_type, combine_case, solve_combination
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type
     use gapbeam_lane_error_ellipses, only: kinds_of_movement
-    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, certify_pack_at, best_level
     use gapbeam_lane_cases, only: fits_lanes
-    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_blocks, only: block_type, make_block, take_cases, take_solutions
     implicit none
     private
     public :: certify_cases, certificate_numbers
@@ -31,113 +32,105 @@ module gapbeam_case_certificates
 contains
 
     !> Certify cases
-    subroutine certify_cases(assembled, loads, factors, values, spans, moduli, rule, given, closed, w, ml, mr, reaction, found, &
-                             known, status, level)
+    subroutine certify_cases(assembled, loads, numbers, solutions, found, known, level)
         type(assembled_type), intent(in), target :: assembled
-        !> By split_loads, not allocated on the ground; factor of every load, shape (nload, ncase)
+        !> By split_loads, not allocated on the ground
         type(case_loads_type), allocatable, intent(in) :: loads
-        real(wp), intent(in), contiguous :: factors(:, :)
-        !> Settlement, gap and stiffness of every support, shape (3, nsupport, ncase); EI and GA of every span, shape (2, nspan,
-        !> ncase); modulus of every foundation, shape (nfoundation, ncase). Of size 0: their own
-        real(wp), intent(in), target, contiguous :: values(:, :, :), spans(:, :, :), moduli(:, :)
-        !> rule_block or rule_single of gapbeam_search
-        integer, intent(in) :: rule
-        !> Are the solutions given, by solve_cases; else each case is solved once more
-        logical, intent(in) :: given
-        !> Contact states, and solutions as solve_cases gives them
-        integer, intent(in), contiguous :: closed(:, :)
-        real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        type(case_numbers_type), intent(in) :: numbers
+        !> By solve_cases; without deflections, moments and reactions each case is solved once more. Status out an error where one
+        !> is found
+        type(case_solutions_type), intent(inout) :: solutions
         !> The certificates, bounds in the scene's units, shape (certificate_numbers, ncase); of a case that is not solved as they
         !> were
         real(wp), intent(inout) :: found(:, :)
         !> Is the position known; if not, there are no bounds for deflections and rotations
         logical, intent(out) :: known(:)
-        !> gapbeam_solved in where a case is solved; out an error where there is one
-        integer, intent(inout) :: status(:)
-        !> As for solve_in_lanes
+        !> Instructions (gapbeam_cpu_dispatch); default the best that there are
         integer, intent(in), optional :: level
         type(combination_type) :: combined
         logical, allocatable :: done(:)
-        integer :: i, at_level, stat
+        integer, allocatable :: which(:)
+        integer :: i, stat
+        logical :: in_lanes
 
         known(:) = .false.
-        allocate (done(size(status)), stat=stat)
+        allocate (done(size(known)), stat=stat)
         if (stat /= 0) then
-            status(:) = gapbeam_no_memory
+            solutions%status(:) = gapbeam_no_memory
             return
         end if
-        done(:) = status /= gapbeam_solved
-        at_level = best_level()
-        if (present(level)) at_level = level
-        if (given .and. allocated(loads) .and. size(spans) + size(moduli) == 0) then
-            if (fits_lanes(assembled)) then
-                call certify_in_lanes(assembled, loads, factors, values, closed, w, ml, mr, reaction, at_level, found, done, stat)
-                if (stat /= 0) then
-                    status(:) = gapbeam_no_memory
-                    return
-                end if
-                known = done .and. status == gapbeam_solved
-            end if
-        end if
-        do i = 1, size(status)
-            if (is_stopped(assembled%beam%watch)) exit
-            if (.not. done(i)) call certify_alone(i)
-        end do
-        if (is_stopped(assembled%beam%watch)) status(:) = gapbeam_stopped
-
-    contains
-
-        !> Certify a case by itself
-        subroutine certify_alone(i)
-            integer, intent(in) :: i
-            type(state_type) :: state
-            type(certificate_type) :: certificate
-            type(error_type), allocatable :: error
-            type(varied_type) :: varied
-
-            if (size(values) > 0) varied%supports => values(:, :, i)
-            if (size(spans) > 0) varied%spans => spans(:, :, i)
-            if (size(moduli) > 0) varied%moduli => moduli(:, i)
-            associate (still => 0*assembled%model%supports%settlement, m => size(assembled%beam%supports))
-                call combine(assembled, factors(:size(assembled%model%loads), i), still, combined, error, varied)
-                if (.not. allocated(error)) then
-                    if (given) then
-                        call take_state(combined%assembled, closed(:m, i) /= 0, w(:, i), ml(:, i), mr(:, i), reaction(:m, i), &
-                                        state, error)
-                    else
-                        call solve_combination(combined%assembled, rule, closed(:m, i) /= 0, state, error)
-                    end if
-                end if
-            end associate
-            if (.not. allocated(error)) then
-                status(i) = state%status
-                if (state%status /= gapbeam_solved) return
-                call certify_state(combined%assembled, state, certificate, error)
-            end if
-            if (allocated(error)) then
-                status(i) = error%code
+        done(:) = solutions%status /= gapbeam_solved
+        in_lanes = associated(solutions%w) .and. allocated(loads) .and. .not. (associated(numbers%spans) &
+                                                                               .or. associated(numbers%moduli))
+        if (in_lanes) in_lanes = fits_lanes(assembled)
+        if (in_lanes) then
+            call certify_in_lanes(assembled, loads, numbers, remaining(done), solutions, found, done, stat, level)
+            if (stat /= 0) then
+                solutions%status(:) = gapbeam_no_memory
                 return
             end if
-            associate (c => certificate)
-                ! A state that quadruple precision does not confirm has no certificate
-                if (c%compatibility > huge(c%compatibility)) then
-                    status(i) = gapbeam_not_converged
-                    return
-                end if
-                known(i) = c%known
-                found(:, i) = in_scene(combined%assembled, [c%compatibility, c%equilibrium, c%complementarity, c%of_nodes, &
-                                                            c%reaction, c%deflection, c%rotation, c%moment, c%shear])
-            end associate
-        end subroutine certify_alone
-
+            known = done .and. solutions%status == gapbeam_solved
+        end if
+        which = remaining(done)
+        do i = 1, size(which)
+            if (is_stopped(assembled%beam%watch)) exit
+            call certify_alone(assembled, numbers, which(i), combined, solutions, found(:, which(i)), known(which(i)))
+        end do
+        if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
     end subroutine certify_cases
 
-    !> The state whose numbers are given
-    subroutine take_state(assembled, closed, w, ml, mr, reaction, state, error)
+    !> Certify a case by itself
+    subroutine certify_alone(assembled, numbers, i, combined, solutions, found, known)
+        !> As for certify_cases, and the case
         type(assembled_type), intent(in) :: assembled
-        logical, intent(in) :: closed(:)
-        !> In the scene's units
-        real(wp), intent(in) :: w(:), ml(:), mr(:), reaction(:)
+        type(case_numbers_type), intent(in) :: numbers
+        integer, intent(in) :: i
+        !> Of an earlier case, or empty
+        type(combination_type), intent(inout) :: combined
+        type(case_solutions_type), intent(inout) :: solutions
+        real(wp), intent(inout) :: found(:)
+        logical, intent(inout) :: known
+        type(state_type) :: state
+        type(certificate_type) :: certificate
+        type(error_type), allocatable :: error
+
+        call combine_case(assembled, numbers, i, combined, error)
+        if (.not. allocated(error)) then
+            if (associated(solutions%w)) then
+                call take_state(combined%assembled, solutions, i, state, error)
+            else
+                associate (m => size(assembled%beam%supports))
+                    call solve_combination(combined%assembled, numbers%rule, solutions%closed(:m, i) /= 0, state, error)
+                end associate
+            end if
+        end if
+        if (.not. allocated(error)) then
+            solutions%status(i) = state%status
+            if (state%status /= gapbeam_solved) return
+            call certify_state(combined%assembled, state, certificate, error)
+        end if
+        if (allocated(error)) then
+            solutions%status(i) = error%code
+            return
+        end if
+        associate (c => certificate)
+            ! A state that quadruple precision does not confirm has no certificate
+            if (c%compatibility > huge(c%compatibility)) then
+                solutions%status(i) = gapbeam_not_converged
+                return
+            end if
+            known = c%known
+            found(:) = in_scene(combined%assembled, [c%compatibility, c%equilibrium, c%complementarity, c%of_nodes, &
+                                                     c%reaction, c%deflection, c%rotation, c%moment, c%shear])
+        end associate
+    end subroutine certify_alone
+
+    !> The state whose numbers are given
+    subroutine take_state(assembled, solutions, i, state, error)
+        !> The beam of the case
+        type(assembled_type), intent(in) :: assembled
+        type(case_solutions_type), intent(in) :: solutions
+        integer, intent(in) :: i
         type(state_type), intent(out) :: state
         !> No memory
         type(error_type), allocatable, intent(out) :: error
@@ -145,17 +138,17 @@ contains
 
         call new_state(assembled, state, error)
         if (allocated(error)) return
-        associate (units => assembled%units, n => size(assembled%beam%links))
+        associate (units => assembled%units, n => size(assembled%beam%links), m => size(assembled%beam%supports))
             state%status = gapbeam_solved
             state%factor = 1.0_wp
-            state%closed(:) = closed
-            state%deflection(:) = scale(w, -units%deflection)
-            state%moment_left(:) = scale(ml, -moment_unit(units))
-            state%moment_right(:) = scale(mr, -moment_unit(units))
-            state%reaction(:) = scale(reaction, -units%force)
+            state%closed(:) = solutions%closed(:m, i) /= 0
+            state%deflection(:) = scale(solutions%w(:, i), -units%deflection)
+            state%moment_left(:) = scale(solutions%ml(:, i), -moment_unit(units))
+            state%moment_right(:) = scale(solutions%mr(:, i), -moment_unit(units))
+            state%reaction(:) = scale(solutions%reaction(:m, i), -units%force)
             call new_workspace(assembled%beam, work)
             call set_loads(assembled%beam, 1.0_wp, work)
-            call apply_scheme(assembled%beam, closed, [0, n], work)
+            call apply_scheme(assembled%beam, state%closed, [0, n], work)
             work%answers%deflection = state%deflection
             work%answers%moment_left = state%moment_left
             work%answers%moment_right = state%moment_right
@@ -164,74 +157,56 @@ contains
         end associate
     end subroutine take_state
 
-    !> Certify the cases of a beam that lanes hold, as far as nothing is in doubt
-    subroutine certify_in_lanes(assembled, loads, factors, values, closed, w, ml, mr, reaction, level, found, done, stat)
+    !> Certify cases of a beam that lanes hold, as far as nothing is in doubt
+    subroutine certify_in_lanes(assembled, loads, numbers, which, solutions, found, done, stat, level)
         type(assembled_type), intent(in), target :: assembled
         !> As for certify_cases
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
-        integer, intent(in), contiguous :: closed(:, :)
-        real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
-        integer, intent(in) :: level
+        type(case_numbers_type), intent(in) :: numbers
+        !> Which cases
+        integer, intent(in) :: which(:)
+        type(case_solutions_type), intent(in) :: solutions
         real(wp), intent(inout) :: found(:, :)
-        !> Which cases need none in, or have one out
+        !> True of those that have a certificate then
         logical, intent(inout) :: done(:)
         !> Not 0 where memory ends
         integer, intent(out) :: stat
-        type(lane_beam_type) :: beam
+        integer, intent(in), optional :: level
+        type(block_type) :: block
         type(lane_rounding_type) :: rounding
-        type(pack_type) :: pack
-        real(wp), allocatable :: factors_of(:, :), moves(:, :, :), turned(:, :)
-        integer, allocatable :: wanted(:)
-        real(wp) :: numbers(lanes, certificate_numbers), poor(lanes)
-        integer :: case_of(lanes), first, i, k, l, number
-        logical :: made, lost
+        real(wp), allocatable :: moves(:, :, :)
+        real(wp) :: certificates(lanes, certificate_numbers), poor(lanes)
+        integer :: first, l
+        logical :: made, fits(lanes)
 
-        call prepare_lanes(assembled, loads, .false., beam, made)
+        if (present(level)) block%level = level
+        call make_block(assembled, loads, numbers, block)
+        made = block%made
         stat = 0
-        ! Several supports at a place have certificates by themselves
-        if (made .and. size(beam%shared) > 0) return
-        if (made) call new_pack(beam, pack, made)
-        if (made) call find_rounding(assembled, beam, rounding, made)
-        if (.not. made) stat = 1
+        if (made) then
+            ! Several supports at a place have certificates by themselves
+            if (size(block%beam%shared) > 0) return
+            call find_rounding(assembled, block%beam, rounding, made)
+        end if
+        if (.not. made) then
+            stat = 1
+            return
+        end if
+        allocate (moves(lanes, 0:block%beam%n, kinds_of_movement), stat=stat)
         if (stat /= 0) return
-        allocate (factors_of(lanes, size(factors, 1)), moves(lanes, 0:beam%n, kinds_of_movement), wanted(count(.not. done)), &
-                  turned(lanes, 3*size(values, 2)), stat=stat)
-        if (stat /= 0) return
-        number = 0
-        do i = 1, size(done)
-            if (done(i)) cycle
-            number = number + 1
-            wanted(number) = i
-        end do
-        call take_supports(assembled, beam%place, pack)
-        pack%reaction(:, :) = 0.0_wp
         moves(:, :, :) = 0.0_wp
-        do first = 1, number, lanes
+        do first = 1, size(which), lanes
             if (is_stopped(assembled%beam%watch)) return
-            ! The last lanes repeat the last case
-            case_of = [(wanted(min(first + l, number)), l=0, lanes - 1)]
-            if (size(values, 2) > 0) then
-                call take_numbers_at(level, beam, units_of_supports(assembled), values, case_of, turned, pack, lost)
-                if (lost) cycle
-            end if
-            call take_columns_at(level, size(factors, 1), size(factors, 2), factors, case_of, factors_of)
-            call take_columns_at(level, beam%n + 1, size(w, 2), w, case_of, pack%w)
-            call take_columns_at(level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
-            call take_columns_at(level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
-            do k = 1, size(assembled%beam%supports)
-                pack%reaction(:, assembled%beam%supports(k)%node) = reaction(k, case_of)
-            end do
-            call take_starts(assembled, beam%place, closed, case_of, pack)
-            pack%w(:, :) = scale(1.0_wp, -assembled%units%deflection)*pack%w
-            pack%ml(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%ml
-            pack%mr(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%mr
-            pack%reaction(:, :) = scale(1.0_wp, -assembled%units%force)*pack%reaction
-            call certify_pack_at(level, beam, rounding, factors_of, pack, moves, numbers, poor)
-            do l = 1, min(lanes, number - first + 1)
+            call take_cases(assembled, numbers, solutions%closed, which(first:), block, fits)
+            if (.not. any(fits)) cycle
+            call take_solutions(assembled, solutions, block)
+            call block%compiled%certify_pack(block%beam, rounding, block%factors, block%pack, moves, certificates, poor)
+            do l = 1, block%cases
                 if (poor(l) > 0.5_wp) cycle
-                found(:, case_of(l)) = in_scene(assembled, numbers(l, :))
-                done(case_of(l)) = .true.
+                associate (i => block%case_of(l))
+                    found(:, i) = in_scene(assembled, certificates(l, :))
+                    done(i) = .true.
+                end associate
             end do
         end do
     end subroutine certify_in_lanes
@@ -275,7 +250,7 @@ contains
                 rounding%slip(k) = sum(assembled%pieces(first:last)%shear_flexibility*assembled%pieces(first:last)%length)
                 ! A link of one piece has nothing to be summed
                 rounding%of_fields(k) = 0.0_wp
-                if (last > first) rounding%of_fields(k) = rounding%of_loads + 6*epsilon(1.0_wp)
+                if (last > first) rounding%of_fields(k) = rounding%of_loads + cut_load_error
             end associate
         end do
     end subroutine find_rounding

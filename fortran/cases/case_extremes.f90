@@ -12,17 +12,22 @@ module gapbeam_case_extremes
     use gapbeam_solution, only: state_type
     use gapbeam_quantities, only: bending_count, bending
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
     use gapbeam_cases, only: case_loads_type
-    use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, new_pack, new_piece_pack
-    use gapbeam_cpu_dispatch, only: take_columns_at, take_numbers_at, extremes_of_pack_at, fields_of_pack_at, best_level
+    use gapbeam_combinations, only: combination_type, combine_case, solve_combination
+    use gapbeam_lane_types, only: lanes, lane_pieces_type, piece_pack_type, new_piece_pack
     use gapbeam_lane_pieces, only: prepare_pieces
-    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
-    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_blocks, only: block_type, make_block, take_cases, take_solutions
     implicit none
     private
-    public :: has_lane_extremes, extremes_of_cases
-
+    public :: case_fields_type, has_lane_extremes, extremes_of_cases
+    !> Fields of cases, in the scene's units
+    type :: case_fields_type
+        !> Maximum and minimum of quantities of bending, and where they are, shape (2, bending_count, ncase)
+        real(wp), pointer, contiguous :: extremes(:, :, :) => null(), places(:, :, :) => null()
+        !> All of them at places, shape (bending_count, at least n, ncase)
+        real(wp), pointer, contiguous :: fields(:, :, :) => null()
+    end type case_fields_type
 
 contains
 
@@ -39,157 +44,116 @@ contains
     end function has_lane_extremes
 
     !> Find the extremes of solved cases of such a beam, and fields at places
-    subroutine extremes_of_cases(assembled, loads, factors, values, spans, rule, closed, w, ml, mr, wanted, extremes, places, &
-                                 piece, distance, fields, status, level)
+    subroutine extremes_of_cases(assembled, loads, numbers, solutions, wanted, piece, distance, found, level)
         type(assembled_type), intent(in) :: assembled
-        !> As for solve_in_lanes
+        !> By split_loads
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in), contiguous :: factors(:, :), values(:, :, :)
-        real(wp), intent(in) :: spans(:, :, :)
-        !> rule_block or rule_single of gapbeam_search
-        integer, intent(in) :: rule
-        !> Solutions: contact states, deflections and moments as solve_in_lanes gives them
-        integer, intent(in), contiguous :: closed(:, :)
-        real(wp), intent(in), contiguous :: w(:, :), ml(:, :), mr(:, :)
+        type(case_numbers_type), intent(in) :: numbers
+        !> By solve_cases, reactions null; status out an error where one is found
+        type(case_solutions_type), intent(inout) :: solutions
         !> Which quantities of bending (gapbeam_quantities) are asked for
         logical, intent(in) :: wanted(bending_count)
-        !> Maximum and minimum of those and their places, in the scene's units, shape (2, bending_count, ncase)
-        real(wp), intent(inout) :: extremes(:, :, :), places(:, :, :)
-        !> Places (piece, and distance from its left end in the scene's units), shape (n); there all of them, shape
-        !> (bending_count, n, ncase)
+        !> Places of fields (piece, and distance from its left end in the scene's units), shape (n)
         integer, intent(in) :: piece(:)
         real(wp), intent(in) :: distance(:)
-        real(wp), intent(inout) :: fields(:, :, :)
-        !> gapbeam_solved in where a case is solved; out an error where one is found, its values as they were
-        integer, intent(inout) :: status(:)
-        !> As for solve_in_lanes
+        !> Of cases that are not solved as they were
+        type(case_fields_type), intent(inout) :: found
+        !> Instructions (gapbeam_cpu_dispatch); default the best that there are
         integer, intent(in), optional :: level
-        type(lane_beam_type) :: beam
+        type(block_type) :: block
         type(lane_pieces_type) :: pieces
-        type(pack_type) :: pack
         type(piece_pack_type) :: along
-        type(span_room_type) :: span_room
         type(combination_type) :: combined
-        integer, allocatable :: solved(:)
-        real(wp), allocatable :: factors_of(:, :), at_places(:, :, :), turned(:, :)
-        real(wp) :: found(lanes, 6, bending_count), poor(lanes)
-        integer :: first, i, k, l, number, stat, at_level, case_of(lanes)
-        logical :: lost, made, fits, outside(lanes)
+        integer, allocatable :: which(:)
+        real(wp), allocatable :: at_places(:, :, :)
+        real(wp) :: extremes(lanes, 6, bending_count), poor(lanes)
+        integer :: first, l, stat
+        logical :: made, fits(lanes)
 
-        at_level = best_level()
-        if (present(level)) at_level = level
-        call prepare_lanes(assembled, loads, size(spans, 2) > 0, beam, made)
-        if (made) call prepare_pieces(assembled, size(beam%links, 1), pieces, made)
-        if (made .and. size(spans, 2) > 0) call prepare_spans(assembled, loads, span_room, made)
-        if (made) call new_pack(beam, pack, made)
+        if (present(level)) block%level = level
+        call make_block(assembled, loads, numbers, block)
+        made = block%made
+        if (made) call prepare_pieces(assembled, size(block%beam%links, 1), pieces, made)
         if (made) call new_piece_pack(size(pieces%length), along, made)
         stat = 0
-        if (made) allocate (solved(count(status == gapbeam_solved)), factors_of(lanes, size(factors, 1)), &
-                            at_places(lanes, size(piece), bending_count), turned(lanes, 3*size(values, 2)), stat=stat)
+        if (made) allocate (at_places(lanes, size(piece), bending_count), stat=stat)
         if (.not. made .or. stat /= 0) then
-            status(:) = gapbeam_no_memory
+            solutions%status(:) = gapbeam_no_memory
             return
         end if
-        number = 0
-        do i = 1, size(status)
-            if (status(i) /= gapbeam_solved) cycle
-            number = number + 1
-            solved(number) = i
-        end do
-        call take_supports(assembled, beam%place, pack)
-        found(:, :, :) = 0.0_wp
-        outside(:) = .false.
-        do first = 1, number, lanes
+        which = remaining(solutions%status /= gapbeam_solved)
+        extremes(:, :, :) = 0.0_wp
+        do first = 1, size(which), lanes
             if (is_stopped(assembled%beam%watch)) exit
-            ! The last lanes repeat the last case
-            case_of = [(solved(min(first + l, number)), l=0, lanes - 1)]
-            lost = .false.
-            if (size(values, 2) > 0) then
-                call take_numbers_at(at_level, beam, units_of_supports(assembled), values, case_of, turned, pack, lost)
+            call take_cases(assembled, numbers, solutions%closed, which(first:), block, fits)
+            call take_solutions(assembled, solutions, block)
+            if (associated(numbers%spans)) then
+                pieces%flexibility(:, :) = block%spans%flexibility
+                pieces%shear_flexibility(:, :) = block%spans%shear_flexibility
             end if
-            if (size(spans, 2) > 0) then
-                do l = 1, lanes
-                    call take_spans(spans(:, :, case_of(l)), l, span_room, outside(l))
-                end do
-                call make_pack_links(at_level, span_room, beam, pack)
-                pieces%flexibility(:, :) = span_room%flexibility
-                pieces%shear_flexibility(:, :) = span_room%shear_flexibility
-            end if
-            call take_columns_at(at_level, size(factors, 1), size(factors, 2), factors, case_of, factors_of)
-            call take_columns_at(at_level, beam%n + 1, size(w, 2), w, case_of, pack%w)
-            call take_columns_at(at_level, beam%n + 1, size(ml, 2), ml, case_of, pack%ml)
-            call take_columns_at(at_level, beam%n + 1, size(mr, 2), mr, case_of, pack%mr)
-            call take_starts(assembled, beam%place, closed, case_of, pack)
-            pack%w(:, :) = scale(1.0_wp, -assembled%units%deflection)*pack%w
-            pack%ml(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%ml
-            pack%mr(:, :) = scale(1.0_wp, -moment_unit(assembled%units))*pack%mr
             poor(:) = 1.0_wp
-            if (any(wanted) .and. .not. lost) then
-                call extremes_of_pack_at(at_level, beam, pieces, wanted, factors_of, pack, along, found, poor)
+            if (any(wanted) .and. any(fits)) then
+                call block%compiled%extremes_of_pack(block%beam, pieces, wanted, block%factors, block%pack, along, extremes, poor)
             end if
-            if (size(piece) > 0 .and. .not. lost) then
-                call fields_of_pack_at(at_level, beam, pieces, factors_of, pack, along, piece, &
-                                       scale(distance, -assembled%units%length), at_places, poor)
+            if (size(piece) > 0 .and. any(fits)) then
+                call block%compiled%fields_of_pack(block%beam, pieces, block%factors, block%pack, along, piece, &
+                                                   scale(distance, -assembled%units%length), at_places, poor)
             end if
-            do l = 1, min(lanes, number - first + 1)
-                i = case_of(l)
-                fits = poor(l) < 0.5_wp .and. .not. outside(l)
-                if (fits) call give_extremes(assembled, wanted, found, l, extremes(:, :, i), places(:, :, i), fits)
-                if (fits) call give_fields(assembled, at_places, l, fields(:, :, i), fits)
-                if (.not. fits) call solve_alone(i)
+            do l = 1, block%cases
+                associate (i => block%case_of(l))
+                    fits(l) = fits(l) .and. poor(l) < 0.5_wp
+                    if (fits(l)) call give_extremes(assembled, wanted, extremes, l, found%extremes(:, :, i), &
+                                                    found%places(:, :, i), fits(l))
+                    if (fits(l)) call give_fields(assembled, at_places, l, found%fields(:, :, i), fits(l))
+                    if (.not. fits(l)) call solve_again(assembled, numbers, i, wanted, piece, distance, combined, solutions, found)
+                end associate
             end do
         end do
-        if (is_stopped(assembled%beam%watch)) status(:) = gapbeam_stopped
+        if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
+    end subroutine extremes_of_cases
 
-    contains
+    !> Solve a case once more, whose fields are not to be had from its solution
+    subroutine solve_again(assembled, numbers, i, wanted, piece, distance, combined, solutions, found)
+        !> As for extremes_of_cases, and the case
+        type(assembled_type), intent(in) :: assembled
+        type(case_numbers_type), intent(in) :: numbers
+        integer, intent(in) :: i
+        logical, intent(in) :: wanted(bending_count)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> Of an earlier case, or empty
+        type(combination_type), intent(inout) :: combined
+        type(case_solutions_type), intent(inout) :: solutions
+        type(case_fields_type), intent(inout) :: found
+        type(state_type) :: state
+        type(error_type), allocatable :: error
+        real(wp) :: value(2, bending_count), x(2, bending_count), all_fields(bending_count, size(piece))
+        integer :: k
 
-        !> Solve a case once more, whose fields are not to be had from its solution
-        subroutine solve_alone(i)
-            integer, intent(in) :: i
-            type(state_type) :: state
-            type(error_type), allocatable :: error
-            real(wp) :: value(2, bending_count), x(2, bending_count), all_fields(bending_count, size(piece))
-            real(wp), target :: own(3, size(values, 2)), own_spans(2, size(spans, 2))
-            type(varied_type) :: varied
-
-            if (size(own) > 0) then
-                own(:, :) = values(:, :, i)
-                varied%supports => own
-            end if
-            if (size(own_spans) > 0) then
-                own_spans(:, :) = spans(:, :, i)
-                varied%spans => own_spans
-            end if
-            associate (still => 0*assembled%model%supports%settlement, m => size(assembled%beam%supports))
-                call combine(assembled, factors(:size(assembled%model%loads), i), still, combined, error, varied)
-                if (.not. allocated(error)) then
-                    call solve_combination(combined%assembled, rule, closed(:m, i) /= 0, state, error)
-                end if
+        call combine_case(assembled, numbers, i, combined, error)
+        if (.not. allocated(error)) then
+            associate (m => size(assembled%beam%supports))
+                call solve_combination(combined%assembled, numbers%rule, solutions%closed(:m, i) /= 0, state, error)
             end associate
-            if (allocated(error)) then
-                status(i) = error%code
-                return
-            end if
-            status(i) = state%status
+        end if
+        if (.not. allocated(error)) then
+            solutions%status(i) = state%status
             if (state%status /= gapbeam_solved) return
             call extremes_of_fields(combined%assembled, state, bending, value, x, error)
-            if (.not. allocated(error)) then
-                call fields_in_pieces(combined%assembled, 1.0_wp, state%starts, state%displacement, state%tension, bending, &
-                                      piece, distance, all_fields, error)
-            end if
-            if (allocated(error)) then
-                status(i) = error%code
-                return
-            end if
-            do k = 1, bending_count
-                if (.not. wanted(k)) cycle
-                extremes(:, k, i) = value(:, k)
-                places(:, k, i) = x(:, k)
-            end do
-            fields(:, :, i) = all_fields
-        end subroutine solve_alone
-
-    end subroutine extremes_of_cases
+        end if
+        if (.not. allocated(error)) call fields_in_pieces(combined%assembled, 1.0_wp, state%starts, state%displacement, &
+                                                          state%tension, bending, piece, distance, all_fields, error)
+        if (allocated(error)) then
+            solutions%status(i) = error%code
+            return
+        end if
+        do k = 1, bending_count
+            if (.not. wanted(k)) cycle
+            found%extremes(:, k, i) = value(:, k)
+            found%places(:, k, i) = x(:, k)
+        end do
+        found%fields(:, :size(piece), i) = all_fields
+    end subroutine solve_again
 
     !> The extremes of a case in the scene's units, if these hold them
     pure subroutine give_extremes(assembled, wanted, found, l, extremes, places, made)
@@ -228,10 +192,11 @@ contains
         integer :: powers(bending_count), i
 
         powers = quantity_unit(assembled%units, bending)
-        do i = 1, size(fields, 2)
+        made = .true.
+        do i = 1, size(found, 2)
             fields(:, i) = scale(found(l, i, :), powers)
+            made = made .and. all(abs(fields(:, i)) <= huge(1.0_wp))
         end do
-        made = all(abs(fields) <= huge(1.0_wp))
     end subroutine give_fields
 
 end module gapbeam_case_extremes

@@ -15,6 +15,7 @@ module gapbeam_cases
     use gapbeam_assemble_supports, only: is_room
     use gapbeam_assemble_loads, only: spread_load, assemble_loads
     use gapbeam_assemble_units, only: load_in_units, support_in_units
+    use gapbeam_case_types, only: case_solutions_type
     implicit none
     private
     public :: case_loads_type, split_loads, replace_supports, leave_room, solve_case, take_case, give_case
@@ -266,35 +267,25 @@ contains
         call assemble_loads(assembled, error)
     end subroutine take_case
 
-    !> Put the solution of a case into columns of the scene's units, which hold it
-    pure subroutine give_case(units, place, scheme, deflection, moment_left, moment_right, force, closed, w, ml, mr, reaction)
-        !> Of deflections, moments and forces, as numbers
+    !> Put the solution of a case into its columns
+    pure subroutine give_case(units, place, i, scheme, deflection, moment_left, moment_right, force, solutions)
+        !> Of deflections, moments and forces, as numbers; the scene's units hold what comes out
         real(wp), intent(in) :: units(3)
         !> Where the number of every support is in arrays of them, counted from 0
         integer, intent(in) :: place(:)
+        !> The case
+        integer, intent(in) :: i
         !> In the engine's units; scheme (1 closed) and forces of supports by places, the others by nodes
         real(wp), intent(in), dimension(0:) :: scheme, deflection, moment_left, moment_right, force
-        !> Columns as long as there are supports, or longer: what is beyond stays
-        integer, intent(inout) :: closed(:)
-        real(wp), intent(inout) :: reaction(:)
-        !> As long as there are nodes; these and reactions without rows where they are not wanted
-        real(wp), intent(inout), dimension(:) :: w, ml, mr
+        type(case_solutions_type), intent(inout) :: solutions
         integer :: k
 
-        do k = 1, size(w)
-            w(k) = deflection(k - 1)*units(1)
-        end do
-        do k = 1, size(ml)
-            ml(k) = moment_left(k - 1)*units(2)
-        end do
-        do k = 1, size(mr)
-            mr(k) = moment_right(k - 1)*units(2)
-        end do
-        do k = 1, merge(size(place), 0, size(reaction) > 0)
-            reaction(k) = force(place(k))*units(3)
-        end do
+        if (associated(solutions%w)) solutions%w(:, i) = deflection*units(1)
+        if (associated(solutions%ml)) solutions%ml(:, i) = moment_left*units(2)
+        if (associated(solutions%mr)) solutions%mr(:, i) = moment_right*units(2)
         do k = 1, size(place)
-            closed(k) = merge(1, 0, scheme(place(k)) > 0.5_wp)
+            if (associated(solutions%reaction)) solutions%reaction(k, i) = force(place(k))*units(3)
+            solutions%closed(k, i) = merge(1, 0, scheme(place(k)) > 0.5_wp)
         end do
     end subroutine give_case
 

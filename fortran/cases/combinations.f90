@@ -12,9 +12,11 @@ module gapbeam_combinations
     use gapbeam_support_values, only: support_values
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces, make_starts
     use gapbeam_quantities, only: quantity_count
+    use gapbeam_case_types, only: case_numbers_type
     implicit none
     private
-    public :: combination_type, varied_type, combine, solve_combination, values_of_combination
+    public :: combination_type, varied_type, combine, combine_case, solve_combination, &
+        values_of_combination
 
     !> Numbers of a combination in place of those of the beam; what has no columns stays
     type :: varied_type
@@ -80,6 +82,25 @@ contains
         ! What an error leaves behind is no beam to go on with
         combined%moved = moves .or. allocated(error)
     end subroutine combine
+
+    !> Put one of many cases on a beam
+    subroutine combine_case(base, numbers, i, combined, error)
+        type(assembled_type), intent(in) :: base
+        type(case_numbers_type), intent(in) :: numbers
+        !> The case
+        integer, intent(in) :: i
+        !> As for combine
+        type(combination_type), intent(inout) :: combined
+        type(error_type), allocatable, intent(out) :: error
+        type(varied_type) :: varied
+
+        associate (model => base%model)
+            if (associated(numbers%supports)) varied%supports => numbers%supports(:, :size(model%supports), i)
+            if (associated(numbers%spans)) varied%spans => numbers%spans(:, :size(model%spans), i)
+            if (associated(numbers%moduli)) varied%moduli => numbers%moduli(:size(model%foundations), i)
+            call combine(base, numbers%factors(:size(model%loads), i), 0*model%supports%settlement, combined, error, varied)
+        end associate
+    end subroutine combine_case
 
     !> Take other numbers of supports, spans and foundations
     pure subroutine take_varied(varied, model)

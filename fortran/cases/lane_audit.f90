@@ -5,6 +5,8 @@
 !> nothing
 module gapbeam_lane_audit
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
+    use gapbeam_tolerances, only: audit_unit, refined_rest, underflow_takes
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
@@ -12,19 +14,10 @@ module gapbeam_lane_audit
     public :: audit_pack, audit_along
     public :: is_joined, check_link, check_support, check_restraint, wrong_way   ! for gapbeam_lane_measures
 
-    !> Roundings of a term, at most
-    real(wp), parameter :: roundings = 16.0_wp, unit = roundings*epsilon(1.0_wp)
     !> In place of that where a law is not that of a support alone, as no sum is larger than its terms
     real(wp), parameter :: anything = 2.0_wp
-    !> What refining a solution once may leave beside these, of all terms of a case: rounding of what rounding is corrected by. Few
-    !> cases have terms so small beside others
-    real(wp), parameter :: rest = 2.0_wp**(-20)*epsilon(1.0_wp)
-    !> What underflow may take
-    real(wp), parameter :: least = 1e-290_wp
     !> Sums by what they are of: rotations; forces; laws and signs, which hold for the numbers of a support alone
     integer, parameter :: sums = 3, turns = 1, forces = 2, laws = 3
-    !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
 
 contains
 
@@ -88,7 +81,7 @@ contains
             k = min(i + 1, n)
             inverse = beam%inverse(k)*merge(1.0_wp, 0.0_wp, i < n)
             joined = merge(1.0_wp, 0.0_wp, is_joined(beam, i))
-            law_unit = merge(unit, anything, beam%there(i) > 0.5_wp)
+            law_unit = merge(audit_unit, anything, beam%there(i) > 0.5_wp)
             changing = beam%changes(i)*beam%side(i)
             !$omp simd private(start, end, link_size, next, next_size, off_law, held, held_size, spring_size, off, size)
             do l = 1, lanes
@@ -98,13 +91,13 @@ contains
                 off = joined*abs(start - turned(l) + (left(l, i) + right(l, i)))
                 ! What loads make of it is not above the sum of the others
                 size = link_size + turned_size(l)
-                turn(l) = larger(turn(l), off - unit*size)
+                turn(l) = larger(turn(l), off - audit_unit*size)
                 all_turns(l) = all_turns(l) + size
                 call check_support(stiffness(l, i), rigid(l, i), contact(l, i), closed(l, i), w(l, i), reaction(l, i), off_law, &
                                    held, held_size, spring_size)
                 off = abs(next - passed(l) + (shear(l, i) - reaction(l, i)))
                 size = next_size + passed_size(l) + (spring_size + abs(reaction(l, i)))
-                force(l) = larger(force(l), off - unit*size)
+                force(l) = larger(force(l), off - audit_unit*size)
                 all_forces(l) = all_forces(l) + size
                 size = held_size + (closed(l, i) - held)*size
                 law(l) = larger(law(l), off_law - law_unit*size)
@@ -132,8 +125,8 @@ contains
         real(wp), intent(in) :: turn, force, law, all_turns, all_forces, all_laws
         logical :: wrong
 
-        wrong = .not. (turn <= rest*all_turns + least .and. force <= rest*all_forces + least .and. law <= least &
-                       .and. all_turns + (all_forces + all_laws) <= huge(1.0_wp))
+        wrong = .not. (turn <= refined_rest*all_turns + underflow_takes .and. force <= refined_rest*all_forces + underflow_takes &
+                       .and. law <= underflow_takes .and. all_turns + (all_forces + all_laws) <= huge(1.0_wp))
     end function is_wrong
 
     !> Is the beam in one piece at a node, where nothing else than itself holds its rotation
@@ -177,7 +170,7 @@ contains
             do j = beam%last_place(g - 1) + 1, beam%last_place(g)
                 call check_support(stiffness(:, j), rigid(:, j), contact(:, j), closed(:, j), w(:, i), reaction(:, j), off, &
                                    held, held_size, spring_size)
-                excess(:) = larger(excess, off - unit*(held_size + (closed(:, j) - held)*sizes))
+                excess(:) = larger(excess, off - audit_unit*(held_size + (closed(:, j) - held)*sizes))
                 off(:) = wrong_way(beam%changes(j)*beam%side(j), contact(:, j), closed(:, j), w(:, i), reaction(:, j))
                 excess(:) = larger(larger(excess, off), (1.0_wp - abs(beam%side(j)))*(1.0_wp - closed(:, j)))
             end do
@@ -201,7 +194,7 @@ contains
                 !$omp simd
                 do l = 1, lanes
                     most(l) = larger(most(l), abs(ml(l, i) - mr(l, i) + couple(l, i)) &
-                                       - unit*(abs(mr(l, i)) + abs(couple(l, i))))
+                                       - audit_unit*(abs(mr(l, i)) + abs(couple(l, i))))
                 end do
             else
                 !$omp simd
@@ -227,7 +220,7 @@ contains
             do k = max(beam%restrained(m), 1), min(beam%restrained(m) + 1, beam%n)
                 call check_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
                                      pack%mr, off, size_of_off)
-                excess(:) = larger(excess, off - unit*size_of_off)
+                excess(:) = larger(excess, off - audit_unit*size_of_off)
             end do
         end do
     end subroutine audit_restraints
@@ -276,7 +269,7 @@ contains
         !> As for audit_pack
         logical, intent(out) :: wrong
         ! Of the links, from that before the first node on
-        real(wp), dimension(0:block) :: start, end, link_size, next, next_size
+        real(wp), dimension(0:cache_block) :: start, end, link_size, next, next_size
         real(wp) :: turn, force, law, all_turns, all_forces, all_laws, off, size, off_law, held, held_size, spring_size, joined
         integer :: from, to, i, k
 
@@ -286,10 +279,10 @@ contains
         all_turns = 0.0_wp
         all_forces = 0.0_wp
         all_laws = 0.0_wp
-        do from = 0, n, block
-            to = min(from + block - 1, n)
+        do from = 0, n, cache_block
+            to = min(from + cache_block - 1, n)
             ! There are no links beyond the ends
-            do k = 0, block, to - from + 1
+            do k = 0, cache_block, to - from + 1
                 start(k) = 0.0_wp
                 end(k) = 0.0_wp
                 link_size(k) = 0.0_wp
@@ -309,16 +302,16 @@ contains
                 joined = merge(1.0_wp, 0.0_wp, i > 0 .and. i < n)
                 off = joined*abs(start(k + 1) - end(k) + (left(i) + right(i)))
                 size = link_size(k + 1) + link_size(k)
-                turn = max(turn, off - unit*size)
+                turn = max(turn, off - audit_unit*size)
                 all_turns = all_turns + size
                 call check_support(stiffness(i), rigid(i), contact(i), closed(i), w(i), reaction(i), off_law, held, held_size, &
                                    spring_size)
                 off = abs(next(k + 1) - next(k) + (shear(i) - reaction(i)))
                 size = next_size(k + 1) + next_size(k) + (spring_size + abs(reaction(i)))
-                force = max(force, off - unit*size)
+                force = max(force, off - audit_unit*size)
                 all_forces = all_forces + size
                 size = held_size + (closed(i) - held)*size
-                law = max(law, there(i)*(off_law - unit*size))
+                law = max(law, there(i)*(off_law - audit_unit*size))
                 all_laws = all_laws + size
                 law = max(law, wrong_way(changing(i), contact(i), closed(i), w(i), reaction(i)))
                 law = max(law, there(i)*(1.0_wp - abs(side(i)))*(1.0_wp - closed(i)))
@@ -371,12 +364,6 @@ contains
         off = changing*((1.0_wp - closed)*(w - contact) - closed*reaction)
     end function wrong_way
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_audit

@@ -7,8 +7,8 @@ module gapbeam_lane_certificate
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
-    use gapbeam_tolerances, only: unit => rounding_unit
-    use gapbeam_lane_row_errors, only: greatest, find_sizes, limit_range
+    use gapbeam_tolerances, only: unit => rounding_unit, largest_error_share, greatest_squared
+    use gapbeam_lane_row_errors, only: find_sizes, limit_range
     use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack
@@ -19,9 +19,6 @@ module gapbeam_lane_certificate
     implicit none
     private
     public :: certify_pack
-
-    !> What is off is of first order only, so long as bounds are smaller shares of what they bound
-    real(wp), parameter :: largest_share = 2.0_wp**(-20)
 
 contains
 
@@ -73,7 +70,7 @@ contains
         call bound_nodes(beam, n, rounding, pack, moves, found, poor)
         call bound_fields(beam, n, rounding, pack%load_size, pack%turn_size, pack%w, pack%ml, pack%mr, pack%room, moves, found)
         ! A link that hangs between a hinge and the end of the beam has no neighbour that knows its rotation
-        poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 7) > greatest .or. wrong)
+        poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 7) > greatest_squared .or. wrong)
     end subroutine certify_pack
 
     !> Cases with a known deflection that is another
@@ -212,8 +209,8 @@ contains
             reaction(l) = reaction(l) + straight(l)
             found(l, 5) = reaction(l) + epsilon(1.0_wp)*largest_r(l)
             found(l, 8) = moment(l)
-            if (.not. (deflection(l) <= largest_share*largest_w(l) .and. moment(l) <= largest_share*largest_m(l) &
-                       .and. reaction(l) <= largest_share*largest_r(l))) poor(l) = poor(l) + 1.0_wp
+            if (.not. (deflection(l) <= largest_error_share*largest_w(l) .and. moment(l) <= largest_error_share*largest_m(l) &
+                       .and. reaction(l) <= largest_error_share*largest_r(l))) poor(l) = poor(l) + 1.0_wp
         end do
     end subroutine bound_nodes
 

@@ -2,6 +2,7 @@
 !> Arrays with a column for each case are turned, eight columns at a time, which compilers do in registers.
 module gapbeam_lane_columns
     use gapbeam_kinds, only: wp
+    use gapbeam_case_types, only: case_solutions_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
     implicit none
     private
@@ -61,7 +62,7 @@ contains
     end subroutine take_support
 
     !> The solutions of eight different cases in the scene's units, which hold them
-    pure subroutine give_pack(beam, units, pack, numbers, turned, closed, w, ml, mr, reaction)
+    pure subroutine give_pack(beam, units, pack, numbers, turned, solutions)
         type(lane_beam_type), intent(in) :: beam
         !> What deflections, moments and forces are multiplied by
         real(wp), intent(in) :: units(3)
@@ -70,26 +71,25 @@ contains
         integer, intent(in) :: numbers(lanes)
         !> Room, shape (lanes, at least size(beam%place))
         real(wp), intent(inout), contiguous :: turned(:, :)
-        !> Cases along the last axis; what has no rows is not wanted
-        integer, intent(inout), contiguous :: closed(:, :)
-        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
-        integer :: k, m, cases
+        type(case_solutions_type), intent(inout) :: solutions
+        integer :: k, m
 
         m = size(beam%place)
-        cases = size(closed, 2)
-        if (size(w, 1) > 0) call give_columns(beam%n + 1, pack%w, units(1), size(w, 1), cases, w, numbers)
-        if (size(ml, 1) > 0) call give_columns(beam%n + 1, pack%ml, units(2), size(ml, 1), cases, ml, numbers)
-        if (size(mr, 1) > 0) call give_columns(beam%n + 1, pack%mr, units(2), size(mr, 1), cases, mr, numbers)
-        if (size(reaction, 1) > 0) then
+        call give_columns(beam%n + 1, pack%w, units(1), solutions%w, numbers)
+        call give_columns(beam%n + 1, pack%ml, units(2), solutions%ml, numbers)
+        call give_columns(beam%n + 1, pack%mr, units(2), solutions%mr, numbers)
+        if (associated(solutions%reaction)) then
             do k = 1, m
                 turned(:, k) = pack%reaction(:, beam%place(k))
             end do
-            call give_columns(m, turned, units(3), size(reaction, 1), cases, reaction, numbers)
+            call give_columns(m, turned, units(3), solutions%reaction, numbers)
         end if
         do k = 1, m
             turned(:, k) = pack%closed(:, beam%place(k))
         end do
-        call give_whole_columns(m, turned, size(closed, 1), cases, closed, numbers)
+        associate (closed => solutions%closed)
+            call give_whole_columns(m, turned, size(closed, 1), size(closed, 2), closed, numbers)
+        end associate
     end subroutine give_pack
 
     !> Columns of eight cases into the lanes
@@ -104,20 +104,20 @@ contains
                         columns(1, numbers(5)), columns(1, numbers(6)), columns(1, numbers(7)), columns(1, numbers(8)), to)
     end subroutine take_columns
 
-    !> Lanes into the columns of eight different cases
-    pure subroutine give_columns(rows, from, unit, leading, cases, columns, numbers)
+    !> Lanes into the columns of eight different cases, where these are wanted
+    pure subroutine give_columns(rows, from, unit, columns, numbers)
         !> How many rows are given, and what they are multiplied by
         integer, intent(in) :: rows
         real(wp), intent(in) :: from(lanes, rows), unit
-        !> The array, which may have more rows
-        integer, intent(in) :: leading, cases
-        real(wp), intent(inout) :: columns(leading, cases)
+        !> They may have more rows
+        real(wp), intent(inout), pointer, contiguous :: columns(:, :)
         !> As for take_columns; no number twice
         integer, intent(in) :: numbers(lanes)
 
-        call give_eight(rows, from, unit, columns(1, numbers(1)), columns(1, numbers(2)), columns(1, numbers(3)), &
-                        columns(1, numbers(4)), columns(1, numbers(5)), columns(1, numbers(6)), columns(1, numbers(7)), &
-                        columns(1, numbers(8)))
+        if (.not. associated(columns)) return
+        call give_eight(rows, from, unit, columns(:, numbers(1)), columns(:, numbers(2)), columns(:, numbers(3)), &
+                        columns(:, numbers(4)), columns(:, numbers(5)), columns(:, numbers(6)), columns(:, numbers(7)), &
+                        columns(:, numbers(8)))
     end subroutine give_columns
 
     !> Whole numbers likewise

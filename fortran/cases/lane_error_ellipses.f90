@@ -8,6 +8,7 @@
 !> the bound is their reach in the direction of that result: never less than the largest sum of |K^-1| times what rows are off.
 module gapbeam_lane_error_ellipses
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: unknown_movement
     use gapbeam_lane_types, only: lanes, lane_beam_type, &
         link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending, link_determinant
     implicit none
@@ -22,8 +23,6 @@ module gapbeam_lane_error_ellipses
     integer, parameter :: kinds_of_movement = 11
     integer, parameter :: phi_right = 5, beta_right = 6, delta_right = 7, floats_right = 8, q11_right = 9, q12_right = 10, &
         q22_right = 11
-    !> More than any movement: a rotation that is known through the neighbour only
-    real(wp), parameter :: unknown = 1e100_wp
 
     !> What the part of the beam up to a node passes on to it
     type :: part_type
@@ -320,7 +319,7 @@ contains
             moves(l, k, of_moment) = reach(m1, m2, q11, q12, q22) + reach(r11, r12, s11, s12, s22)
             moves(l, k, of_deflection) = reach(w1, w2, q11, q12, q22) + reach(r21, r22, s11, s12, s22)
             moves(l, k, of_shear) = h*(reach(m1 - n1, m2 - n2, q11, q12, q22) + reach(r11 - n3, r12 - n4, s11, s12, s22))
-            moves(l, k, of_rotation) = unknown*step%hangs(l) &
+            moves(l, k, of_rotation) = unknown_movement*step%hangs(l) &
                 + reach(h*(w1 - u1) + (faa*n1 + fab*m1), h*(w2 - u2) + (faa*n2 + fab*m2), q11, q12, q22) &
                 + reach(h*(r21 - u3) + (faa*n3 + fab*r11), h*(r22 - u4) + (faa*n4 + fab*r12), s11, s12, s22)
             at_left(l) = reach(u1, u2, q11, q12, q22) + reach(u3, u4, s11, s12, s22)

@@ -4,6 +4,7 @@
 !> time.
 module gapbeam_lane_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: least_load
     use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived, deflection => of_deflection, &
         rotation => of_rotation, moment => of_moment, shear => of_shear
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
@@ -15,8 +16,6 @@ module gapbeam_lane_extremes
     private
     public :: extremes_of_pack
 
-    !> A load below this leaves too little room for products
-    real(wp), parameter :: least_load = 1e-150_wp
     !> Queues of pieces with one root at most, and with several
     integer, parameter :: one_root = 1, some_roots = 2
 

@@ -3,6 +3,7 @@
 !> made once (lane_pieces_type).
 module gapbeam_lane_fields
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: worst_shear_digits, greatest_product, smallest_product
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, link_faa, &
         link_fab, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_stiffness, only: stiffness_lanes
@@ -12,12 +13,6 @@ module gapbeam_lane_fields
     implicit none
     private
     public :: recover_pack, find_rotations
-
-    !> Rounding error of a shear, relative to the largest, from which on it has too few digits (worst_digits of
-    !> gapbeam_extended_precision), with a digit to spare
-    real(wp), parameter :: worst_digits = 1e-9_wp
-    !> Numbers beyond these leave too little room for their products
-    real(wp), parameter :: greatest = 1e100_wp, smallest = 1e-100_wp
 
 contains
 
@@ -134,7 +129,7 @@ contains
             end do
         end do
         do l = 1, lanes
-            poor(l) = merge(0.0_wp, 1.0_wp, worst(l) <= worst_digits*largest(l))
+            poor(l) = merge(0.0_wp, 1.0_wp, worst(l) <= worst_shear_digits*largest(l))
         end do
     end subroutine check_shears
 
@@ -321,7 +316,7 @@ contains
             end do
         end do
         do l = 1, lanes
-            if (.not. (total(l) >= smallest .and. total(l) <= greatest)) poor(l) = 1.0_wp
+            if (.not. (total(l) >= smallest_product .and. total(l) <= greatest_product)) poor(l) = 1.0_wp
         end do
     end subroutine check_range
 

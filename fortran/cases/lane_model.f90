@@ -181,7 +181,7 @@ contains
         type(assembled_type), intent(in) :: assembled
         !> As for take_supports
         integer, intent(in), contiguous :: place(:)
-        !> As for solve_in_lanes, and the case of every lane
+        !> As in case_solutions_type, and the case of every lane
         integer, intent(in), contiguous :: closed(:, :)
         integer, intent(in) :: case_of(lanes)
         !> Open where there is no support

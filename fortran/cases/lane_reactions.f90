@@ -187,25 +187,13 @@ contains
                 end if
                 error = epsilon(1.0_wp)*load_size(l, i) + left_error + right_error
                 force = shear(l, i) - (left - right)
-                error = larger(error, epsilon(1.0_wp)*room(l, i, 1))
-                by_spring = stiffness(l, i)*(w(l, i) - contact(l, i))
-                spring_error = epsilon(1.0_wp)*stiffness(l, i)*larger(room(l, i, 2), abs(contact(l, i)))
-                ! The spring's own where that is better; a rigid support has no other way
-                c = merge(1.0_wp, 0.0_wp, error < spring_error)
-                c = larger(c, rigid(l, i))
-                r = merge(force, by_spring, c > 0.5_wp)
-                r_error = merge(error, spring_error, c > 0.5_wp)
-                c = closed(l, i)*there
-                r = r*c + 0.0_wp   ! no negative zero
-                r_error = r_error*c
+                associate (shear_size => room(l, i, 1), deflection_size => room(l, i, 2), stiffness => stiffness(l, i), &
+                           rigid => rigid(l, i), contact => contact(l, i), closed => closed(l, i), w => w(l, i))
+                    include 'cases/support_reaction.inc'
+                end associate
                 reaction(l, i) = r
                 most(l) = larger(most(l), abs(r))
                 off(l) = larger(off(l), r_error)
-                margin = side*(contact(l, i) - w(l, i))
-                rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, i)))
-                margin = merge(side*r, margin, c > 0.5_wp)
-                rounding = merge(r_error, rounding, c > 0.5_wp)
-                bad = merge(0.0_wp, changes, margin > sign_width*rounding)
                 ! Not a number, or beyond the range
                 c = abs(w(l, i)) + abs(ml(l, i)) + abs(mr(l, i)) + abs(r)
                 bad = merge(bad, 1.0_wp, c <= huge(1.0_wp))
@@ -240,12 +228,6 @@ contains
         where (change > worst_correction*largest) doubtful = doubtful + 1.0_wp
     end subroutine doubt_corrections
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_reactions

@@ -1,15 +1,13 @@
 !> Residuals of eight cases in twice the working precision: gapbeam_residual, number by number.
 module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: find_rest, find_rest_at_restraints, find_rest_along
-
-    !> Nodes of a long beam at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
 
 contains
 
@@ -53,16 +51,12 @@ contains
                 turned_rest = turned_low(l)
                 passed = passed_high(l)
                 passed_rest = passed_low(l)
-                start_high = w(l, k)
-                start_low = 0.0_wp
-                call add(start_high, start_low, -w(l, i))
-                call divide(start_high, start_low, length)
+                call divide_difference(w(l, k), w(l, i), length, start_high, start_low)
                 high = start_high
                 low = start_low
                 call add_product(high, low, faa, mr(l, i))
                 call add_product(high, low, fab, ml(l, k))
-                call add(high, low, -turned)
-                call add(high, low, -turned_rest)
+                call subtract(high, low, turned, turned_rest)
                 call add(high, low, left(l, i))
                 call add(high, low, right(l, i))
                 turn_rest(l, i) = (high + low)*plain
@@ -70,14 +64,10 @@ contains
                 call add_product(start_high, start_low, -fbb, ml(l, k))
                 turned_high(l) = start_high
                 turned_low(l) = start_low
-                other_high = inside*ml(l, k)
-                other_low = 0.0_wp
-                call add(other_high, other_low, -(inside*mr(l, i)))
-                call divide(other_high, other_low, length)
+                call divide_difference(inside*ml(l, k), inside*mr(l, i), length, other_high, other_low)
                 passed_high(l) = other_high
                 passed_low(l) = other_low
-                call add(other_high, other_low, -passed)
-                call add(other_high, other_low, -passed_rest)
+                call subtract(other_high, other_low, passed, passed_rest)
                 call add(other_high, other_low, force(l, i))
                 call add_product(other_high, other_low, -spring(l, i), w(l, i))
                 force_rest(l, i) = (other_high + other_low)*(1.0_wp - held(l, i))
@@ -104,36 +94,22 @@ contains
             i = beam%restrained(k)
             c = beam%compliance(k)
             do l = 1, lanes
-                high = ml(l, i)
-                low = 0.0_wp
-                call add(high, low, -mr(l, i))
-                call add(high, low, couple(l, i))
-                turn_high = c*low
-                turn_low = 0.0_wp
-                call add_product(turn_high, turn_low, c, high)
+                call turn_of_restraint(c, ml(l, i), mr(l, i), couple(l, i), turn_high, turn_low)
                 left_rest(l, i) = 0.0_wp
                 turn_rest(l, i) = 0.0_wp
                 if (i < n) then
-                    high = w(l, i + 1)
-                    low = 0.0_wp
-                    call add(high, low, -w(l, i))
-                    call divide(high, low, beam%length(i + 1))
+                    call divide_difference(w(l, i + 1), w(l, i), beam%length(i + 1), high, low)
                     call add_product(high, low, links(min(l, stiffness_lanes), link_faa, i + 1), mr(l, i))
                     call add_product(high, low, links(min(l, stiffness_lanes), link_fab, i + 1), ml(l, i + 1))
-                    call add(high, low, -turn_high)
-                    call add(high, low, -turn_low)
+                    call subtract(high, low, turn_high, turn_low)
                     call add(high, low, right(l, i))
                     turn_rest(l, i) = high + low
                 end if
                 if (i > 0) then
-                    high = w(l, i)
-                    low = 0.0_wp
-                    call add(high, low, -w(l, i - 1))
-                    call divide(high, low, beam%length(i))
+                    call divide_difference(w(l, i), w(l, i - 1), beam%length(i), high, low)
                     call add_product(high, low, -links(min(l, stiffness_lanes), link_fab, i), mr(l, i - 1))
                     call add_product(high, low, -links(min(l, stiffness_lanes), link_fbb, i), ml(l, i))
-                    call add(turn_high, turn_low, -high)
-                    call add(turn_high, turn_low, -low)
+                    call subtract(turn_high, turn_low, high, low)
                     call add(turn_high, turn_low, left(l, i))
                     left_rest(l, i) = turn_high + turn_low
                 end if
@@ -150,108 +126,37 @@ contains
         real(wp), intent(in), dimension(0:n) :: left, right, force, held, known, spring, w, m
         !> Compatibility; equilibrium, or deflection where it is known
         real(wp), intent(out), dimension(0:n) :: turn_rest, shear_rest
-        ! Of the links, from that before the first node on: rotations of both ends and shear
-        real(wp), dimension(0:block) :: start_high, start_low, end_high, end_low, shear_high, shear_low
-        real(wp) :: high, low, other_high, other_low
+        real(wp) :: high, low, link_high, link_low
         integer :: from, to, i, k
 
-        do from = 0, n, block
-            to = min(from + block - 1, n)
-            ! There are no links beyond the ends
-            do k = 0, block, to - from + 1
-                start_high(k) = 0.0_wp
-                start_low(k) = 0.0_wp
-                end_high(k) = 0.0_wp
-                end_low(k) = 0.0_wp
-                shear_high(k) = 0.0_wp
-                shear_low(k) = 0.0_wp
-            end do
-            !$omp simd private(k, high, low, other_high, other_low)
-            do i = max(from, 1), min(to + 1, n)
-                k = i - from
-                high = w(i)
-                low = 0.0_wp
-                call add(high, low, -w(i - 1))
-                call divide(high, low, length(i))
-                other_high = high
-                other_low = low
-                call add_product(high, low, faa(i), m(i - 1))
-                call add_product(high, low, fab(i), m(i))
-                start_high(k) = high
-                start_low(k) = low
-                call add_product(other_high, other_low, -fab(i), m(i - 1))
-                call add_product(other_high, other_low, -fbb(i), m(i))
-                end_high(k) = other_high
-                end_low(k) = other_low
-                high = m(i)
-                low = 0.0_wp
-                call add(high, low, -m(i - 1))
-                call divide(high, low, length(i))
-                shear_high(k) = high
-                shear_low(k) = low
-            end do
-            !$omp simd private(k, high, low)
-            do i = from, to
-                k = i - from
-                high = start_high(k + 1)
-                low = start_low(k + 1)
-                call add(high, low, -end_high(k))
-                call add(high, low, -end_low(k))
-                call add(high, low, left(i))
-                call add(high, low, right(i))
-                turn_rest(i) = high + low
-                high = shear_high(k + 1)
-                low = shear_low(k + 1)
-                call add(high, low, -shear_high(k))
-                call add(high, low, -shear_low(k))
-                call add(high, low, force(i))
-                call add_product(high, low, -spring(i), w(i))
-                shear_rest(i) = (high + low)*(1.0_wp - held(i)) + (known(i) - w(i))*held(i)
-            end do
+        do from = 1, n - 1, cache_block
+            to = min(from + cache_block - 1, n - 1)
+            call residual_of_block(to - from + 1, length(from:to + 1), faa(from:to + 1), fab(from:to + 1), fbb(from:to + 1), &
+                                   left(from:to), right(from:to), force(from:to), known(from:to), spring(from:to), &
+                                   held(from:to), m(from - 1:to + 1), w(from - 1:to + 1), turn_rest(from:to), shear_rest(from:to))
+        end do
+        ! There are no links beyond the ends
+        do i = 0, n, n
+            k = max(i, 1)
+            call divide_difference(m(k), m(k - 1), length(k), link_high, link_low)
+            high = 0.0_wp
+            low = 0.0_wp
+            if (i == 0) then
+                high = link_high
+                low = link_low
+            else
+                call subtract(high, low, link_high, link_low)
+            end if
+            call add(high, low, force(i))
+            call add_product(high, low, -spring(i), w(i))
+            shear_rest(i) = (high + low)*(1 - held(i)) + (known(i) - w(i))*held(i)
         end do
         turn_rest(0) = 0.0_wp
         turn_rest(n) = 0.0_wp
     end subroutine find_rest_along
 
-    !> x + y, the rounding error collected in the low part
-    elemental subroutine add(high, low, y)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: y
-        real(wp) :: z, t
-
-        z = high + y
-        t = z - high
-        low = low + ((high - (z - t)) + (y - t))
-        high = z
-    end subroutine add
-
-    !> x + a b
-    elemental subroutine add_product(high, low, a, b)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: a, b
-        real(wp) :: p, a1, a2, b1, b2
-
-        p = a*b
-        a1 = splitter*a
-        a1 = a1 - (a1 - a)
-        a2 = a - a1
-        b1 = splitter*b
-        b1 = b1 - (b1 - b)
-        b2 = b - b1
-        call add(high, low, p)
-        low = low + (((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2)
-    end subroutine add_product
-
-    !> x/y
-    elemental subroutine divide(high, low, y)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: y
-        real(wp) :: q
-
-        q = high/y
-        call add_product(high, low, -q, y)
-        low = (high + low)/y
-        high = q
-    end subroutine divide
+    include 'elimination/turn_of_restraint.inc'
+    include 'elimination/residual_along.inc'
+    include 'elimination/double_double.inc'
 
 end module gapbeam_lane_residual

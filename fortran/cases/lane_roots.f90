@@ -2,7 +2,8 @@
 !> As gapbeam_fields and gapbeam_polynomial find them for one (Lane and Riesenfeld 1981).
 module gapbeam_lane_roots
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: extreme_margin
+    use gapbeam_limits, only: most_lane_root_steps
+    use gapbeam_tolerances, only: extreme_margin, root_place
     use gapbeam_lane_types, only: lanes
     implicit none
     private
@@ -11,8 +12,6 @@ module gapbeam_lane_roots
     !> Reciprocal binomial coefficients i of 5, over i, and i of 4
     real(wp), parameter :: of_5(5) = [1.0_wp/5, 1.0_wp/20, 1.0_wp/30, 1.0_wp/20, 1.0_wp/5]
     real(wp), parameter :: of_4(0:4) = [1.0_wp, 1.0_wp/4, 1.0_wp/6, 1.0_wp/4, 1.0_wp]
-    !> Steps of Newton's method kept inside a bracket by bisection
-    integer, parameter :: most_steps = 200
 
 contains
 
@@ -215,7 +214,7 @@ contains
         b(:) = to
         x(:) = a + 0.5_wp*(b - a)
         busy(:) = changes
-        do step = 1, most_steps
+        do step = 1, most_lane_root_steps
             f(:) = d(:, degree)
             slope(:) = 0.0_wp
             do k = degree - 1, 0, -1
@@ -239,7 +238,7 @@ contains
                 newton = merge(newton, next, newton > low)
                 newton = merge(newton, next, newton < high)
                 next = merge(newton, next, steep > 0.0_wp)
-                goes_on = merge(1.0_wp, 0.0_wp, abs(next - at) > 2*epsilon(1.0_wp)*at)
+                goes_on = merge(1.0_wp, 0.0_wp, abs(next - at) > root_place*at)
                 goes_on = merge(goes_on, 0.0_wp, abs(value) > 0.0_wp)*busy(l)
                 next = merge(next, at, goes_on > 0.5_wp)
                 a(l) = low

@@ -1,16 +1,11 @@
 !> Errors of the rows of the systems of eight cases: residuals, rounding, last digits of the data.
 module gapbeam_lane_row_errors
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: rounding_unit
+    use gapbeam_tolerances, only: rounding_unit, second_order, greatest_squared, smallest_squared
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, link_faa, link_fab, link_fbb
     implicit none
     private
-    public :: greatest, find_sizes, limit_range
-
-    !> Beyond first order, so long as what is off is a small share
-    real(wp), parameter :: second_order = 1 + 2.0_wp**(-16)
-    !> Numbers beyond these leave too little room for their squares
-    real(wp), parameter :: greatest = 1e70_wp, smallest = 1e-70_wp
+    public :: find_sizes, limit_range
 
 contains
 
@@ -138,7 +133,8 @@ contains
             end do
         end do
         do l = 1, lanes
-            keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest .and. max(turn(l), force(l)) <= greatest)
+            keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest_squared .and. &
+                                  max(turn(l), force(l)) <= greatest_squared)
             if (keep > 0.5_wp) cycle
             poor(l) = poor(l) + 1.0_wp
             left_off(l, :) = 0.0_wp

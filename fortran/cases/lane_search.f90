@@ -6,17 +6,16 @@
 !> gapbeam_extended_precision itself. A scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_lane_search
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_lane_solves
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, by_both_ends, by_three_moments, by_chain
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_sweeps, only: sweep_chain
-    use gapbeam_lane_two_sided_sweep, only: pass_both_ends, find_wrong_between
+    use gapbeam_lane_two_sided_sweep, only: pass_both_ends
     use gapbeam_lane_shared, only: keep_loads, join_supports, find_wrong_beside, wait_beside
     implicit none
     private
     public :: search_pack, add_loads, apply_scheme
 
-    !> Solves before a case is given up
-    integer, parameter :: most_solves = 80
     !> Solves without progress before fewer supports are changed at a time
     real(wp), parameter :: non_monotone_steps = 4.5_wp
 
@@ -114,7 +113,7 @@ contains
         alive(:) = 1.0_wp
         proximal_weight(:) = 0.0_wp
         count(:) = 0.0_wp
-        do solve = 1, most_solves
+        do solve = 1, most_lane_solves
             if (last > n) call join_supports(beam, n, last, pack%load, pack%turn_rest, pack%closed, pack%stiffness, pack%rigid, &
                                              pack%contact, pack%shear)
             pack%is_solved = is_easy
@@ -123,8 +122,8 @@ contains
             if (pack%is_solved) then
                 call pass_both_ends(beam, pack%links, n, pack%turn, pack%shear, pack%stiffness, pack%rigid, pack%contact, &
                                     pack%turn_rest, pack%closed, pack%room, pack%w, pack%ml)
-                call find_wrong_between(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, &
-                                        pack%w, pack%ml, pack%turn_rest, wrong)
+                call find_wrong(beam, n, alive, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%w, &
+                                pack%ml, pack%ml, pack%turn_rest, wrong)
                 if (last > n) call find_wrong_beside(beam, n, last, alive, pack%load, pack%stiffness, pack%rigid, pack%contact, &
                                                      pack%closed, pack%w, pack%ml, pack%ml, pack%turn_rest, wrong)
             else
@@ -137,7 +136,7 @@ contains
                 ! A scheme that moves is solved once more, with weak springs, as by gapbeam_contact_state
                 proximal_weight(:) = proximal_weight + moves*[(beam%proximal_weight(min(l, stiffness_lanes)), l=1, lanes)]
                 looked_at(:) = alive*(1.0_wp - moves)
-                call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%contact, pack%held, pack%closed, pack%w, &
+                call find_wrong(beam, n, looked_at, pack%shear, pack%stiffness, pack%rigid, pack%contact, pack%closed, pack%w, &
                                 pack%ml, pack%mr, pack%turn_rest, wrong)
                 if (last > n) call find_wrong_beside(beam, n, last, looked_at, pack%load, pack%stiffness, pack%rigid, &
                                                      pack%contact, pack%closed, pack%w, pack%ml, pack%mr, pack%turn_rest, wrong)
@@ -189,10 +188,8 @@ contains
         do i = 0, n
             !$omp simd
             do l = 1, lanes
-                held(l, i) = closed(l, i)*rigid(l, i)
-                known(l, i) = held(l, i)*contact(l, i)
-                spring(l, i) = closed(l, i)*stiffness(l, i)
-                force(l, i) = shear(l, i) + spring(l, i)*contact(l, i)
+                call put_support(closed(l, i), shear(l, i), stiffness(l, i), rigid(l, i), contact(l, i), held(l, i), &
+                                 known(l, i), spring(l, i), force(l, i))
             end do
         end do
     end subroutine apply_scheme
@@ -228,39 +225,38 @@ contains
     end function ends_hold
 
     !> Which supports have the wrong state, and by how much
-    pure subroutine find_wrong(beam, n, alive, shear, stiffness, contact, held, closed, w, ml, mr, wrong, number)
+    pure subroutine find_wrong(beam, n, alive, shear, stiffness, rigid, contact, closed, w, ml, mr, wrong, number)
         type(lane_beam_type), intent(in) :: beam
         integer, intent(in) :: n
         !> Cases that are looked at
         real(wp), intent(in) :: alive(lanes)
-        real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, contact, held, closed, w, ml, mr
+        real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, rigid, contact, closed, w, ml, mr
         !> 1 where wrong
         real(wp), intent(out) :: wrong(lanes, 0:n)
         !> How many are wrong
         real(wp), intent(out) :: number(lanes)
-        real(wp) :: force, pressing, bad, side, changes, h_left, h_right
+        real(wp) :: force, bad, side, changes, h_left, h_right
         integer :: i, l, before, after
 
         number(:) = 0.0_wp
+        h_left = 0.0_wp
         do i = 0, n
             side = beam%side(i)
             changes = beam%changes(i)
             before = max(i - 1, 0)
             after = min(i + 1, n)
-            h_left = 0.0_wp
             h_right = 0.0_wp
-            if (i > 0) h_left = beam%inverse(i)
-            if (i < n) h_right = beam%inverse(i + 1)
-            !$omp simd private(force, pressing, bad)
+            if (i < n) h_right = beam%inverse(after)
+            !$omp simd private(force, bad)
             do l = 1, lanes
-                force = -side*(shear(l, i) - (ml(l, i) - mr(l, before))*h_left + (ml(l, after) - mr(l, i))*h_right)
-                pressing = side*(w(l, i) - contact(l, i))
-                bad = pressing - closed(l, i)*(pressing + pressing*stiffness(l, i))
-                bad = merge(force, bad, held(l, i) > 0.5_wp)*changes*alive(l)
+                force = shear(l, i) - (ml(l, i) - mr(l, before))*h_left + (ml(l, after) - mr(l, i))*h_right
+                bad = wrongness(side, closed(l, i), stiffness(l, i), closed(l, i)*rigid(l, i), contact(l, i), w(l, i), &
+                                force)*changes*alive(l)
                 bad = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
                 wrong(l, i) = bad
                 number(l) = number(l) + bad
             end do
+            h_left = h_right
         end do
     end subroutine find_wrong
 
@@ -318,5 +314,9 @@ contains
             end associate
         end do
     end subroutine choose_methods
+
+    include 'cases/support_in_scheme.inc'
+
+    include 'cases/wrongness.inc'
 
 end module gapbeam_lane_search

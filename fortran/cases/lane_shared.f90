@@ -107,7 +107,7 @@ contains
         real(wp), intent(inout) :: wrong(lanes, 0:last)
         !> How many are wrong, raised
         real(wp), intent(inout) :: number(lanes)
-        real(wp) :: force(lanes), pressing, bad, side, changes, h_left, h_right
+        real(wp) :: force(lanes), bad, side, changes, h_left, h_right
         integer :: g, i, j, l, before, after
 
         do g = 1, size(beam%shared)
@@ -125,11 +125,10 @@ contains
             do j = beam%last_place(g - 1) + 1, beam%last_place(g)
                 side = beam%side(j)
                 changes = beam%changes(j)
-                !$omp simd private(pressing, bad)
+                !$omp simd private(bad)
                 do l = 1, lanes
-                    pressing = side*(w(l, i) - contact(l, j))
-                    bad = pressing - closed(l, j)*(pressing + pressing*stiffness(l, j))
-                    bad = merge(-side*force(l), bad, closed(l, j)*rigid(l, j) > 0.5_wp)*changes*alive(l)
+                    bad = wrongness(side, closed(l, j), stiffness(l, j), closed(l, j)*rigid(l, j), contact(l, j), w(l, i), &
+                                    force(l))*changes*alive(l)
                     bad = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
                     wrong(l, j) = bad
                     number(l) = number(l) + bad
@@ -225,16 +224,12 @@ contains
                     c = error(l) + epsilon(1.0_wp)*abs(elastic(l))
                     r_error = merge(c, r_error, rigid(l, j) > 0.5_wp)
                     c = closed(l, j)
-                    r = r*c + 0.0_wp   ! no negative zero
-                    r_error = r_error*c
+                    associate (deflection_size => room(l, i, 2), contact => contact(l, j), w => w(l, i))
+                        include 'cases/support_margin.inc'
+                    end associate
                     reaction(l, j) = r
                     largest(l) = larger(largest(l), abs(r))
                     worst(l) = larger(worst(l), r_error)
-                    margin = side*(contact(l, j) - w(l, i))
-                    rounding = epsilon(1.0_wp)*larger(room(l, i, 2), abs(contact(l, j)))
-                    margin = merge(side*r, margin, c > 0.5_wp)
-                    rounding = merge(r_error, rounding, c > 0.5_wp)
-                    bad = merge(0.0_wp, changes, margin > sign_width*rounding)
                     bad = merge(bad, 1.0_wp, abs(r) <= huge(1.0_wp))
                     doubtful(l) = doubtful(l) + bad
                 end do
@@ -243,12 +238,8 @@ contains
         end do
     end subroutine share_forces
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
+    include 'cases/wrongness.inc'
 
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_shared

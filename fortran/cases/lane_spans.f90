@@ -1,6 +1,7 @@
 !> Links of cases whose spans have stiffnesses of their own (gapbeam_lane_links).
 module gapbeam_lane_spans
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_stiffness_power, most_stiffness_unit, most_load_terms
     use gapbeam_tolerances, only: proximal_ratio
     use gapbeam_element, only: moment_integrals
     use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
@@ -8,19 +9,12 @@ module gapbeam_lane_spans
     use gapbeam_units, only: turning_unit, rotation_unit
     use gapbeam_assembled_model, only: assembled_type, in_bending, in_shear
     use gapbeam_cases, only: case_loads_type
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type, pack_type, link_bending
-    use gapbeam_cpu_dispatch, only: make_links_at
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private
-    public :: span_room_type, fits_spans, prepare_spans, take_spans, make_pack_links
+    public :: span_room_type, fits_spans, prepare_spans, take_spans, proximal_weight_of
 
-    !> Stiffnesses between 2**-100 and 2**100 in the engine's units leave room for all products, in the units of the case too
-    integer, parameter :: most_power = 100
-    !> Exponents of the units of stiffnesses up to which powers of two and their products with these are doubles
-    integer, parameter :: most_unit = 900
-    !> Pieces of links times loads on them: beyond that they leave the processor's memory
-    integer, parameter :: most_terms = 100000
     !> No load on a piece
     type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
@@ -41,7 +35,7 @@ contains
         type(case_loads_type), intent(in) :: loads
         logical :: fits
 
-        fits = terms_of(assembled, loads) <= most_terms
+        fits = terms_of(assembled, loads) <= most_load_terms
     end function fits_spans
 
     !> Pieces of links times loads on them, not much above most_terms
@@ -55,7 +49,7 @@ contains
             associate (i => loads%of_links(k)%link)
                 number = number + assembled%node_point(i) - assembled%node_point(i - 1)
             end associate
-            if (number > most_terms) return
+            if (number > most_load_terms) return
         end do
     end function terms_of
 
@@ -81,10 +75,10 @@ contains
             made = stat == 0
             if (.not. made) return
             powers = [turning_unit(units) + units%length, units%force - rotation_unit(units)]
-            if (all(abs(powers) < most_unit)) then
+            if (all(abs(powers) < most_stiffness_unit)) then
                 spans%power = scale(1.0_wp, -powers)
-                spans%least = scale(1.0_wp, powers - most_power)
-                spans%most = scale(1.0_wp, powers + most_power)
+                spans%least = scale(1.0_wp, powers - most_stiffness_power)
+                spans%most = scale(1.0_wp, powers + most_stiffness_power)
             end if
             spans%softest = least_stiffness(assembled%beam%supports)
             spans%last(:) = pieces%last
@@ -178,7 +172,7 @@ contains
 
     !> Take the stiffnesses of a case
     pure subroutine take_spans(given, l, room, outside)
-        !> EI and GA of every span, shape (2, nspan)
+        !> EI and GA of every span, shape (2, at least nspan)
         real(wp), intent(in) :: given(:, :)
         !> Its lane
         integer, intent(in) :: l
@@ -190,7 +184,7 @@ contains
 
         outside = .false.
         associate (least => room%spans%least, most => room%spans%most)
-            do i = 1, size(given, 2)
+            do i = 1, size(room%stiffness, 3)
                 fits = given(1, i) >= least(1) .and. given(1, i) <= most(1) .and. given(2, i) >= least(2) &
                     .and. (given(2, i) <= most(2) .or. given(2, i) > huge(1.0_wp))
                 outside = outside .or. .not. fits
@@ -199,25 +193,6 @@ contains
             end do
         end associate
     end subroutine take_spans
-
-    !> Make the links of eight cases whose stiffnesses have been taken
-    subroutine make_pack_links(level, room, beam, pack)
-        !> Instructions (gapbeam_cpu_dispatch)
-        integer, intent(in) :: level
-        type(span_room_type), intent(inout) :: room
-        !> What loads do to links, and weak springs, out
-        type(lane_beam_type), intent(inout) :: beam
-        !> Numbers of the links out
-        type(pack_type), intent(inout) :: pack
-        integer :: l
-
-        call make_links_at(level, room%spans, beam%length, room%stiffness, room%flexibility, room%shear_flexibility, pack%links, &
-                           beam%to_link)
-        do l = 1, lanes
-            beam%proximal_weight(l) = proximal_weight_of(room%spans%softest, sum(pack%links(l, link_bending, :)), &
-                                                         sum(beam%length), beam%n)
-        end do
-    end subroutine make_pack_links
 
     !> Stiffness of the weak springs of a case: softest of gapbeam_model
     pure function proximal_weight_of(softest, bending, length, n) result(proximal_weight)

@@ -1,7 +1,7 @@
-!> Lanes of the arrays that follow from stiffnesses of spans: one for all cases, or all of them.
+!> Lanes of the arrays that follow from stiffnesses of spans: one for all cases.
 !>
-!> Here stiffnesses are the same in all cases. Modules whose names have _own in them are the same sources compiled for stiffnesses
-!> that differ from case to case, so that there is no second copy of them.
+!> Modules whose names have _own in them are the same sources compiled for stiffnesses that differ from case to case
+!> (gapbeam_lane_stiffness_own), so that there is no second copy of them.
 module gapbeam_lane_stiffness
     use gapbeam_lane_types, only: lanes
     implicit none

@@ -3,6 +3,7 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: least_segment_links, least_alone_links
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
@@ -11,20 +12,22 @@ module gapbeam_segment_cases
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_units, only: support_in_units
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
-    use gapbeam_cpu_dispatch, only: solve_segments_at, audit_segments_at, best_level
+    use gapbeam_lane_compiled, only: compiled_type
+    use gapbeam_cpu_dispatch, only: compiled_at
     implicit none
     private
-    public :: segments_type, fits_segments, solve_in_segments, least_alone
-
-    !> Least links: shorter segments feel each other too much; from so many on several cases are solved faster one by one, too
-    integer, parameter :: least_links = 200, least_alone = 700
+    public :: segments_type, fits_segments, solve_in_segments
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: segments_type
         logical :: made = .false.
+        !> Instructions (gapbeam_cpu_dispatch), 0: the best that there are; and what is compiled for them
+        integer :: level = 0
+        type(compiled_type) :: compiled
         !> Are the supports in room those of the beam
         logical :: with_own_supports = .false.
         type(segment_beam_type) :: beam
@@ -41,7 +44,7 @@ contains
 
         associate (beam => assembled%beam, units => assembled%units)
             n = size(beam%links)
-            fits = n >= least_links .and. .not. allocated(beam%ground)
+            fits = n >= least_segment_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
@@ -50,53 +53,48 @@ contains
     end function fits_segments
 
     !> Solve cases of a beam that fits
-    subroutine solve_in_segments(assembled, loads, factors, values, segments, closed, w, ml, mr, reaction, solves, done, level)
+    subroutine solve_in_segments(assembled, loads, numbers, which, segments, solutions, done)
         type(assembled_type), intent(in) :: assembled
         !> As for solve_in_lanes of gapbeam_lane_cases
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :)
+        type(case_numbers_type), intent(in) :: numbers
+        integer, intent(in) :: which(:)
         !> Empty, or of earlier cases of this beam
         type(segments_type), intent(inout) :: segments
-        !> Starts in, contact states out, where a case is done; 1 closed
-        integer, intent(inout), contiguous :: closed(:, :)
         !> As for solve_in_lanes
-        real(wp), intent(inout), contiguous :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
-        integer, intent(inout) :: solves(:)
-        logical, intent(out) :: done(:)
-        integer, intent(in), optional :: level
+        type(case_solutions_type), intent(inout) :: solutions
+        logical, intent(inout) :: done(:)
         real(wp) :: units(3), largest
-        integer :: i, at_level
-        logical :: lost, couples, doubtful
+        integer :: i, j
+        logical :: lost, couples, doubtful, with_own_supports
 
-        done(:) = .false.
-        at_level = best_level()
-        if (present(level)) at_level = level
         if (.not. segments%made) call make_segments(assembled, segments)
         if (.not. segments%made) return
         units = scale(1.0_wp, [assembled%units%deflection, moment_unit(assembled%units), assembled%units%force])
-        if (size(values, 2) > 0) segments%with_own_supports = .false.
+        with_own_supports = .not. associated(numbers%supports)
         associate (room => segments%room)
-            if (size(values, 2) == 0 .and. .not. segments%with_own_supports) call take_supports(assembled, room)
-            segments%with_own_supports = size(values, 2) == 0
-            do i = 1, size(done)
+            if (with_own_supports .and. .not. segments%with_own_supports) call take_supports(assembled, room)
+            segments%with_own_supports = with_own_supports
+            do j = 1, size(which)
+                i = which(j)
                 if (is_stopped(assembled%beam%watch)) exit
                 lost = .false.
-                if (size(values, 2) > 0) call take_values(assembled, values(:, :, i), room, lost)
+                if (.not. with_own_supports) call take_values(assembled, numbers%supports(:, :, i), room, lost)
                 if (lost) cycle
-                call add_loads(loads, factors(:, i), segments%beam%n, room, couples)
+                call add_loads(loads, numbers%factors(:, i), segments%beam%n, room, couples)
                 if (couples) cycle
-                call take_start(assembled, closed(:, i), room)
-                call solve_segments_at(at_level, segments%beam, room, solves(i), doubtful)
-                if (.not. doubtful) call audit_segments_at(at_level, segments%beam, room, doubtful)
+                call take_start(assembled, solutions%closed(:, i), room)
+                call segments%compiled%solve_long_beam(segments%beam, room, solutions%solves(i), doubtful)
+                if (.not. doubtful) call segments%compiled%audit_long_beam(segments%beam, room, doubtful)
                 if (doubtful) cycle
                 largest = max(maxval(abs(room%w)), maxval(abs(room%m)), maxval(abs(room%reaction)))
                 done(i) = largest <= huge(1.0_wp)/max(maxval(units), 1.0_wp)
                 if (.not. done(i)) cycle
-                call give_case(units, assembled%beam%supports%node, room%closed, room%w, room%m, room%m, room%reaction, &
-                               closed(:, i), w(:, i), ml(:, i), mr(:, i), reaction(:, i))
+                call give_case(units, assembled%beam%supports%node, i, room%closed, room%w, room%m, room%m, room%reaction, &
+                               solutions)
                 ! Beyond the ends there is no moment
-                if (size(ml) > 0) ml(1, i) = 0.0_wp
-                if (size(mr) > 0) mr(size(mr, 1), i) = 0.0_wp
+                if (associated(solutions%ml)) solutions%ml(1, i) = 0.0_wp
+                if (associated(solutions%mr)) solutions%mr(size(solutions%mr, 1), i) = 0.0_wp
             end do
         end associate
     end subroutine solve_in_segments
@@ -107,6 +105,7 @@ contains
         type(segments_type), intent(inout) :: segments
         integer :: k, l, s, i, step, begin
 
+        segments%compiled = compiled_at(segments%level, .false.)
         call new_segments(size(assembled%beam%links), segments%beam, segments%room, segments%made)
         if (.not. segments%made) return
         associate (to => segments%beam, from => assembled%beam%links)

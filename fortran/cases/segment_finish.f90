@@ -84,10 +84,7 @@ contains
         integer :: i
 
         do i = 0, n
-            held(i) = closed(i)*rigid(i)
-            known(i) = held(i)*contact(i)
-            spring(i) = closed(i)*stiffness(i)
-            force(i) = shear(i) + spring(i)*contact(i)
+            call put_support(closed(i), shear(i), stiffness(i), rigid(i), contact(i), held(i), known(i), spring(i), force(i))
         end do
     end subroutine apply_scheme
 
@@ -241,35 +238,27 @@ contains
         real(wp), intent(in), dimension(0:n + 1) :: shear_size, deflection_size, v, e
         real(wp), intent(out) :: reaction(0:n)
         logical, intent(out) :: doubtful
-        real(wp) :: force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad, largest, worst, wrong
+        real(wp) :: force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad, largest, worst, wrong, &
+            changes
         integer :: i
 
         wrong = 0.0_wp
         largest = 0.0_wp
         worst = 0.0_wp
-        !$omp simd private(force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad) &
+        !$omp simd private(force, error, by_spring, spring_error, r, r_error, margin, rounding, c, bad, changes) &
         !$omp   reduction(max: largest, worst) reduction(+: wrong)
         do i = 0, n
             error = epsilon(1.0_wp)*load_size(i) + e(i) + e(i + 1)
             force = shear(i) - (v(i) - v(i + 1))
-            error = larger(error, epsilon(1.0_wp)*shear_size(i))
-            by_spring = stiffness(i)*(w(i) - contact(i))
-            spring_error = epsilon(1.0_wp)*stiffness(i)*larger(deflection_size(i), abs(contact(i)))
-            ! The spring's own where that is better; a rigid support has no other way
-            c = larger(merge(1.0_wp, 0.0_wp, error < spring_error), rigid(i))
-            r = merge(force, by_spring, c > 0.5_wp)
-            r_error = merge(error, spring_error, c > 0.5_wp)
-            c = closed(i)*beam%there(i)
-            r = r*c + 0.0_wp   ! no negative zero
-            r_error = r_error*c
+            changes = abs(beam%changing(i))
+            associate (shear_size => shear_size(i), deflection_size => deflection_size(i), stiffness => stiffness(i), &
+                       rigid => rigid(i), contact => contact(i), closed => closed(i), w => w(i), side => beam%side(i), &
+                       there => beam%there(i))
+                include 'cases/support_reaction.inc'
+            end associate
             reaction(i) = r
             largest = max(largest, abs(r))
             worst = max(worst, r_error)
-            margin = beam%side(i)*(contact(i) - w(i))
-            rounding = epsilon(1.0_wp)*larger(deflection_size(i), abs(contact(i)))
-            margin = merge(beam%side(i)*r, margin, c > 0.5_wp)
-            rounding = merge(r_error, rounding, c > 0.5_wp)
-            bad = merge(0.0_wp, abs(beam%changing(i)), margin > sign_width*rounding)
             ! Not a number, or beyond the range
             bad = merge(bad, 1.0_wp, abs(w(i)) + 2*abs(m(i)) + abs(r) <= huge(1.0_wp))
             wrong = wrong + bad
@@ -277,12 +266,8 @@ contains
         doubtful = wrong > 0.0_wp .or. worst > worst_digits*largest
     end subroutine find_reactions
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
+    include 'cases/support_in_scheme.inc'
 
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_segment_finish

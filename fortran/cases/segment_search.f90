@@ -5,22 +5,14 @@
 !> is looked at again (segment_finish), and a scheme without doubt is the only one there is, so it does not matter how it was found.
 module gapbeam_segment_search
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_segment_solves, segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, &
+        few_segment_solves, most_segment_rounds, neighbourhood
     use gapbeam_lane_types, only: lanes
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, node_of, half
     use gapbeam_segment_two_sided_sweep, only: solve_segments
     implicit none
     private
     public :: search_segments
-
-    !> Solves at most, without progress, and with an end that is wrong
-    integer, parameter :: most_solves = 50, non_monotone_steps = 5, end_non_monotone_steps = 3
-    !> Without progress so few wrong supports, or as many as there are after so many solves, are changed only where others near them
-    !> are not. Before that boundaries move, which takes long step by step
-    integer, parameter :: few = 16, few_solves = 2
-    !> Rounds of a solve (gapbeam_segment_two_sided_sweep): what is not yet exact goes on with the next one
-    integer, parameter :: most_rounds = 2
-    !> So many nodes farther on supports hardly turn each other round
-    integer, parameter :: neighbourhood = 20
 
 contains
 
@@ -47,8 +39,8 @@ contains
         room%support(1, 5, beam%start(1)) = 0.0_wp
         room%support(half + 1, 5, beam%start(2)) = 0.0_wp
         if (.not. ends_hold(beam, room)) return
-        do while (solves < most_solves)
-            call solve_segments(beam, most_rounds, room, exact)
+        do while (solves < most_segment_solves)
+            call solve_segments(beam, most_segment_rounds, room, exact)
             solves = solves + 1
             call find_wrong(beam%columns, beam%link, room%solution, room%support, room%wrong, room%changed, columns, number)
             middle_is_wrong = 0.0_wp < badness(room%middle_support, room%middle(2), &
@@ -60,12 +52,12 @@ contains
             found = number == 0 .and. ends_are_right .and. exact
             if (found) call take_scheme(beam, room)
             with_wrong_end = merge(0, with_wrong_end + 1, ends_are_right)
-            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_steps) return
+            if (number == 0 .and. exact .or. with_wrong_end == end_non_monotone_solves) return
             if (number == 0) cycle
             idle = merge(0, idle + 1, number < fewest)
             fewest = min(fewest, number)
-            if (idle > non_monotone_steps) return
-            if (idle > 0 .and. (number <= few .or. idle > few_solves)) call keep_local_worst(beam, &
+            if (idle > segment_non_monotone_solves) return
+            if (idle > 0 .and. (number <= few_in_segments .or. idle > few_segment_solves)) call keep_local_worst(beam, &
                 room%changed(:columns), room)
             call change(room%changed(:columns), room%wrong, room%support, room%row)
             if (middle_is_wrong) then
@@ -128,14 +120,8 @@ contains
     pure subroutine apply(support, row)
         real(wp), intent(in) :: support(:)
         real(wp), intent(inout) :: row(:)
-        real(wp) :: held, spring, free
 
-        held = support(6)*support(3)
-        spring = support(6)*support(2)
-        free = 1.0_wp - held
-        row(1) = spring*free + held
-        row(2) = free
-        row(4) = (support(1) + spring*support(4))*free + held*support(4)
+        call make_row(support(6), support(1), support(2), support(3), support(4), row(1), row(2), row(4))
     end subroutine apply
 
     !> Which supports have the wrong state, but for the node in the middle and the ends
@@ -149,13 +135,13 @@ contains
         integer, intent(out) :: number_of_columns
         !> How many supports are wrong
         integer, intent(out) :: number
-        real(wp) :: m, outward, inward, force, pressing, bad, acts, side, total, of_column(lanes)
+        real(wp) :: m, outward, inward, force, bad, acts, side, total, of_column(lanes)
         integer :: s, l
 
         number_of_columns = 0
         number = 0
         do s = 1, columns
-            !$omp simd private(m, outward, inward, force, pressing, bad, acts, side)
+            !$omp simd private(m, outward, inward, force, bad, acts, side)
             do l = 1, lanes
                 side = support(l, 5, s)
                 acts = support(l, 6, s)
@@ -163,10 +149,8 @@ contains
                 outward = (solution(l, 1, s - 1) - m)*link(l, 1, s - 1)
                 inward = (solution(l, 1, s + 1) - m)*link(l, 1, s)
                 ! From left to right
-                force = -side*((support(l, 1, s) + merge(outward, inward, l <= half)) + merge(inward, outward, l <= half))
-                pressing = side*(solution(l, 2, s) - support(l, 4, s))
-                bad = pressing - acts*(pressing + pressing*support(l, 2, s))
-                bad = merge(force, bad, acts*support(l, 3, s) > 0.5_wp)
+                force = (support(l, 1, s) + merge(outward, inward, l <= half)) + merge(inward, outward, l <= half)
+                bad = wrongness(side, acts, support(l, 2, s), acts*support(l, 3, s), support(l, 4, s), solution(l, 2, s), force)
                 of_column(l) = merge(1.0_wp, 0.0_wp, bad > 0.0_wp)
             end do
             total = sum(of_column)
@@ -202,12 +186,7 @@ contains
         real(wp), intent(in) :: w, left, right
         real(wp) :: bad
 
-        if (support(6)*support(3) > 0.5_wp) then
-            bad = -support(5)*((support(1) + left) + right)
-        else
-            bad = support(5)*(w - support(4))
-            bad = bad - support(6)*(bad + bad*support(2))
-        end if
+        bad = wrongness(support(5), support(6), support(2), support(6)*support(3), support(4), w, (support(1) + left) + right)
     end function badness
 
     !> One change in every neighbourhood: put back the support that is penetrated most; where there is none, release the one that
@@ -259,21 +238,17 @@ contains
         integer, intent(in) :: changed(:)
         real(wp), intent(in) :: wrong(:, :)
         real(wp), intent(inout), contiguous :: support(:, :, :), row(:, :, :)
-        real(wp) :: acts, held, spring, free
+        real(wp) :: acts
         integer :: j, l
 
         do j = 1, size(changed)
             associate (s => changed(j))
-                !$omp simd private(acts, held, spring, free)
+                !$omp simd private(acts)
                 do l = 1, lanes
                     acts = abs(support(l, 6, s) - wrong(l, s))
                     support(l, 6, s) = acts
-                    held = acts*support(l, 3, s)
-                    spring = acts*support(l, 2, s)
-                    free = 1.0_wp - held
-                    row(l, 1, s) = spring*free + held
-                    row(l, 2, s) = free
-                    row(l, 4, s) = (support(l, 1, s) + spring*support(l, 4, s))*free + held*support(l, 4, s)
+                    call make_row(acts, support(l, 1, s), support(l, 2, s), support(l, 3, s), support(l, 4, s), row(l, 1, s), &
+                                  row(l, 2, s), row(l, 4, s))
                 end do
             end associate
         end do
@@ -293,5 +268,9 @@ contains
         end do
         room%closed(beam%n/2) = room%middle_support(6)
     end subroutine take_scheme
+
+    include 'cases/row_of_node.inc'
+
+    include 'cases/wrongness.inc'
 
 end module gapbeam_segment_search

@@ -8,8 +8,9 @@
 !> other. The way back is the same.
 module gapbeam_segment_two_sided_sweep
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: kept_columns
     use gapbeam_lane_types, only: lanes
-    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half, kept
+    use gapbeam_segment_types, only: segment_beam_type, segment_room_type, half
     implicit none
     private
     public :: solve_segments
@@ -69,11 +70,11 @@ contains
         !> What comes in, and what is passed on in the end, which stays where nothing is other than before; phi, beta, delta, e, p
         real(wp), intent(in) :: entry(lanes, 5)
         real(wp), intent(inout) :: leaves(lanes, 5)
-        real(wp), intent(inout) :: passed(lanes, 5, kept), eliminated(lanes, 6, columns)
+        real(wp), intent(inout) :: passed(lanes, 5, kept_columns), eliminated(lanes, 6, columns)
         !> Has it ended there
         logical, intent(out) :: as_before
         real(wp), dimension(lanes) :: phi, beta, delta, e, p, differs
-        real(wp) :: h, a, b, c, free, b_free, c_h, reciprocal, turn, shear, moment, deflection, next_phi
+        real(wp) :: a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next
         integer :: s, l, k
 
         as_before = .false.
@@ -83,40 +84,24 @@ contains
         e(:) = entry(:, 4)
         p(:) = entry(:, 5)
         do s = 1, columns
-            !$omp simd private(h, a, b, c, free, b_free, c_h, reciprocal, turn, shear, moment, deflection, next_phi)
+            !$omp simd private(a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next)
             do l = 1, lanes
-                h = link(l, 1, s)
-                free = row(l, 2, s)
-                a = phi(l) + link(l, 2, s)
-                b = beta(l) + h
-                c = free*delta(l) + row(l, 1, s)
-                b_free = free*b
-                reciprocal = 1/(a*c + b_free*b)
-                turn = row(l, 3, s) + e(l)
-                shear = row(l, 4, s) + free*p(l)
-                c_h = c*h
-                moment = (b*shear - c*turn)*reciprocal
-                deflection = (b_free*turn + a*shear)*reciprocal
-                eliminated(l, 1, s) = moment
-                eliminated(l, 2, s) = (b_free*h - c*link(l, 4, s))*reciprocal
-                eliminated(l, 3, s) = c_h*reciprocal
-                eliminated(l, 4, s) = deflection
-                eliminated(l, 5, s) = free*(b*link(l, 4, s) + a*h)*reciprocal
-                eliminated(l, 6, s) = b_free*h*reciprocal
-                next_phi = (free*((phi(l) + link(l, 7, s))*(h*h) + beta(l)*(2*h*link(l, 6, s) + beta(l)*link(l, 3, s))) &
-                            + c*(phi(l)*link(l, 3, s) + link(l, 8, s)))*reciprocal
-                beta(l) = (c_h*(phi(l) + link(l, 5, s)) + b_free*h*beta(l))*reciprocal
-                phi(l) = next_phi
-                delta(l) = c_h*h*reciprocal
-                e(l) = h*deflection + link(l, 4, s)*moment
-                p(l) = h*moment
+                associate (h => link(l, 1, s), near => link(l, 2, s), far => link(l, 3, s), cross => link(l, 4, s), &
+                           sum_near => link(l, 5, s), sum_far => link(l, 6, s), bending => link(l, 7, s), &
+                           determinant => link(l, 8, s), stiff => row(l, 1, s), free => row(l, 2, s), turn => row(l, 3, s), &
+                           load => row(l, 4, s), phi => phi(l), beta => beta(l), delta => delta(l), e => e(l), p => p(l), &
+                           moment => eliminated(l, 1, s), moment_m => eliminated(l, 2, s), moment_w => eliminated(l, 3, s), &
+                           deflection => eliminated(l, 4, s), deflection_m => eliminated(l, 5, s), &
+                           deflection_w => eliminated(l, 6, s))
+                    include 'elimination/node_step.inc'
+                end associate
             end do
             do k = 1, 2
                 if (s /= start(k)) cycle
                 l = merge(1, half + 1, k == 1)
                 call begin_at_end(link(l, :, s), row(l, :, s), eliminated(l, :, s), phi(l), beta(l), delta(l), e(l), p(l))
             end do
-            if (s > kept) cycle
+            if (s > kept_columns) cycle
             if (again) then
                 differs(:) = abs(passed(:, 1, s) - phi) + abs(passed(:, 2, s) - beta) + abs(passed(:, 3, s) - delta) &
                     + abs(passed(:, 4, s) - e) + abs(passed(:, 5, s) - p)
@@ -137,21 +122,18 @@ contains
 
     end subroutine go_inward
 
-    !> The end of the beam, whatever has been passed on before (start_at_free_end of gapbeam_kernel)
+    !> The end of the beam, whatever has been passed on before
     pure subroutine begin_at_end(link, row, eliminated, phi, beta, delta, e, p)
         real(wp), intent(in) :: link(:), row(:)
         real(wp), intent(inout) :: eliminated(:)
         real(wp), intent(out) :: phi, beta, delta, e, p
-        real(wp) :: softness, deflection
+        real(wp) :: softness
 
-        softness = row(2)/row(1)
-        deflection = row(4)/row(1)
-        eliminated(:) = [0.0_wp, 0.0_wp, 0.0_wp, deflection, link(1)*softness, 0.0_wp]
-        phi = link(3) + link(1)**2*softness
-        beta = link(1)
-        delta = 0.0_wp
-        e = link(1)*deflection
-        p = 0.0_wp
+        associate (h => link(1), far => link(3), stiff => row(1), free => row(2), load => row(4), moment => eliminated(1), &
+                   moment_m => eliminated(2), moment_w => eliminated(3), deflection => eliminated(4), &
+                   deflection_m => eliminated(5), deflection_w => eliminated(6))
+            include 'elimination/node_start.inc'
+        end associate
     end subroutine begin_at_end
 
     !> The node in the middle
@@ -159,17 +141,16 @@ contains
         real(wp), intent(in) :: row(4), left(:), right(:)
         !> Moment and deflection
         real(wp), intent(out) :: solution(2)
-        real(wp) :: a, b, c, r, v, reciprocal
+        real(wp) :: phi, beta, delta, e, p, a, b, c, b_free, reciprocal, turn_here, load_here
 
-        associate (free => row(2))
-            a = left(1) + right(1)
-            b = left(2) + right(2)
-            c = free*(left(3) + right(3)) + row(1)
-            reciprocal = 1/(a*c + free*b**2)
-            r = row(3) + (left(4) + right(4))
-            v = row(4) + free*(left(5) + right(5))
-            solution(1) = (b*v - c*r)*reciprocal
-            solution(2) = (free*b*r + a*v)*reciprocal
+        phi = left(1) + right(1)
+        beta = left(2) + right(2)
+        delta = left(3) + right(3)
+        e = left(4) + right(4)
+        p = left(5) + right(5)
+        associate (stiff => row(1), free => row(2), turn => row(3), load => row(4), moment => solution(1), &
+                   deflection => solution(2))
+            include 'elimination/node_meeting.inc'
         end associate
     end subroutine meet
 

@@ -4,15 +4,14 @@
 !> farthest from the middle. Segments have as many columns each, so those at the ends may begin with some that are no nodes.
 module gapbeam_segment_types
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: kept_columns
     use gapbeam_lane_types, only: lanes
     implicit none
     private
-    public :: segment_beam_type, segment_room_type, new_segments, node_of, half, kept
+    public :: segment_beam_type, segment_room_type, new_segments, node_of, half
 
     !> Segments on either side of the middle
     integer, parameter :: half = lanes/2
-    !> Columns from which on what was passed on into a segment is hardly felt; not longer than is cheap to keep
-    integer, parameter :: kept = 48
 
     !> The beam: links, shape (n), and nodes, shape (0:n)
     type :: segment_beam_type
@@ -51,7 +50,7 @@ module gapbeam_segment_types
         integer, allocatable :: changed(:)
         !> What is passed on (sweep_type) by the first columns of a segment, shape (lanes, 5, kept), and what comes in from outside;
         !> moment and deflection at the next node inward
-        real(wp) :: passed(lanes, 5, kept) = 0.0_wp, entry(lanes, 5) = 0.0_wp, next(lanes, 2) = 0.0_wp
+        real(wp) :: passed(lanes, 5, kept_columns) = 0.0_wp, entry(lanes, 5) = 0.0_wp, next(lanes, 2) = 0.0_wp
         !> The same of the node in the middle
         real(wp) :: middle_support(6) = 0.0_wp, middle_row(4) = 0.0_wp, middle(2) = 0.0_wp
     end type segment_room_type

@@ -7,7 +7,8 @@
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_contact_state
     use gapbeam_kinds, only: wp, dp
-    use gapbeam_tolerances, only: sign_width, proximal_ratio
+    use gapbeam_limits, only: most_moves
+    use gapbeam_tolerances, only: sign_width, proximal_ratio, least_spring_force, at_rest_share, no_speed
     use gapbeam_require, only: checked, require
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_converged
@@ -17,7 +18,7 @@ module gapbeam_contact_state
     use gapbeam_law_adapters, only: limit_stiffness
     use gapbeam_model, only: beam_type, softest
     use gapbeam_kinematics, only: free_motions, motion_type
-    use gapbeam_unbounded_motions, only: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode, no_speed
+    use gapbeam_unbounded_motions, only: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_reactions, only: by_stretches
     use gapbeam_system, only: solve_and_refine, refine_scheme, complete_scheme, is_finite
@@ -26,11 +27,6 @@ module gapbeam_contact_state
     implicit none
     private
     public :: find_contact_state, outcome_type
-
-    !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone
-    real(wp), parameter :: least_force = 8*real(epsilon(1.0_dp), wp)
-    !> Moves of the reference position before giving up
-    integer, parameter :: most_moves = 200
 
     !> How the search ended, apart from errors
     type :: outcome_type
@@ -201,9 +197,9 @@ contains
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest, but for
                 ! what loads that balance each other have left to rounding
                 moved = maxval(abs(displaced - work%reference))
-                at_rest = moved <= max(4096*epsilon(1.0_wp)*maxval(abs(displaced)), &
+                at_rest = moved <= max(at_rest_share*maxval(abs(displaced)), &
                                        epsilon(1.0_wp)*maxval(work%shear_size)/proximal_weight) &
-                    .or. (moved <= least_force*maxval(work%load_size)/proximal_weight .and. moved > moved_before/2)
+                    .or. (moved <= least_spring_force*maxval(work%load_size)/proximal_weight .and. moved > moved_before/2)
                 moved_before = moved
                 if (at_rest) then
                     outcome%indifferent = .true.

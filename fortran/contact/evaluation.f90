@@ -4,6 +4,7 @@
 !> solution is refined; on a long beam that is not solved from both ends it is kept up to date from then on.
 module gapbeam_evaluation
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: few_wrong_supports, long_beam_links
     use gapbeam_tolerances, only: sign_width
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: band_ok, band_stopped
@@ -17,12 +18,7 @@ module gapbeam_evaluation
     use gapbeam_contact_boundary, only: base_type
     implicit none
     private
-    public :: search_type, evaluate_active_set, few
-
-    !> So few wrong supports are looked at more closely
-    integer, parameter :: few = 8
-    !> Links from which on a changed support does not change everything
-    integer, parameter :: long_beam = 300
+    public :: search_type, evaluate_active_set
 
     !> A search on its way
     type :: search_type
@@ -84,7 +80,7 @@ contains
         if (.not. (reactions .or. allocated(beam%ground))) then
             if (.not. allocated(search%signs%w)) call prepare_signs(beam, work, search%signs)
             call find_clearly_wrong(beam, search%signs, closed, work, search%wrong, search%wrong_now, doubtful)
-            if (.not. doubtful .and. (search%wrong_now > few .or. (work%from_both_ends .or. search%in_subdomain) &
+            if (.not. doubtful .and. (search%wrong_now > few_wrong_supports .or. (work%from_both_ends .or. search%in_subdomain) &
                                      .and. .not. search%carefully)) then
                 settled = search%wrong_now == 0
                 return
@@ -93,13 +89,13 @@ contains
         call complete_scheme(beam, closed, work)
         call find_wrong(beam, closed, search%width, work, search%wrong)
         search%wrong_now = count(search%wrong)
-        if (search%wrong_now <= few .and. (search%wrong_now > 0 .or. (search%carefully .and. by_stretches))) then
+        if (search%wrong_now <= few_wrong_supports .and. (search%wrong_now > 0 .or. (search%carefully .and. by_stretches))) then
             ! Near the end signs depend on the last digits
             call refine_scheme(beam, closed, work)
             call find_wrong(beam, closed, search%width, work, search%wrong)
             search%wrong_now = count(search%wrong)
-            if (size(beam%links) >= long_beam .and. .not. (allocated(beam%ground) .or. work%from_both_ends) &
-                .and. search%wrong_now > 0 .and. search%wrong_now <= few) then
+            if (size(beam%links) >= long_beam_links .and. .not. (allocated(beam%ground) .or. work%from_both_ends) &
+                .and. search%wrong_now > 0 .and. search%wrong_now <= few_wrong_supports) then
                 ! And little changes any more
                 call keep_factor(beam, work, follows)
                 if (follows) then
@@ -117,7 +113,7 @@ contains
         logical, intent(in) :: closed(:)
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
-        integer :: changed(few), groups(2, few), number, parts, k, j, window(2), state
+        integer :: changed(few_wrong_supports), groups(2, few_wrong_supports), number, parts, k, j, window(2), state
 
         if (is_stopped(beam%watch)) then
             search%state = band_stopped
@@ -126,7 +122,7 @@ contains
         number = 0
         do k = 1, size(closed)
             if (closed(k) .eqv. search%kept(k)) cycle
-            if (number == few) then
+            if (number == few_wrong_supports) then
                 deallocate (search%kept)
                 return
             end if

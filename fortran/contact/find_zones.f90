@@ -2,6 +2,7 @@
 !> All crossings inside every stretch are isolated with certainty, and what acts between them is judged anew.
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: one_crossing, one_place_on_curves, touching_width
     use gapbeam_watch, only: is_stopped
     use gapbeam_foundation, only: stretch_load_type
     use gapbeam_foundation_fields, only: fields_at
@@ -18,14 +19,8 @@ module gapbeam_find_zones
     private
     public :: find_zones
 
-    !> Places nearer to each other than so many roundings of the length of their piece are one
-    real(wp), parameter :: one_place = 16*epsilon(1.0_wp)
-    !> The same share where laws are curves: in a shorter zone the fields at its ends are known too badly to go on from
-    real(wp), parameter :: one_place_on_curves = epsilon(1.0_wp)**0.75_wp
     !> Shares of a stretch without crossings at which it is looked on which side it is, the next one where a place only touches
     real(wp), parameter :: looks(2) = [0.5_wp, 0.375_wp]
-    !> Distance from a line, beside deflection and line, below which crossings may have been taken for rounding
-    real(wp), parameter :: touching_width = 2**12*epsilon(1.0_wp)
 
 contains
 
@@ -140,7 +135,7 @@ contains
             integer :: i, k, law, crossings
 
             length = ground%pieces(piece)%length
-            near = merge(one_place_on_curves, one_place, curves)*length
+            near = merge(one_place_on_curves, one_crossing, curves)*length
             if (allocated(cuts)) deallocate (cuts)
             associate (other => next%steps(piece) /= zones%steps(piece), old => last - first + 1)
                 allocate (cuts(old + merge(next%steps(piece), 0, other)))

@@ -9,7 +9,8 @@
 module gapbeam_ground_energy
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: proximal_ratio
+    use gapbeam_limits, only: most_mesh_rounds, most_node_rounds, most_line_steps, most_nodes_asked
+    use gapbeam_tolerances, only: proximal_ratio, balanced, flat_energy, first_way, last_way, mesh_rounding
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
         gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: both
@@ -25,18 +26,6 @@ module gapbeam_ground_energy
     implicit none
     private
     public :: find_least_energy
-
-    !> Rounds at most, and one more for every node up to so many, since on stiff ground zones may shrink by a node at each end in
-    !> two rounds; steps of a line search
-    integer, parameter :: most_rounds = 200, most_for_nodes = 512, most_steps = 60
-    !> Forces and slopes of nodes that are asked for at most: where stiffnesses lie hundreds of powers of ten apart no mesh settles
-    integer(int64), parameter :: most_asked = 2_int64**23
-    !> Share of all forces that may be out of balance in the end
-    real(wp), parameter :: balanced = 1e-9_wp
-    !> A slope of the energy that has fallen to this share of what it was is enough
-    real(wp), parameter :: flat = 0.1_wp
-    !> A motion goes so many times the length of the beam at first, and at last
-    real(wp), parameter :: first_way = 1e-6_wp, last_way = 1e14_wp
 
     !> Where a slope that never falls goes through zero: places, the slopes there, and which end was replaced last
     type :: bracket_type
@@ -91,8 +80,8 @@ contains
         call press(ground, points, w, push, slope, pressed, full=.not. mesh%solved)
         begun = .false.
         asked_for = 0
-        do round = 1, most_rounds + min(n, most_for_nodes)
-            exhausted = asked_for > most_asked
+        do round = 1, most_mesh_rounds + min(n, most_node_rounds)
+            exhausted = asked_for > most_nodes_asked
             if (exhausted) exit
             call solve_model()
             if (allocated(error)) then
@@ -123,7 +112,7 @@ contains
             call press(ground, points, w, push, slope, pressed)
             force = sum(abs(push)) + sum(work%load_size)
             ! A rounding of deflections is a force on stiff ground
-            force = balanced*force + 8*epsilon(force)*sum(slope)*maxval(abs(w))
+            force = balanced*force + mesh_rounding*sum(slope)*maxval(abs(w))
             if (.not. (force <= huge(force) .and. maxval(abs(w)) <= huge(force))) then
                 call out_of_range(error)
                 return
@@ -208,12 +197,12 @@ contains
             at = energy_slope(t)
             if (at <= 0.0_wp .or. .not. first < 0.0_wp) return
             bracket = bracket_type(0.0_wp, t, first, at)
-            do number = 1, most_steps
-                if (at <= flat*abs(first) .and. at >= -flat*abs(first)) then
+            do number = 1, most_line_steps
+                if (at <= flat_energy*abs(first) .and. at >= -flat_energy*abs(first)) then
                     if (at <= 0.0_wp) exit
                     ! The slope never falls, so the energy falls by no less than this
                     half = energy_slope(t/2)
-                    if (half + at <= -flat*abs(first)) exit
+                    if (half + at <= -flat_energy*abs(first)) exit
                 end if
                 t = place_inside(bracket)
                 at = energy_slope(t)
@@ -262,8 +251,8 @@ contains
                 call move_alloc(motion, outcome%motion)
                 return
             end if
-            do number = 1, most_steps
-                if (bracket%at_low >= -flat*gain) exit
+            do number = 1, most_line_steps
+                if (bracket%at_low >= -flat_energy*gain) exit
                 t = place_inside(bracket)
                 call narrow(bracket, t, energy_slope(t) - gain)
             end do

@@ -2,6 +2,8 @@
 !> The beam is cut into parts, at whose ends the ground acts, finer and finer where zones end.
 module gapbeam_ground_mesh
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: least_mesh_parts, most_first_parts, most_mesh_parts, mesh_cuts
+    use gapbeam_tolerances, only: parts_of_decay, straight_force
     use gapbeam_foundation, only: stretch_type, decay_lengths
     use gapbeam_layers, only: has_curves
     use gapbeam_ground_laws, only: between, piece_of_deflection, push_of_layer, slope_at
@@ -9,15 +11,6 @@ module gapbeam_ground_mesh
     implicit none
     private
     public :: mesh_type, begin_mesh, refine_mesh, acts_at
-
-    !> Parts of a decay length, of the whole beam at least and at most, and of all. On ground without curves zones that turn out to
-    !> be short are cut again: from full contact on a fine mesh of stiff ground they would shrink by a few parts a round
-    real(wp), parameter :: parts_of_decay = 4.0_wp
-    integer, parameter :: least_parts = 64, most_first = 2**8, most_parts = 2**15
-    !> Into so many parts those are cut in which zones end, or the force of a curve bends
-    integer, parameter :: finer = 8
-    !> Share of a force that is beside the straight line between those at the ends of a part, where more nodes are needed
-    real(wp), parameter :: straight = 0.02_wp
 
     !> Parts of a beam, and its deflections
     type :: mesh_type
@@ -41,13 +34,13 @@ contains
         integer :: parts(size(ground%pieces)), i, j
         real(wp) :: shortest
 
-        shortest = sum(ground%pieces%length)/merge(most_parts, most_first, any(has_curves(ground%layers)))
+        shortest = sum(ground%pieces%length)/merge(most_mesh_parts, most_first_parts, any(has_curves(ground%layers)))
         do j = 1, size(parts)
             parts(j) = 1
             if (ground%first(j + 1) == ground%first(j)) cycle
             associate (p => ground%pieces(j))
                 parts(j) = max(2, ceiling(min(max(parts_of_decay*decays(ground, j, p%length, first_stiffness(j)), &
-                                                  least_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
+                                                  least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
             end associate
         end do
         allocate (mesh%piece(sum(parts)), mesh%from(sum(parts)), mesh%to(sum(parts)), mesh%node(0:size(parts)))
@@ -115,14 +108,14 @@ contains
             changes(i) = zone_ends(i)
         end do
         do i = 1, m
-            into(i) = max(1, min(finer, ceiling(parts_of_decay/2*decays(ground, mesh%piece(i), mesh%to(i) - mesh%from(i), &
+            into(i) = max(1, min(mesh_cuts, ceiling(parts_of_decay/2*decays(ground, mesh%piece(i), mesh%to(i) - mesh%from(i), &
                                                                        stiffness_in(i)))))
-            if ((any(changes(i - 1:i + 1)) .or. bends(i)) .and. .not. only_stiffer) into(i) = finer
+            if ((any(changes(i - 1:i + 1)) .or. bends(i)) .and. .not. only_stiffer) into(i) = mesh_cuts
             ! Where nothing is known, everywhere
-            if (.not. mesh%solved) into(i) = finer
+            if (.not. mesh%solved) into(i) = mesh_cuts
             if (ground%first(mesh%piece(i) + 1) == ground%first(mesh%piece(i))) into(i) = 1
         end do
-        refined = any(into > 1) .and. sum(into) <= most_parts*2
+        refined = any(into > 1) .and. sum(into) <= most_mesh_parts*2
         if (refined) call split(into, mesh)
 
     contains
@@ -158,7 +151,7 @@ contains
                             force(t) = push_of_layer(ground%layers(k), ground%laws, acts, place, ground%pieces(j)%length, w)
                         end associate
                     end do
-                    bends = bends .or. abs(force(1) - (force(0) + force(2))/2) > straight*maxval(abs(force))
+                    bends = bends .or. abs(force(1) - (force(0) + force(2))/2) > straight_force*maxval(abs(force))
                 end do
             end associate
         end function bends

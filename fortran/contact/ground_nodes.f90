@@ -3,6 +3,7 @@
 !> The ground acts at a node on half of the parts of the mesh beside it, by the laws of its layers there.
 module gapbeam_ground_nodes
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: no_node_slope
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_band, only: plain
     use gapbeam_model, only: beam_type, node_support_type, order_supports
@@ -12,9 +13,6 @@ module gapbeam_ground_nodes
     implicit none
     private
     public :: point_type, press, list_points, make_beam
-
-    !> Slopes of the law of a node beside the steepest that are none
-    real(wp), parameter :: no_slope = 2.0_wp**(-40)
 
     !> Where the ground acts: at a node, on a length of a piece of the beam
     type :: point_type
@@ -72,7 +70,7 @@ contains
             end associate
             if (presses) pressed = pressed + 1
         end do
-        where (slope <= no_slope*maxval(steepest)) slope = 0.0_wp
+        where (slope <= no_node_slope*maxval(steepest)) slope = 0.0_wp
     end subroutine press
 
     !> Where the ground acts

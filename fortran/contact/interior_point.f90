@@ -8,6 +8,7 @@
 !> indicators of El-Bakry, Tapia and Zhang 1994); the scheme so guessed is then settled by pivoting.
 module gapbeam_interior_point
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: boundary_share, first_spring, first_reaction_share
     use gapbeam_band, only: band_ok
     use gapbeam_law_adapters, only: find_pairs
     use gapbeam_model, only: beam_type, softest
@@ -16,11 +17,6 @@ module gapbeam_interior_point
     implicit none
     private
     public :: interior_type, start_interior, step_interior, product_of
-
-    !> Fraction of the way to the boundary that a step goes
-    real(wp), parameter :: boundary_share = 0.995_wp
-    !> First springs relative to the stiffness of the whole beam; share of the largest reaction added to all at first
-    real(wp), parameter :: first_spring = 100.0_wp, first_share = 0.1_wp
 
     !> The iterate; components only of one-sided supports with a stiffness
     type :: interior_type
@@ -61,9 +57,9 @@ contains
             allocate (iterate%reaction(size(i)), iterate%opening(size(i)))
             iterate%reaction(:) = side*stiffness*(iterate%deflection - contact)
             largest = max(maxval(abs(iterate%reaction)), tiny(largest))
-            iterate%reaction(:) = max(iterate%reaction, 0.0_wp) + first_share*largest
+            iterate%reaction(:) = max(iterate%reaction, 0.0_wp) + first_reaction_share*largest
             iterate%opening(:) = max(side*(contact - iterate%deflection) + iterate%reaction*iterate%compliance, 0.0_wp) &
-                + first_share*largest/stiffness
+                + first_reaction_share*largest/stiffness
         end associate
     end subroutine start_interior
 

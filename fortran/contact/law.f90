@@ -22,16 +22,13 @@ module gapbeam_law
         jump_to_plateau
     implicit none
     private
-    public :: node_support_type, below, above, both, nodes_at_a_time
+    public :: node_support_type, below, above, both
     public :: is_support, is_rigid, always_closed, separate_rigid_pairs
     public :: add_supports, share_forces, force_by_spring, is_plainly_right
     public :: has_laws, open_from, advance_one_segment, jump_to_plateau
 
     !> Sides of a support: pushes up only, pushes down only, both
     integer, parameter :: below = 1, above = -1, both = 0
-
-    !> For so many nodes supports are best asked at a time, while what they need is in the cache
-    integer, parameter :: nodes_at_a_time = 128
 
 contains
 

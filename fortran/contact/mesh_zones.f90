@@ -1,6 +1,7 @@
 !> Zones of contact, and of the pieces of laws, on a solved mesh: a start for gapbeam_zones.
 module gapbeam_mesh_zones
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: one_place_on_curves, lone_node_zone
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: pieces_of_law
     use gapbeam_ground_laws, only: between, distance_to_breakpoint, parameters_at, slope_at
@@ -9,11 +10,6 @@ module gapbeam_mesh_zones
     implicit none
     private
     public :: zones_of_mesh
-
-    !> In how many parts beside it a zone reaches at least that shows at one node only
-    real(wp), parameter :: alone = 0.5_wp
-    !> Places nearer to each other than this share of their piece are one
-    real(wp), parameter :: one_place = epsilon(1.0_wp)**0.75_wp
 
 contains
 
@@ -101,10 +97,10 @@ contains
                 ! A node that alone is pressed stands for a zone that is shorter than its parts
                 if (past(1) > 0.0_wp) then
                     beyond = parts(1)
-                    if (beyond == i .or. .not. past_breakpoint(beyond, 1, k, law) > 0.0_wp) share = max(share, alone)
+                    if (beyond == i .or. .not. past_breakpoint(beyond, 1, k, law) > 0.0_wp) share = max(share, lone_node_zone)
                 else
                     beyond = parts(3)
-                    if (beyond == i .or. .not. past_breakpoint(beyond, 2, k, law) > 0.0_wp) share = min(share, 1 - alone)
+                    if (beyond == i .or. .not. past_breakpoint(beyond, 2, k, law) > 0.0_wp) share = min(share, 1 - lone_node_zone)
                 end if
             end if
             call add(mesh%from(i) + share*(mesh%to(i) - mesh%from(i)), k - ground%first(mesh%piece(i)) + 1, &
@@ -164,13 +160,13 @@ contains
             do
                 ! What changes here or next to it
                 do while (c <= number)
-                    if (cuts(c) > from + one_place*length) exit
+                    if (cuts(c) > from + one_place_on_curves*length) exit
                     acts(layer(c)) = to(c)
                     c = c + 1
                 end do
                 next = between(0.0_wp, length, step, steps(piece))
                 if (c <= number) next = min(next, cuts(c))
-                if (next >= between(0.0_wp, length, step, steps(piece)) - one_place*length) then
+                if (next >= between(0.0_wp, length, step, steps(piece)) - one_place_on_curves*length) then
                     next = between(0.0_wp, length, step, steps(piece))
                     step = step + 1
                 end if

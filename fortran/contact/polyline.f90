@@ -18,6 +18,7 @@ module gapbeam_polyline
     public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
     public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
+    public :: break_law, rewrite_law, find_unit
 
     !> A support at a node, or a breakpoint of its law
     type :: node_support_type
@@ -295,6 +296,73 @@ contains
             end associate
         end do
     end subroutine join_pieces
+
+    !> A law that is broken up to a breakpoint: one line, on both sides of it and of those before
+    pure subroutine break_law(supports, k)
+        type(node_support_type), intent(inout) :: supports(:)
+        !> At the end of a drop of the force
+        integer, intent(in) :: k
+        integer :: first
+
+        first = k - supports(k)%breakpoint + 1
+        supports(first:k)%contact = supports(k)%contact
+        supports(first:k)%force = supports(k)%force
+        supports(first:k)%before = supports(k)%stiffness
+        supports(first:k)%stiffness = supports(k)%stiffness
+        supports(first:k)%passed = .true.
+    end subroutine break_law
+
+    !> Write a law that unloads parallel to its first piece anew, from where it is: its breakpoints up to there become one
+    pure subroutine rewrite_law(supports, closed, k, top, first_slope, deflection, reaction)
+        type(node_support_type), intent(inout) :: supports(:)
+        logical, intent(in) :: closed(:)
+        !> First breakpoint of the law, and the last one that is closed, a later one
+        integer, intent(in) :: k, top
+        !> Slope along which it unloads
+        real(wp), intent(in) :: first_slope
+        !> Of the node beside the support's own movement; reaction, used where the piece is vertical
+        real(wp), intent(in) :: deflection, reaction
+        real(wp) :: at, force, slope
+        logical :: acts
+
+        call piece_that_acts(supports, closed, top, acts, slope)
+        associate (s => supports)
+            at = deflection
+            if (abs(slope) > huge(slope)) then
+                at = s(top)%contact
+                force = s(k)%side*reaction
+            else
+                force = s(top)%force + slope*s(top)%side*(at - s(top)%contact)
+            end if
+            s(k)%contact = at
+            if (abs(first_slope) <= huge(slope)) s(k)%contact = at - s(k)%side*force/first_slope
+            s(k + 1:top)%contact = at
+            s(k + 1:top)%force = force
+            s(k + 1:top)%stiffness = s(top)%stiffness
+            s(k + 2:top)%before = s(top)%stiffness
+            s(k + 2:top)%passed = .true.
+            s(k + 1)%before = first_slope
+        end associate
+    end subroutine rewrite_law
+
+    !> Breakpoints that are passed together with one: first and last
+    pure subroutine find_unit(supports, closed, k, first, last)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        integer, intent(out) :: first, last
+
+        first = k
+        do while (supports(first)%breakpoint > 1)
+            if (.not. coincide(supports, first - 1) .or. (closed(first - 1) .neqv. closed(first))) exit
+            first = first - 1
+        end do
+        last = k
+        do while (coincide(supports, last))
+            if (closed(last) .neqv. closed(last + 1)) exit
+            last = last + 1
+        end do
+    end subroutine find_unit
 
     !> Are a breakpoint and the next one of its law the same point, so that they are passed together
     pure function coincide(supports, k) result(same)

@@ -1,8 +1,9 @@
 !> Shears and reactions from a solution, with the reach of their rounding errors.
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: support_block
     use gapbeam_band, only: restrained
-    use gapbeam_law, only: share_forces, nodes_at_a_time
+    use gapbeam_law, only: share_forces
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, interval_type
     implicit none
@@ -219,11 +220,11 @@ contains
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        real(wp) :: force(nodes_at_a_time), error(nodes_at_a_time)
+        real(wp) :: force(support_block), error(support_block)
         integer :: i, j, from, to
 
-        do from = range(1), range(2), nodes_at_a_time
-            to = min(from + nodes_at_a_time - 1, range(2))
+        do from = range(1), range(2), support_block
+            to = min(from + support_block - 1, range(2))
             do i = from, to
                 j = i - from + 1
                 call force_at_node(work, i, size(beam%links), force(j), error(j))

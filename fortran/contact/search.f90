@@ -17,6 +17,10 @@
 !> least-index rule gives up after so many solves as take some seconds (most_solves).
 module gapbeam_search
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, &
+        last_non_monotone_solves, law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, &
+        few_guess_changes, steps_between_guesses, subdomain_rounds, few_wrong_supports
+    use gapbeam_tolerances, only: last_width, rounding_product, most_in_subdomains
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
@@ -24,7 +28,7 @@ module gapbeam_search
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: complete_scheme
-    use gapbeam_evaluation, only: search_type, evaluate_active_set, few
+    use gapbeam_evaluation, only: search_type, evaluate_active_set
     use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, cycled
     use gapbeam_reactions, only: find_shears
     use gapbeam_contact_boundary, only: find_base, move_boundaries
@@ -36,26 +40,6 @@ module gapbeam_search
 
     !> The two rules, and the last phase of block alone
     integer, parameter :: rule_block = 0, rule_single = 1, rule_least_index = 2
-    !> Solves that need not make the number of wrong supports fall: directly from all supports closed, directly from another
-    !> scheme, after a guess, between least-index phases
-    integer, parameter :: non_monotone_steps = 4, warm_non_monotone_steps = 12, polish_non_monotone_steps = 3, &
-        last_non_monotone_steps = 2
-    !> The same with laws, which go on by one piece at a time then
-    integer, parameter :: law_non_monotone_steps = 40
-    !> Such solves after the last guess. When reactions times openings have fallen by this much, so many changes of a
-    !> guess in a step show that rounding has taken over
-    integer, parameter :: final_non_monotone_steps = 16, rounding_changes = 40
-    real(wp), parameter :: rounding_product = sqrt(epsilon(1.0_wp))
-    !> Steps of the interior-point method at most; changes of its guess in a step at which the guess is tried; steps
-    !> between two trials
-    integer, parameter :: most_steps = 60, few_changes = 4, steps_between = 4
-    !> Rounds in which subdomains are settled by themselves: a few in the whole beam, half as many within a subdomain, and so on
-    integer, parameter :: subdomain_rounds = 8
-    !> Largest share of the beam that the subdomains of a round may have
-    real(wp), parameter :: largest_share = 0.7_wp
-    !> Signs are decided beyond first_width rounding errors; widened where they still flicker, up to a limit
-    real(wp), parameter :: last_width = 1e7_wp
-
 
 contains
 
@@ -100,7 +84,7 @@ contains
         if (rule == rule_least_index) then
             search%rounds = 0
         else if (.not. settled .and. search%state == band_ok) then
-            call change_all(beam, merge(non_monotone_steps, warm_non_monotone_steps, all(closed)), closed, work, search, settled)
+            call change_all(beam, merge(non_monotone_solves, warm_non_monotone_solves, all(closed)), closed, work, search, settled)
         end if
         if (.not. (settled .or. search%state == band_mechanism .or. search%with_laws .or. rule == rule_least_index)) then
             call change_by_interior_point(beam, closed, work, search, settled)
@@ -190,10 +174,10 @@ contains
             else
                 idle = idle + 1
                 search%carefully = .true.
-                if (idle > merge(law_non_monotone_steps, idle_solves, search%with_laws)) return
+                if (idle > merge(law_non_monotone_solves, idle_solves, search%with_laws)) return
                 ! Over several pieces at once laws may go to and fro (Newton without line search)
                 search%by_pieces = search%with_laws
-                if (search%wrong_now <= few .and. .not. search%with_laws) then
+                if (search%wrong_now <= few_wrong_supports .and. .not. search%with_laws) then
                     if (.not. work%complete) call complete_scheme(beam, closed, work)
                     call keep_local_worst(beam, closed, work, search%wrong)
                 end if
@@ -228,7 +212,7 @@ contains
             if (from < 0) exit
             nodes = nodes + (to - from)
         end do
-        if (nodes > largest_share*size(beam%links)) return
+        if (nodes > most_in_subdomains*size(beam%links)) return
         allocate (before(size(closed)))
         before(:) = closed
         solves = 0.0_wp
@@ -271,7 +255,7 @@ contains
                 before = wrong
             end associate
         end do
-        everywhere = groups > few .and. 4*groups > search%wrong_now .and. search%wrong_now < 3*(search%fewest/4)
+        everywhere = groups > few_wrong_supports .and. 4*groups > search%wrong_now .and. search%wrong_now < 3*(search%fewest/4)
     end function scattered
 
     !> Guess the scheme by interior points, and settle the guess by pivoting as soon as it hardly changes any more
@@ -292,7 +276,7 @@ contains
         last_guess(:) = closed
         wait = 0
         first_product = product_of(iterate)
-        do step = 1, most_steps
+        do step = 1, most_guess_steps
             if (search%state /= band_ok) exit
             if (allocated(search%kept)) deallocate (search%kept)
             if (allocated(search%applied)) deallocate (search%applied)
@@ -302,14 +286,14 @@ contains
             if (.not. product_of(iterate) < first_product/rounding_product) exit  ! it runs away: no equilibrium
             if (product_of(iterate) < rounding_product*first_product .and. changes > rounding_changes) exit
             wait = wait - 1
-            if (wait <= 0 .and. changes <= few_changes) then
+            if (wait <= 0 .and. changes <= few_guess_changes) then
                 closed(:) = guess
                 call separate_rigid_pairs(beam%supports, size(beam%links), closed)
                 search%fewest = huge(0)
-                call change_all(beam, polish_non_monotone_steps, closed, work, search, settled)
+                call change_all(beam, polish_non_monotone_solves, closed, work, search, settled)
                 if (settled) exit
                 search%state = band_ok
-                wait = steps_between
+                wait = steps_between_guesses
             end if
             last_guess(:) = guess
         end do
@@ -317,7 +301,7 @@ contains
             closed(:) = last_guess
             call separate_rigid_pairs(beam%supports, size(beam%links), closed)
             search%fewest = huge(0)
-            call change_all(beam, final_non_monotone_steps, closed, work, search, settled)
+            call change_all(beam, final_non_monotone_solves, closed, work, search, settled)
         end if
         deallocate (work%spring, work%spring_contact)
     end subroutine change_by_interior_point
@@ -333,7 +317,7 @@ contains
         type(mark_type) :: mark
 
         do
-            call change_all(beam, last_non_monotone_steps, closed, work, search, settled)
+            call change_all(beam, last_non_monotone_solves, closed, work, search, settled)
             if (settled .or. search%state /= band_ok) return
             ! Where all were changed at once last, many more may be wrong, from which this rule takes very long to come back
             closed(:) = search%best

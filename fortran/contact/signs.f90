@@ -4,6 +4,7 @@
 !> errors reach. What is near zero is left to gapbeam_law, with all that.
 module gapbeam_signs
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: near_zero
     use gapbeam_require, only: checked, require
     use gapbeam_law, only: has_laws, is_rigid
     use gapbeam_law_margins, only: may_change
@@ -12,9 +13,6 @@ module gapbeam_signs
     implicit none
     private
     public :: sign_type, prepare_signs, find_clearly_wrong
-
-    !> Far above all rounding errors
-    real(wp), parameter :: near_zero = 2.0_wp**19*epsilon(1.0_wp)
 
     !> Supports from left to right
     type :: group_type

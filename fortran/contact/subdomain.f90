@@ -1,6 +1,8 @@
 !> A stretch of the beam cut out as a beam of its own (Schwarz).
 module gapbeam_subdomain
     use gapbeam_kinds, only: wp, dp
+    use gapbeam_limits, only: least_margin_nodes
+    use gapbeam_tolerances, only: subdomain_lengths
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: plain
     use gapbeam_law, only: node_support_type
@@ -10,12 +12,6 @@ module gapbeam_subdomain
     implicit none
     private
     public :: next_stretch, extract_subdomain, least_margin
-
-    !> Nodes to be taken along on both sides of wrong supports: at least these, at least the root of all, for stretches in
-    !> which the beam hardly lifts are about that long
-    integer, parameter :: few = 20
-    !> How often the length over which a boundary is felt has to go into this margin
-    real(wp), parameter :: lengths = 3.0_wp
 
 contains
 
@@ -43,8 +39,8 @@ contains
                 felt = felt + min(real(size(beam%links), dp), sqrt(sqrt(real(min(4/(bending*stiffness(k)), largest), dp))))
             end associate
         end do
-        margin = max(few, int(sqrt(real(size(beam%links), dp))))
-        if (lengths*felt > margin*count) margin = 0
+        margin = max(least_margin_nodes, int(sqrt(real(size(beam%links), dp))))
+        if (subdomain_lengths*felt > margin*count) margin = 0
     end function least_margin
 
     !> The next stretch around supports, from left to right

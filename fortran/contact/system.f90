@@ -1,6 +1,8 @@
 !> Solution of one contact state: its system chosen, assembled, solved and refined.
 module gapbeam_system
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_refinements
+    use gapbeam_tolerances, only: short_zone
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: node_type, rhs_type, factor_chain, band_ok, band_mechanism, band_needs_pivoting, band_stopped
     use gapbeam_band_substitution, only: solve_chain
@@ -17,11 +19,6 @@ module gapbeam_system
     implicit none
     private
     public :: solve_scheme, solve_and_refine, solve_deflections, complete_scheme, refine_scheme, is_finite
-
-    !> Zones of a smaller share of the beam, or of what the ground holds elsewhere, lose digits that are wanted back, in so many
-    !> steps at most
-    real(wp), parameter :: short = 2.0_wp**(-10)
-    integer, parameter :: most_steps = 4
 
 contains
 
@@ -237,7 +234,7 @@ contains
         if (.not. loses_digits(beam)) return
         allocate (residual(0:size(beam%links)))
         before = huge(before)
-        do step = 1, most_steps
+        do step = 1, most_refinements
             call residual_on_ground(work%nodes, beam%ground, work%rhs, work%answers, residual)
             call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%pivots, residual, work%eliminated, &
                                         work%correction)
@@ -272,7 +269,7 @@ contains
         logical :: loses
 
         associate (g => beam%ground%gaa)
-            loses = minval(beam%links%length) < short*sum(beam%links%length) .or. minval(g, g > 0.0_wp) < short*maxval(g)
+            loses = minval(beam%links%length) < short_zone*sum(beam%links%length) .or. minval(g, g > 0.0_wp) < short_zone*maxval(g)
         end associate
     end function loses_digits
 

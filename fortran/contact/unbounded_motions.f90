@@ -1,6 +1,7 @@
 !> Free motions of a beam along which the loads do work, unbounded if no support stops them.
 module gapbeam_unbounded_motions
     use gapbeam_kinds, only: wp, dp
+    use gapbeam_tolerances, only: no_work, clearly_more
     use gapbeam_band, only: hinge, restrained
     use gapbeam_law, only: below, above
     use gapbeam_law_kinematics, only: find_level_forces, outermost, is_blocked
@@ -8,14 +9,7 @@ module gapbeam_unbounded_motions
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     implicit none
     private
-    public :: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode, no_speed
-
-    !> Work and speed, relative to the sum of their parts and to the largest, that count as none
-    !> (places and loads are rounded to doubles, whatever the precision here)
-    real(wp), parameter :: no_work = max(4096*epsilon(1.0_wp), 8*real(epsilon(1.0_dp), wp)), &
-        no_speed = max(512*epsilon(1.0_wp), 4*real(epsilon(1.0_dp), wp))
-    !> So many times that much is clearly more
-    real(wp), parameter :: clearly_more = 1024.0_wp
+    public :: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode
 
     !> A part of the beam that the loads move while a scheme acts: first and last node that move
     type :: unbounded_motion_type

@@ -5,6 +5,8 @@
 !> Residuals in twice the working precision, formed from the solution itself, keep errors from adding up over many changes.
 module gapbeam_update
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: nodes_apart, most_corrections
+    use gapbeam_tolerances, only: last_correction, harmless_correction
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: answer_type, factor_chain, band_ok
     use gapbeam_band_substitution, only: correct_chain
@@ -16,13 +18,6 @@ module gapbeam_update
     implicit none
     private
     public :: start_updates, keep_factor, update_scheme, find_groups
-
-    !> Nodes between two changes that are made in one
-    integer, parameter :: apart = 16
-
-    !> A correction this small relative to the solution is the last one; one this small did not cost digits; how many there may be
-    real(wp), parameter :: last_correction = sqrt(epsilon(1.0_wp)), harmless_correction = 10.0_wp
-    integer, parameter :: most_corrections = 5
 
 contains
 
@@ -43,7 +38,13 @@ contains
         call solve_and_refine(beam, acting, work, state, place)
         solved = state == band_ok
         follows = .false.
-        if (solved) call keep_factor(beam, work, follows)
+        if (.not. solved) return
+        if (any(work%nodes%stiffness < 0.0_wp)) then
+            ! Where forces fall a full solve pivots, and corrections tell how far the factor without is right
+            call make_factor(beam, work, follows)
+        else
+            call keep_factor(beam, work, follows)
+        end if
     end subroutine start_updates
 
     !> Make the factor of the scheme solved last, if it was solved without
@@ -52,16 +53,26 @@ contains
         type(workspace_type), intent(inout) :: work
         !> Can update_scheme go on from the solution at hand: it took no pivoting
         logical, intent(out) :: follows
-        integer :: state, place
 
         follows = work%method /= method_pivoting
         if (.not. follows) return
         if (work%method == method_mixed .and. .not. work%from_both_ends) return
+        call make_factor(beam, work, follows)
+    end subroutine keep_factor
+
+    !> Make the factor of a scheme
+    pure subroutine make_factor(beam, work, follows)
+        type(beam_type), intent(in) :: beam
+        type(workspace_type), intent(inout) :: work
+        !> Are all its numbers in range
+        logical, intent(out) :: follows
+        integer :: state, place
+
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         follows = state == band_ok
         ! Numbers may leave the range on the way where they did not from both ends
         if (follows) follows = all(work%pivots%c <= huge(1.0_wp))
-    end subroutine keep_factor
+    end subroutine make_factor
 
     !> Supports that change together: first and last node of each group
     pure subroutine find_groups(beam, changed, groups, count)
@@ -80,7 +91,7 @@ contains
         count = 0
         do i = 1, size(nodes)
             if (count > 0) then
-                if (nodes(i) - groups(2, count) <= apart) then
+                if (nodes(i) - groups(2, count) <= nodes_apart) then
                     groups(2, count) = nodes(i)
                     cycle
                 end if
@@ -125,7 +136,7 @@ contains
         integer, intent(out) :: state
         real(wp) :: compatibility, equilibrium
         integer :: place, correction, touched(2), n
-        real(wp) :: relative
+        real(wp) :: relative, share, scale(2)
 
         n = size(beam%links)
         if (checked) call require(0 <= changed(1) .and. changed(1) <= changed(2) .and. changed(2) <= n, "update_scheme: changed")
@@ -135,13 +146,16 @@ contains
         call factor_chain(work%nodes, beam%links, work%pivots, state, place, changed)
         if (state /= band_ok) return
         window = changed
+        work%growth = 1.0_wp
+        scale = 0.0_wp
         do correction = 1, most_corrections
             call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
                                 compatibility, equilibrium, window)
             call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, &
                                work%correction, touched)
-            call add_correction(touched, work, relative)
+            call add_correction(touched, work, scale, relative, share)
             window = [max(0, min(window(1), touched(1) - 1)), min(n, max(window(2), touched(2) + 1))]
+            if (correction > 1) work%growth = max(work%growth, share/epsilon(share))
             if (relative <= last_correction .and. correction > 1) exit
             ! What was much larger before has left its rounding errors
             if (relative <= harmless_correction .and. .not. refined) exit
@@ -152,12 +166,14 @@ contains
     end subroutine update_scheme
 
     !> Add a correction to the solution
-    pure subroutine add_correction(range, work, relative)
+    pure subroutine add_correction(range, work, scale, relative, share)
         !> First and last node
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
-        !> How large it is, relative to the largest deflection and moment in the range
-        real(wp), intent(out) :: relative
+        !> Largest deflection and moment so far, those of corrections included
+        real(wp), intent(inout) :: scale(2)
+        !> How large it is, relative to the largest deflection and moment in the range, and to those so far
+        real(wp), intent(out) :: relative, share
         real(wp) :: deflection, moment, largest_deflection, largest_moment
         integer :: i
 
@@ -175,6 +191,8 @@ contains
             end associate
         end do
         relative = max(ratio(deflection, largest_deflection), ratio(moment, largest_moment))
+        scale = max(scale, [max(deflection, largest_deflection), max(moment, largest_moment)])
+        share = max(ratio(deflection, scale(1)), ratio(moment, scale(2)))
     end subroutine add_correction
 
     !> a/b, and 0/0 = 0

@@ -1,19 +1,17 @@
 !> Workspace of a solve: loads and contact state at the nodes, factor, solution.
 module gapbeam_workspace
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_nodes_solved, least_solves, support_block
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
-    use gapbeam_law, only: add_supports, has_laws, nodes_at_a_time
+    use gapbeam_law, only: add_supports, has_laws
     use gapbeam_model, only: beam_type
     implicit none
     private
     public :: workspace_type, interval_type, new_workspace, set_loads, apply_scheme
     public :: method_mixed, method_three_moment, method_pivoting
-
-    !> Nodes at which a search may solve, all its solves together, and solves it may take in any beam: some seconds
-    integer, parameter :: most_nodes = merge(2*10**7, 10**6, precision(1.0_wp) < 20), least_limit = 1000
 
     !> Which system was solved last
     integer, parameter :: method_mixed = 0, method_three_moment = 1, method_pivoting = 2
@@ -67,12 +65,14 @@ module gapbeam_workspace
         !> Linear solves so far, those of parts of the beam by their share of it, and the system solved last
         integer :: solves = 0
         !> Solves after which the least-index rule, which may take very many, gives up
-        integer :: most_solves = least_limit
+        integer :: most_solves = least_solves
         !> Did the paper's rule come back to a scheme that it had seen
         logical :: cycled = .false.
         integer :: method = method_mixed
         !> Relative residuals of the last solve
         real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
+        !> By how much elimination has let rounding errors grow, as the corrections of an update tell
+        real(wp) :: growth = 1.0_wp
     end type workspace_type
 
 contains
@@ -104,7 +104,7 @@ contains
         work%inverse = beam%links%inverse
         work%reach = max(beam%links%bending, beam%links%faa + beam%links%fbb)*beam%links%length
         work%may_soften = has_laws(beam%supports)
-        work%most_solves = max(least_limit, most_nodes/(n + 1))
+        work%most_solves = max(least_solves, most_nodes_solved/(n + 1))
         if (allocated(beam%ground)) then
             allocate (work%end_shear(2, n), work%end_shear_error(2, n))
         else if (is_plain(beam%links, beam%kind)) then
@@ -158,8 +158,8 @@ contains
             call require(size(acting) == size(beam%supports), "apply_scheme: acting")
             call require(ubound(work%nodes, 1) == size(beam%links), "apply_scheme: workspace of another beam")
         end if
-        do from = range(1), range(2), nodes_at_a_time
-            to = min(from + nodes_at_a_time - 1, range(2))
+        do from = range(1), range(2), support_block
+            to = min(from + support_block - 1, range(2))
             do i = from, to
                 associate (node => work%nodes(i), r => work%rhs(i))
                     node%kind = beam%kind(i)

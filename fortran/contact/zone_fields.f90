@@ -1,6 +1,7 @@
 !> Fields of a beam solved on its zones of contact, at the ends of stretches and inside those on curves.
 module gapbeam_zone_fields
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: straight_field
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: is_curve, has_curves
@@ -10,9 +11,6 @@ module gapbeam_zone_fields
     implicit none
     private
     public :: ends_of, fields_at_ends, take_curved, take_fields, way_of_fields
-
-    !> Fields near which curves are taken for straight need no more digits than these
-    real(wp), parameter :: near_enough = 2e-14_wp
 
 contains
 
@@ -127,7 +125,7 @@ contains
             if (most(k) > 0.0_wp) way = max(way, maxval(abs(found%start(k, :) - zones%start(k, :)))/most(k))
         end do
         ! What they move by now, the solution moves by the square of it in the next round
-        if (way <= near_enough) way = 0.0_wp
+        if (way <= straight_field) way = 0.0_wp
     end function way_of_fields
 
 end module gapbeam_zone_fields

@@ -6,6 +6,8 @@
 !> the zones are on either side.
 module gapbeam_zone_margin
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: parts_of_stretch, most_root_steps
+    use gapbeam_tolerances, only: stationary_place
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, curved_fields
@@ -17,12 +19,6 @@ module gapbeam_zone_margin
     implicit none
     private
     public :: change_type, find_margin
-
-    !> In each of so many parts of a stretch the slope of the way is taken to vanish once at most
-    integer, parameter :: parts = 6
-    !> Steps to where it vanishes at most, and the share of the stretch to which the place is found: the way there is stationary
-    integer, parameter :: most_steps = 60
-    real(wp), parameter :: near_enough = sqrt(epsilon(1.0_wp))/64
 
     !> A change that is looked for
     type :: change_type
@@ -115,8 +111,8 @@ contains
         if (change%by_slope) margin = merge(-before, before, first > 0.0_wp)
         if (.not. last > first) return
         at = first
-        do part = 1, parts
-            next = first + (last - first)*part/parts
+        do part = 1, parts_of_stretch
+            next = first + (last - first)*part/parts_of_stretch
             call evaluate_at(next, slope)
             if (merge(before > 0.0_wp .and. slope < 0.0_wp, before < 0.0_wp .and. slope > 0.0_wp, change%greatest)) then
                 call find_extreme_between(at, before, next, slope)
@@ -159,10 +155,10 @@ contains
             high = to
             f_low = at_from
             f_high = at_to
-            do step = 1, most_steps
+            do step = 1, most_root_steps
                 share = low + (high - low)*merge(0.5_wp, f_low/(f_low - f_high), mod(step, 3) == 0)
                 call evaluate_at(share, slope)
-                if (min(share - low, high - share) <= near_enough .or. .not. abs(slope) > 0.0_wp) return
+                if (min(share - low, high - share) <= stationary_place .or. .not. abs(slope) > 0.0_wp) return
                 if (slope > 0.0_wp .eqv. f_low > 0.0_wp) then
                     low = share
                     f_low = slope

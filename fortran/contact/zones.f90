@@ -3,10 +3,12 @@
 !> On given zones the beam is solved, with its one-sided supports by the search of gapbeam_contact_state; the places where its
 !> deflection crosses the contact lines are the ends of the next zones. An end that is off by e leaves an unbalanced load of the
 !> order e**2, so this is Newton's method for the whole problem, whose energy is convex: near the solution the ends converge
-!> quadratically without any equation of their own (docs/method.md, section 12). Zones appear, vanish, merge and split by
+!> quadratically without any equation of their own (docs/method.md 4). Zones appear, vanish, merge and split by
 !> themselves, since all crossings inside a stretch are isolated with certainty.
 module gapbeam_zones
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_zone_rounds, most_polishing
+    use gapbeam_tolerances, only: moving_noise, far_from_solution, largest_ratio, most_ahead, same_ends, unmoved_share
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -18,19 +20,6 @@ module gapbeam_zones
     implicit none
     private
     public :: settle_zones, polish_zones
-
-    !> Rounds at most, few in quadruple precision; where ends only touch they converge by halves
-    integer, parameter :: most_rounds = merge(200, 40, digits(1.0_wp) < 64), most_polishing = 12
-    !> Ends that are moved by rounding alone move by less than this share of the stretches beside them
-    real(wp), parameter :: noise = epsilon(1.0_wp)**0.375_wp
-    !> An end that moves by more is far from the solution. Then it goes farther, as if it had moved by this share of the move before
-    !> at most, and by this share of the stretch ahead at most
-    real(wp), parameter :: far = 0.01_wp, largest_ratio = 0.92_wp, largest_share = 0.4_wp
-    !> Ends that have come back differ by less than this share of the stretches beside them
-    real(wp), parameter :: same_ends = 1e-5_wp
-    !> What moves by less than this share of the beam does not move: so short zones have no force, and behind a part of the beam
-    !> that next to no ground holds no end is known better
-    real(wp), parameter :: below_rounding = sqrt(epsilon(1.0_wp))
 
 contains
 
@@ -66,7 +55,7 @@ contains
         hurries = .true.
         moved = huge(moved)
         solves = 0
-        do round = 1, most_rounds
+        do round = 1, most_zone_rounds
             call solve_on_zones(ground, factor, rule, zones, solves, closed, grounded, work, outcome, error)
             if (allocated(error)) return
             if (outcome%status /= gapbeam_solved) return
@@ -78,14 +67,14 @@ contains
             asked = found
             ! Zones that are parted again were joined by going too far
             if (round > 2) hurries = hurries .and. size(found%piece) <= size(zones%piece)
-            if (moved > far .and. round > 1 .and. hurries) call go_farther(last, last_asked, zones, found)
+            if (moved > far_from_solution .and. round > 1 .and. hurries) call go_farther(last, last_asked, zones, found)
             last = zones
             last_asked = asked
             zones = found
-            settled = moved <= tolerance .or. (moved <= noise .and. moved >= before/2)
+            settled = moved <= tolerance .or. (moved <= moving_noise .and. moved >= before/2)
             if (settled) return
             ! Zones that come back do so again and again. Compared with those of the last round that is a power of two (Brent 1980)
-            if (round > 2 .and. moved > far) then
+            if (round > 2 .and. moved > far_from_solution) then
                 if (max(way_of_ends(mark, asked), way_of_fields(ground, grounded, mark, asked)) <= same_ends) return
             end if
             if (iand(round, round - 1) == 0) mark = asked
@@ -216,7 +205,7 @@ contains
             if (.not. now*(came_to - came_from) > 0.0_wp) cycle
             ratio = min(now/(came_to - came_from), largest_ratio)
             farther(i) = sign(min(abs(now)*ratio/(4 - 4*ratio), merge(found%to(i + 1) - found%from(i + 1), &
-                                                                     found%to(i) - found%from(i), now > 0.0_wp)*largest_share), now)
+                                                                     found%to(i) - found%from(i), now > 0.0_wp)*most_ahead), now)
         end do
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
@@ -256,7 +245,7 @@ contains
         do i = 1, size(found%piece) - 1
             if (found%piece(i) /= found%piece(i + 1)) cycle
             move = abs(zones%to(i) - found%to(i))
-            if (move <= below_rounding*length) cycle
+            if (move <= unmoved_share*length) cycle
             way = max(way, move/min(found%to(i) - found%from(i), found%to(i + 1) - found%from(i + 1)))
         end do
     end function way_of_ends

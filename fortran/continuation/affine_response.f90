@@ -6,7 +6,7 @@ module gapbeam_affine_response
     use gapbeam_law_adapters, only: drop_level
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_tolerances, only: sign_width
+    use gapbeam_tolerances, only: sign_width, rounding_unit
     implicit none
     private
     public :: response_type, response_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
@@ -104,7 +104,7 @@ contains
         real(wp) :: width
 
         width = max(response%error_of_v0 + abs(factor)*response%error_of_v1, &
-                    4*epsilon(1.0_wp)*max(abs(response%v0), abs(factor*response%v1)))
+                    rounding_unit*max(abs(response%v0), abs(factor*response%v1)))
     end function width_at
 
     !> The factor at which a line that is not level is zero

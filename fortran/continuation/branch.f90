@@ -1,5 +1,6 @@
 !> Path of a beam whose supports soften, break or unload off their law, through limit points.
-!> It goes from breakpoint to breakpoint, in quadruple precision.
+!> It goes from breakpoint to breakpoint, in double precision by local updates where these leave no doubt (gapbeam_local_step), else
+!> in quadruple precision.
 !>
 !> The solution is followed along itself (gapbeam_outgoing_directions), so the load factor may fall; nothing is stepped and nothing
 !> iterates.
@@ -7,46 +8,30 @@
 !> unloads in a way of its own has its law written anew from the point where it is: its breakpoints up to there become one, at
 !> that point, before which lies a line with the slope of the first piece, down to its set.
 module gapbeam_branch
-    use gapbeam_kinds, only: wp => qp
+    use gapbeam_kinds, only: wp => qp, dp => wp
+    use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint
+    use gapbeam_polyline_quad, only: break_law, rewrite_law
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
+    use gapbeam_model, only: coarse_beam_type => beam_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_affine_response_quad, only: value_at, width_at, zero_of
-    use gapbeam_region_responses, only: responses_type, outgoing_type, new_responses, solve_responses, are_one, turn, &
-        from_nowhere
+    use gapbeam_region_responses, only: outgoing_type, new_responses, solve_responses, are_one, turn, rise, fall, from_nowhere
     use gapbeam_outgoing_directions, only: find_outgoing
+    use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, &
+        clear_arrival, doubtful
+    use gapbeam_branch_state, only: branch_type, note_place, break_supports, rewrite_laws, find_shared, sense_of, laws_of, &
+        along_law, parallel, stays_broken
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told
+    public :: laws_of
+    ! Of gapbeam_branch_state
     public :: along_law, parallel, stays_broken
 
-    !> How a support unloads
-    integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
     !> What a step came to: the next breakpoint; the factor asked for; the end of the path; no further breakpoint, whatever the
     !> load; supports of which nothing tells how they share a change of load
     integer, parameter :: goes_on = 0, arrived = 1, no_way_on = 2, never_ends = 3, not_told = 4
-
-    !> A path on its way
-    type :: branch_type
-        !> The beam, with the laws as they have become
-        type(beam_type) :: beam
-        type(responses_type) :: responses
-        !> How each support unloads, shape (size(supports)); slopes of the first pieces
-        integer, allocatable :: unloading(:)
-        real(wp), allocatable :: first_slope(:)
-        real(wp) :: factor = 0.0_wp
-        type(outgoing_type) :: way
-        !> Deflections of the nodes, shape (0:n)
-        real(wp), allocatable :: deflection(:)
-        !> Ways on there were at the last breakpoint, and which is taken
-        type(outgoing_type), allocatable :: outgoing(:)
-        integer :: taken = 0
-        !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
-        integer :: sense = 0
-        !> The two supports, where nothing tells how they share what comes
-        integer :: shared(2) = 0
-    end type branch_type
 
     !> A stretch of the path on which all pieces stay the same
     type :: segment_type
@@ -56,9 +41,10 @@ module gapbeam_branch
 contains
 
     !> Begin at a load factor
-    subroutine start_branch(beam, unloading, settling, closed, factor, direction, branch, outcome, error)
-        !> The beam, and how each of its supports unloads
+    subroutine start_branch(beam, in_doubles, unloading, settling, closed, factor, direction, branch, outcome, error)
+        !> The beam, the same in double precision but for its laws, and how each of its supports unloads
         type(beam_type), intent(in) :: beam
+        type(coarse_beam_type), intent(in) :: in_doubles
         integer, intent(in) :: unloading(:)
         !> How fast each of them moves itself with the factor
         real(wp), intent(in) :: settling(:)
@@ -78,6 +64,7 @@ contains
         branch%factor = factor
         call new_responses(beam, branch%responses)
         branch%responses%settling(:) = settling
+        call new_local(in_doubles, unloading == parallel, settling, branch%local)
         allocate (branch%deflection(0:size(beam%links)))
         branch%deflection(:) = 0.0_wp
         call solve_responses(branch%beam, closed, branch%responses)
@@ -101,8 +88,11 @@ contains
         logical, allocatable :: at_hand(:)
         real(wp) :: next
         integer :: direction
+        logical :: done
 
         direction = branch%way%direction
+        call step_locally(branch, target, leg, segment, outcome, done)
+        if (done) return
         segment%from = branch%factor
         segment%to = branch%factor
         if (direction == turn) then
@@ -126,6 +116,100 @@ contains
         end if
         call go_on(branch, leg, turn, at_hand, outcome, error)
     end subroutine step_branch
+
+    !> The same in double precision
+    subroutine step_locally(branch, target, leg, segment, outcome, done)
+        !> As for step_branch
+        type(branch_type), intent(inout) :: branch
+        real(wp), intent(in) :: target
+        integer, intent(in) :: leg
+        type(segment_type), intent(out) :: segment
+        integer, intent(out) :: outcome
+        !> If not, the branch is where it was, its lines in quadruple precision at hand
+        logical, intent(out) :: done
+        integer :: found, k
+        real(dp) :: next
+
+        done = .false.
+        outcome = goes_on
+        associate (way => branch%way, local => branch%local)
+            if (way%direction == turn .or. .not. local%usable) return
+            if (.not. local%current) then
+                call enter_local(branch%beam%supports, way%closed, branch%factor, way%direction, local)
+                if (.not. local%current) return
+            end if
+            call find_next(local, way%closed, real(branch%factor, dp), real(target, dp), &
+                           way%direction == leg .and. abs(target) < huge(target), next, k, found)
+            segment%from = branch%factor
+            if (found == clear_arrival) then
+                segment%to = target
+                branch%factor = target
+                outcome = arrived
+                done = .true.
+                return
+            end if
+            if (found /= doubtful) call pass_locally(branch, k, next, leg, done)
+            if (done) then
+                branch%factor = next
+                segment%to = next
+                return
+            end if
+            local%current = .false.
+            if (local%steps == 0) return
+            call solve_responses(branch%beam, way%closed, branch%responses)
+            if (branch%responses%regular) call note_place(branch)
+        end associate
+    end subroutine step_locally
+
+    !> Pass a breakpoint in double precision
+    subroutine pass_locally(branch, k, factor, leg, done)
+        type(branch_type), intent(inout) :: branch
+        !> The breakpoint, and its load factor
+        integer, intent(in) :: k
+        real(dp), intent(in) :: factor
+        integer, intent(in) :: leg
+        !> If not, the branch is where it was
+        logical, intent(out) :: done
+        type(outgoing_type) :: way
+        integer :: direction, i
+        logical :: breaks
+
+        done = .false.
+        associate (s => branch%beam%supports(k), local => branch%local)
+            breaks = branch%unloading(k) == stays_broken .and. .not. branch%way%closed(k) .and. s%before < -huge(1.0_wp)
+            if (breaks .and. local%any_set) return
+            way%closed = branch%way%closed
+            call pass_breakpoint(local, k, breaks, factor, way%closed, direction)
+            if (.not. local%stretch%current .or. (direction == turn .and. .not. breaks)) return
+            way%index = local_index(local, way%closed)
+            if (breaks) then
+                ! What is gone leaves the same line, to go either way
+                way%direction = leg
+                if (way%index > 0 .and. branch%sense*sense_of(way) < 0) way%direction = -leg
+            else
+                way%direction = direction
+            end if
+            call take_direction(local, way%closed, factor, way%direction, breaks)
+            done = local%current
+            if (.not. done) return
+            if (breaks) call break_law(branch%beam%supports, k)
+            branch%rounded_places = branch%rounded_places .or. size(local%turned) > 0
+            do i = 1, size(local%turned)
+                associate (top => local%turned(i), laws => branch%beam%supports)
+                    call rewrite_law(laws, branch%way%closed, top - laws(top)%breakpoint + 1, top, &
+                                     branch%first_slope(top - laws(top)%breakpoint + 1), real(local%turned_at(i), wp), &
+                                     real(local%turned_with(i), wp))
+                end associate
+            end do
+        end associate
+        if (allocated(branch%outgoing)) deallocate (branch%outgoing)
+        allocate (branch%outgoing(merge(2, 1, breaks)))
+        branch%outgoing(:) = way
+        if (breaks) branch%outgoing%direction = [rise, fall]
+        branch%taken = findloc(branch%outgoing%direction, way%direction, 1)
+        branch%way = way
+        branch%sense = sense_of(way)
+    end subroutine pass_locally
 
     !> Choose the way on: one that is stable under growing load if there is one, else the least unstable
     subroutine go_on(branch, leg, wanted, at_hand, outcome, error)
@@ -188,64 +272,7 @@ contains
             if (last > 0 .and. way%direction /= turn .and. branch%sense*sense_of(way) < 0) last = last + 2**20
         end function preference
 
-        !> Direction of the load times (-1)**index
-        pure function sense_of(way) result(sense)
-            type(outgoing_type), intent(in) :: way
-            integer :: sense
-
-            sense = way%direction*merge(1, -1, modulo(way%index, 2) == 0)
-        end function sense_of
-
     end subroutine go_on
-
-    !> Find supports at one node that could share a change of load in any way: one on a vertical piece, another one at the end of
-    !> such a piece at the same deflection, to which its own set has brought it
-    subroutine find_shared(branch)
-        type(branch_type), intent(inout) :: branch
-        real(wp) :: slope, rate
-        logical :: acts, rigid
-        integer :: i, j, k
-
-        associate (beam => branch%beam, closed => branch%way%closed)
-            do k = 1, size(closed)
-                associate (s => beam%supports(k))
-                    acts = closed(k)
-                    slope = s%stiffness
-                    if (s%breakpoint > 0) call piece_that_acts(beam%supports, closed, k, acts, slope)
-                    if (.not. (acts .and. slope > huge(slope))) cycle
-                    rate = branch%way%direction*s%side*branch%responses%live%reaction(k)
-                    do i = beam%first(s%node), beam%first(s%node + 1) - 1
-                        j = beam%order(i)
-                        associate (other => beam%supports(j))
-                            if (branch%unloading(j) /= parallel .or. other%passed .or. other%side /= s%side) cycle
-                            if (abs(other%contact - s%contact) > 64*epsilon(rate)*abs(s%contact)) cycle
-                            rigid = rate < 0.0_wp .and. ends_at(beam%supports, closed, j) .and. other%before > huge(rate)
-                            if (other%breakpoint == 1 .and. .not. closed(j)) rigid = rate > 0.0_wp &
-                                .and. other%stiffness > huge(rate)
-                            if (rigid) branch%shared = [k, j]
-                        end associate
-                    end do
-                end associate
-            end do
-        end associate
-    end subroutine find_shared
-
-    !> Is a closed breakpoint the last one that is not passed before the piece that acts
-    pure function ends_at(supports, closed, k) result(last)
-        type(node_support_type), intent(in) :: supports(:)
-        logical, intent(in) :: closed(:)
-        integer, intent(in) :: k
-        logical :: last
-        integer :: j
-
-        j = k
-        do while (supports(j)%more)
-            if (.not. supports(j + 1)%passed) exit
-            j = j + 1
-        end do
-        last = closed(k)
-        if (supports(j)%more) last = last .and. .not. closed(j + 1)
-    end function ends_at
 
     !> The next breakpoint along a line
     subroutine enter_next_interval(branch, target, next, at_hand)
@@ -257,11 +284,12 @@ contains
         !> The breakpoints there
         logical, allocatable, intent(out) :: at_hand(:)
         real(wp), allocatable :: zeros(:)
-        real(wp) :: passed, slack
+        real(wp) :: passed, slack, same
         integer :: k, direction
 
         direction = branch%way%direction
         next = direction*huge(next)
+        same = 64*merge(real(epsilon(1.0_dp), wp), epsilon(1.0_wp), branch%rounded_places)
         passed = abs(branch%factor)
         if (abs(target) < huge(target)) passed = max(passed, abs(target))
         associate (supports => branch%beam%supports, closed => branch%way%closed, responses => branch%responses%response)
@@ -272,7 +300,7 @@ contains
                 if (.not. at_hand(k)) cycle
                 associate (zero => zeros(k))
                     zero = zero_of(responses(k))
-                    slack = max(64*epsilon(zero)*passed, width_at(responses(k), zero)/abs(responses(k)%v1))
+                    slack = max(same*passed, width_at(responses(k), zero)/abs(responses(k)%v1))
                     if (abs(zero) <= slack) zero = 0.0_wp
                     if (abs(zero - target) <= slack) zero = target
                     ! What is behind by rounding is here
@@ -283,7 +311,7 @@ contains
             do k = 1, size(closed)
                 if (.not. at_hand(k)) cycle
                 ! What ends the stretch is at hand, whatever rounding leaves of it there
-                at_hand(k) = direction*zeros(k) <= direction*next &
+                at_hand(k) = direction*zeros(k) <= direction*next + merge(same*passed, 0.0_wp, branch%rounded_places) &
                     .or. value_at(responses(k), next) <= 2*width_at(responses(k), next)
             end do
         end associate
@@ -316,80 +344,9 @@ contains
             end do
             at_hand(:) = way < huge(way)
             if (.not. any(at_hand)) return
-            at_hand(:) = at_hand .and. way <= minval(way)*(1 + 64*epsilon(way))
+            at_hand(:) = at_hand .and. way <= minval(way)*(1 + same_breakpoint)
             branch%deflection(:) = branch%deflection + minval(way)*motion
         end associate
     end subroutine turn_on
-
-    !> Deflections at the factor at hand
-    subroutine note_place(branch)
-        type(branch_type), intent(inout) :: branch
-
-        branch%deflection(:) = branch%responses%dead%answers%deflection + branch%factor*branch%responses%live%answers%deflection
-    end subroutine note_place
-
-    !> Break supports that stay broken at the end of a drop of their force: what lies before it is gone
-    subroutine break_supports(branch, at_hand, broken)
-        type(branch_type), intent(inout) :: branch
-        !> Breakpoints that are reached in, without those out
-        logical, intent(inout) :: at_hand(:)
-        !> Those of them at which supports break
-        logical, intent(out) :: broken(:)
-        integer :: k, first
-
-        broken(:) = .false.
-        do k = 1, size(at_hand)
-            associate (s => branch%beam%supports)
-                if (.not. at_hand(k) .or. branch%way%closed(k) .or. branch%unloading(k) /= stays_broken) cycle
-                if (.not. s(k)%before < -huge(1.0_wp)) cycle
-                broken(k) = .true.
-                at_hand(k) = .false.
-                branch%way%closed(k) = .true.
-                ! One line, on both sides of its breakpoints
-                first = k - s(k)%breakpoint + 1
-                s(first:k)%contact = s(k)%contact
-                s(first:k)%force = s(k)%force
-                s(first:k)%before = s(k)%stiffness
-                s(first:k)%stiffness = s(k)%stiffness
-                s(first:k)%passed = .true.
-            end associate
-        end do
-    end subroutine break_supports
-
-    !> Write the laws of supports that keep a set anew, from where they are
-    subroutine rewrite_laws(branch)
-        type(branch_type), intent(inout) :: branch
-        real(wp) :: deflection, force, slope
-        logical :: acts
-        integer :: k, last, top
-
-        k = 1
-        do while (k <= size(branch%way%closed))
-            last = last_breakpoint(branch%beam%supports, k)
-            top = k - 1 + count(branch%way%closed(k:last))
-            if (branch%unloading(k) == parallel .and. top > k) then
-                associate (s => branch%beam%supports, work => branch%responses)
-                    call piece_that_acts(s, branch%way%closed, top, acts, slope)
-                    ! Beside its own movement, which goes on
-                    deflection = branch%deflection(s(k)%node) - branch%factor*work%settling(k)
-                    if (abs(slope) > huge(slope)) then
-                        deflection = s(top)%contact
-                        force = s(k)%side*(work%dead%reaction(top) + branch%factor*work%live%reaction(top))
-                    else
-                        force = s(top)%force + slope*s(top)%side*(deflection - s(top)%contact)
-                    end if
-                    s(k)%contact = deflection
-                    if (abs(branch%first_slope(k)) <= huge(slope)) s(k)%contact = deflection - s(k)%side*force/branch%first_slope(k)
-                    s(k + 1:top)%contact = deflection
-                    s(k + 1:top)%force = force
-                    s(k + 1:top)%stiffness = s(top)%stiffness
-                    s(k + 2:top)%before = s(top)%stiffness
-                    s(k + 2:top)%passed = .true.
-                    s(k + 1)%before = branch%first_slope(k)
-                end associate
-            end if
-            k = last + 1
-        end do
-    end subroutine rewrite_laws
 
 end module gapbeam_branch

@@ -1,6 +1,7 @@
 !> The load followed from event to event: every change of the contact state at its load factor.
 module gapbeam_events
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: changes_at_a_time
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_polyline, only: last_breakpoint
@@ -16,9 +17,6 @@ module gapbeam_events
     implicit none
     private
     public :: event_type, follow_events
-
-    !> Changes of the scheme followed at a time
-    integer, parameter :: changes_at_a_time = 1000
 
     !> A change of the contact state
     type :: event_type

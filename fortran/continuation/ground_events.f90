@@ -7,6 +7,7 @@ module gapbeam_ground_events
     use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
+    use gapbeam_path_problem, only: point_type
     use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
     implicit none
     private
@@ -47,15 +48,13 @@ module gapbeam_ground_events
         integer :: solves = 0
     end type ground_path_type
 
-    !> What holds the beam at a load factor
-    type :: held_type
+    !> What holds the beam at a load factor; sure if it was solved in quadruple precision and audited
+    type, extends(point_type) :: held_type
         logical, allocatable :: closed(:)
         type(zone_type), allocatable :: zones(:)
         !> Where the search for other states may begin
         type(ground_start_type) :: start
-        !> Is there equilibrium; was it solved in quadruple precision and audited, and not only looked at in double precision
-        logical :: stands = .false., sure = .false.
-        !> Where there is none, how the beam moves: displacements of its nodes
+        !> Where there is no equilibrium, how the beam moves: displacements of its nodes
         real(wp), allocatable :: motion(:)
     end type held_type
 

@@ -1,6 +1,7 @@
 !> Load path through given factors, past limit points, with supports that soften, break or keep a set.
 module gapbeam_history
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_idle_segments
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
     use gapbeam_words, only: shown
@@ -8,12 +9,15 @@ module gapbeam_history
     use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
+    use gapbeam_model, only: coarse_beam_type => beam_type
+    use gapbeam_affine_response, only: drop_live_in_doubles => drop_live
     use gapbeam_affine_response_quad, only: drop_live
     use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_refined, only: refine_beam
     use gapbeam_extended_precision, only: reserve_for
     use gapbeam_region_responses, only: outgoing_type, rise, fall, turn
-    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, goes_on, no_way_on, never_ends, not_told
+    use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, laws_of, goes_on, no_way_on, &
+        never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_state, only: detail_of
@@ -29,8 +33,6 @@ module gapbeam_history
     !> Kinds of limit. A path may also have ended without an end in sight: no further breakpoint, whatever the load; or after so
     !> many stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
-    !> Stretches without length in turn, beyond four for every breakpoint, after which the path is given up
-    integer, parameter :: most_idle = 1000
 
     !> A stretch of the path on which all pieces of all laws stay the same
     type :: stretch_type
@@ -103,6 +105,7 @@ contains
         !> As for follow_path
         type(error_type), allocatable, intent(out) :: error
         type(beam_type) :: beam, dead
+        type(coarse_beam_type) :: dead_in_doubles
         type(branch_type) :: branch
         type(fine_support_type), allocatable :: laws(:)
         logical, allocatable :: closed(:)
@@ -110,6 +113,8 @@ contains
         real(qp), allocatable :: settling(:)
         real(qp) :: factor
         integer :: leg
+        !> Do laws change on the way
+        logical :: keeps
 
         call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
@@ -117,14 +122,16 @@ contains
         allocate (history%stretches(16), history%limits(0), history%others(0))
         allocate (unloading(size(beam%supports)), closed(size(beam%supports)))
         unloading(:) = assembled%model%supports(assembled%normal)%unloading
+        keeps = any(unloading /= gapbeam_elastic)
         laws = beam%supports
         call find_rest(assembled, closed)
         allocate (settling(size(laws)))
         call find_movements(assembled, settling)
         if (has_dead_loads(beam) .or. any(abs(settling) > 0.0_qp)) then
             call drop_live(beam, dead)
+            call drop_live_in_doubles(assembled%beam, dead_in_doubles)
             laws%contact = laws%contact - settling
-            call go_leg(dead, 0, 0.0_qp, 1.0_qp)
+            call go_leg(dead, dead_in_doubles, 0, 0.0_qp, 1.0_qp)
             call end_if_stopped(beam%watch, error)
             if (allocated(error) .or. history%ending /= no_limit) return
             laws%contact = laws%contact + settling
@@ -133,7 +140,7 @@ contains
         factor = 0.0_qp
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
-            call go_leg(beam, leg, factor, real(factors(leg), qp))
+            call go_leg(beam, assembled%beam, leg, factor, real(factors(leg), qp))
             call end_if_stopped(beam%watch, error)
             if (allocated(error)) return
             if (history%ending /= no_limit) exit
@@ -150,22 +157,24 @@ contains
     contains
 
         !> Go from one load factor to another
-        subroutine go_leg(beam, leg, from, to)
+        subroutine go_leg(beam, in_doubles, leg, from, to)
             type(beam_type), intent(inout) :: beam
+            type(coarse_beam_type), intent(in) :: in_doubles
             integer, intent(in) :: leg
             real(qp), intent(in) :: from, to
             type(segment_type) :: segment
             type(outcome_type) :: beginning
             integer :: way, outcome, index, direction, taken, idle
             type(outgoing_type), allocatable :: ways(:)
-            logical :: stable, moves
+            logical :: stable, moves, rounded_places
             real(qp) :: target
             logical :: acting(size(closed)), first(size(closed))
             integer :: first_direction
-            type(fine_support_type) :: laws_before(size(closed))
+            type(node_support_type), allocatable :: laws_before(:)
 
             way = merge(rise, fall, to > from)
             beam%supports = laws
+            rounded_places = branch%rounded_places
             if (history%number == 0) then
                 call find_beginning(beam, to, closed, history%solves, beginning, error)
                 if (allocated(error)) return
@@ -176,11 +185,11 @@ contains
                     return
                 end if
             end if
-            call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
+            call start_branch(beam, in_doubles, unloading, settling, closed, from, way, branch, outcome, error)
             if (history%number == 0 .and. .not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) then
                 ! No force falls in a beam without load: the search has gone too far
                 call find_rest(assembled, closed)
-                call start_branch(beam, unloading, settling, closed, from, way, branch, outcome, error)
+                call start_branch(beam, in_doubles, unloading, settling, closed, from, way, branch, outcome, error)
                 if (.not. allocated(error) .and. outcome == goes_on .and. branch%way%index > 0) outcome = no_way_on
                 if (.not. allocated(error) .and. outcome == no_way_on) then
                     call fatal_error(error, gapbeam_not_converged, "the beam moves freely before it carries any load, to "// &
@@ -188,6 +197,7 @@ contains
                                      "these supports no gap")
                 end if
             end if
+            branch%rounded_places = rounded_places
             call refuse_shared(outcome)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism
@@ -205,7 +215,7 @@ contains
                 direction = branch%way%direction
                 ways = branch%outgoing
                 taken = branch%taken
-                laws_before(:) = branch%beam%supports
+                if (keeps) laws_before = laws_of(branch, assembled%beam%supports)
                 stable = index == 0 .and. direction /= -way
                 ! Not at an end while it falls, but where it may have landed
                 target = to
@@ -217,7 +227,7 @@ contains
                 if (allocated(error)) exit
                 moves = direction == turn .or. abs(real(segment%to, wp) - real(segment%from, wp)) > 0.0_wp
                 idle = merge(0, idle + 1, moves)
-                if (idle > 4*size(closed) + most_idle) then
+                if (idle > 4*size(closed) + most_idle_segments) then
                     call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &
                                      trim(shown(real(branch%factor, wp)))//", where rounding hides which support gives way "// &
                                      "first: bring the magnitudes of the beam nearer to each other")
@@ -269,9 +279,9 @@ contains
             type(segment_type), intent(in) :: segment
             integer, intent(in) :: direction, index, ways
             logical, intent(in) :: acting(:)
-            type(fine_support_type), intent(in) :: now(:)
+            type(node_support_type), allocatable, intent(inout) :: now(:)
             type(stretch_type), allocatable :: longer(:)
-            integer :: stat
+            integer :: stat, i
 
             if (history%number == size(history%stretches)) then
                 allocate (longer(2*history%number), stat=stat)
@@ -279,7 +289,9 @@ contains
                     call no_memory(error)
                     return
                 end if
-                longer(:history%number) = history%stretches
+                do i = 1, history%number
+                    call hand_over(history%stretches(i), longer(i))
+                end do
                 call move_alloc(longer, history%stretches)
             end if
             history%number = history%number + 1
@@ -287,7 +299,7 @@ contains
                 ! No negative zeros
                 s = stretch_type(leg, real(segment%from, wp) + 0.0_wp, real(segment%to, wp) + 0.0_wp, direction, index, ways, &
                                  .false., acting)
-                if (any(unloading /= gapbeam_elastic)) s%laws = rounded(now, assembled%beam%supports)
+                if (allocated(now)) call move_alloc(now, s%laws)
             end associate
         end subroutine add
 
@@ -345,19 +357,20 @@ contains
 
     end subroutine follow_history
 
-    !> Laws in double precision
-    pure function rounded(fine, like) result(laws)
-        type(fine_support_type), intent(in) :: fine(:)
-        type(node_support_type), intent(in) :: like(:)
-        type(node_support_type) :: laws(size(fine))
+    !> Put a stretch to another place, with what it has allocated
+    pure subroutine hand_over(from, to)
+        type(stretch_type), intent(inout) :: from, to
 
-        laws(:) = like
-        laws%stiffness = real(fine%stiffness, wp)
-        laws%before = real(fine%before, wp)
-        laws%contact = real(fine%contact, wp)
-        laws%force = real(fine%force, wp)
-        laws%passed = like%breakpoint > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
-    end function rounded
+        call move_alloc(from%closed, to%closed)
+        call move_alloc(from%laws, to%laws)
+        to%leg = from%leg
+        to%from = from%from
+        to%to = from%to
+        to%direction = from%direction
+        to%index = from%index
+        to%ways = from%ways
+        to%skipped = from%skipped
+    end subroutine hand_over
 
     !> The laws of a stretch
     pure function laws_at(assembled, stretch) result(laws)

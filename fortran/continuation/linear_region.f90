@@ -8,6 +8,7 @@
 !> turn, the scheme just above is that with which it comes to rest: the limit from the right.
 module gapbeam_linear_region
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_path_tolerances, only: first_share_of_way, last_share_of_way, unseen_share, weaker_springs
     use gapbeam_error, only: error_type, gapbeam_solved, fatal_error, gapbeam_not_converged
     use gapbeam_band_quad, only: band_ok
     use gapbeam_model_quad, only: beam_type
@@ -20,13 +21,6 @@ module gapbeam_linear_region
     implicit none
     private
     public :: region_type, find_region
-
-    !> The first factor tried is above the given one by this share of the way; none nearer than this is
-    real(wp), parameter :: first_share = 2.0_wp**(-40), last_share = 2.0_wp**(-48)
-    !> What happens within this share of the way is not seen where even this precision cannot tell what falls
-    real(wp), parameter :: unseen_share = 2.0_wp**(-24)
-    !> Weak springs that hold a beam that is free to move, relative to those of the search
-    real(wp), parameter :: weaker = 2.0_wp**(-24)
 
     !> A stretch of the path
     type :: region_type
@@ -61,7 +55,7 @@ contains
         logical :: farther
 
         scale_of_factor = max(abs(factor), limit - factor)
-        trial = factor + first_share*scale_of_factor
+        trial = factor + first_share_of_way*scale_of_factor
         call new_workspace(beam, work)
         allocate (region%closed(size(start)), region%responses(size(start)))
         farther = .false.
@@ -78,7 +72,7 @@ contains
             else
                 from = start_of_motion(beam, outcome%motion)
             end if
-            if (from > factor + last_share*scale_of_factor) then
+            if (from > factor + last_share_of_way*scale_of_factor) then
                 if (farther) then
                     ! The position is not unique, so supports may be touched here or there, without end
                     if (from > factor + unseen_share*scale_of_factor) call fatal_error(error, gapbeam_not_converged, "above "// &
@@ -125,7 +119,7 @@ contains
         call new_workspace(beam, dead)
         call new_workspace(incremental, live)
         ! A beam that stays free to move stays where it is
-        dead%proximal_weight = weaker*work%proximal_weight
+        dead%proximal_weight = weaker_springs*work%proximal_weight
         live%proximal_weight = dead%proximal_weight
         dead%reference = work%answers%deflection
         call set_loads(beam, 0.0_wp, dead)

@@ -5,10 +5,11 @@
 !> way on if the line of its region leads into it: then every breakpoint at hand moves away from zero in the direction taken,
 !> with the load rising or falling. Mostly there is one way. There is none where the path ends, and there are several at a
 !> bifurcation. Where the loads do work on a free motion the load stays, and the beam turns until something holds it.
-!> (Katzenelson 1965; Chien and Kuh 1977; docs/method.md 11.)
+!> (Katzenelson 1965; Chien and Kuh 1977; docs/method.md 8.)
 !> Where no force falls there is one way (gapbeam_single_direction); elsewhere all choices are tried.
 module gapbeam_outgoing_directions
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_limits, only: most_at_once
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_polyline_quad, only: node_support_type, coincide
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
@@ -23,8 +24,6 @@ module gapbeam_outgoing_directions
     ! Of gapbeam_region_responses, for those who ask for ways
     public :: outgoing_type, rise, fall, turn, from_nowhere
 
-    !> Of more breakpoints at one factor than these not all combinations are tried
-    integer, parameter :: most_at_once = 12
 contains
 
     !> Find all ways on

@@ -16,6 +16,8 @@
 !> only, so there are finitely many events, and the path ends.
 module gapbeam_path
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: short_beam_links
+    use gapbeam_path_tolerances, only: enter_next_interval, agreement, shortest_interval, far_from_zero, same_factor
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_memory, only: for_following_closely
     use gapbeam_polyline, only: vertical_pieces
@@ -34,21 +36,10 @@ module gapbeam_path
     use gapbeam_path_events, only: path_type, add_event, note_changes
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, &
-        response_in, same_factor
+        response_in
     implicit none
     private
     public :: follow_path, path_type
-
-    !> How much further up the scheme is looked for
-    real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
-    !> Factors in double and quadruple precision that differ by less, relative to the way, are the same
-    real(wp), parameter :: agreement = 1e-9_wp
-    !> Links up to which doubt is a reason for quadruple precision; in longer beams only if the end of the path is wrong
-    integer, parameter :: short_beam = 200
-    !> Stretches shorter than this, relative to the way, may be but a few
-    real(wp), parameter :: shortest = 2.0_wp**(-30)
-    !> Rounding errors beyond which a value is not near zero
-    real(wp), parameter :: far = 2.0_wp**16
 
 contains
 
@@ -143,13 +134,13 @@ contains
         exactly = factor
         if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch)
         if (stretch%current) call add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
-        stretch%closely = stretch%closely .or. (stretch%in_doubt .and. size(beam%links) <= short_beam)
+        stretch%closely = stretch%closely .or. (stretch%in_doubt .and. size(beam%links) <= short_beam_links)
         do
             done = .false.
             if (.not. stretch%closely) then
                 call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
                 if (.not. done) call try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
-                stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam
+                stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam_links
                 done = done .and. .not. stretch%closely
             end if
             if (.not. done) then
@@ -158,7 +149,7 @@ contains
             end if
             here = exactly
             call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
-            if (stretch%in_doubt .and. size(beam%links) <= short_beam .and. .not. stretch%closely) then
+            if (stretch%in_doubt .and. size(beam%links) <= short_beam_links .and. .not. stretch%closely) then
                 stretch%closely = .true.
                 call decide_in_quadruple(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
@@ -166,7 +157,7 @@ contains
             end if
             call refuse_redundant_stretch(beam, detail, here, min(exactly, real(limit, qp)), closed, error)
             if (allocated(error)) exit
-            if (exactly - here < shortest*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
+            if (exactly - here < shortest_interval*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
             stretch%in_doubt = stretch%in_doubt .or. short_stretches > 2*size(closed)
             if (short_stretches > 100 + 4*size(closed)) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
@@ -295,7 +286,7 @@ contains
                 stretch%current = .false.
                 return
             end if
-            is_far(k) = value_at(response, factor) > far*width_at(response, factor)
+            is_far(k) = value_at(response, factor) > far_from_zero*width_at(response, factor)
         end do
         done = .true.
         call note_changes(factor, closed, after, was_far, is_far, stretch, path)
@@ -340,7 +331,7 @@ contains
         stretch%by_region = .true.
         if (found%indifferent) stretch%indifferent = stretch%indifferent + 1
         associate (response => stretch%region%responses)
-            is_far(:) = fine_value_at(response, factor) > far*fine_width_at(response, factor)
+            is_far(:) = fine_value_at(response, factor) > far_from_zero*fine_width_at(response, factor)
         end associate
         call note_changes(real(factor, wp), closed, stretch%region%closed, was_far, is_far, stretch, path)
         closed(:) = stretch%region%closed

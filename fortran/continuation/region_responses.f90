@@ -1,6 +1,7 @@
 !> Responses of a linear region of the path, in which all pieces of all laws stay the same.
 module gapbeam_region_responses
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_path_tolerances, only: near_breakpoint, no_rate
     use gapbeam_band_quad, only: band_ok
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
     use gapbeam_law_margins_quad, only: is_watched_in
@@ -18,10 +19,6 @@ module gapbeam_region_responses
     integer, parameter :: rise = 1, fall = -1, turn = 0
     !> Instead of the direction in which the path came: no way leads back
     integer, parameter :: from_nowhere = 2
-    !> Rounding errors within which another breakpoint is at zero too
-    real(wp), parameter :: near = 2.0_wp**10
-    !> Share of the rates beside it below which a rate is none
-    real(wp), parameter :: no_rate = 2.0_wp**(-70)
 
     !> A region: what all supports do over the load factor while their pieces stay the same
     type :: responses_type
@@ -109,7 +106,9 @@ contains
             associate (response => responses%response(k))
                 falling(k) = direction*response%v1 < -max(response%error_of_v1, no_rate*abs(response%v1))
                 ! What is at hand is at zero, whatever this region has made of it by rounding
-                if (.not. at_hand(k)) falling(k) = falling(k) .and. value_at(response, factor) <= near*width_at(response, factor)
+                if (.not. at_hand(k)) then
+                    falling(k) = falling(k) .and. value_at(response, factor) <= near_breakpoint*width_at(response, factor)
+                end if
             end associate
         end do
     end subroutine find_falling

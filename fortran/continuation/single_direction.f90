@@ -5,6 +5,7 @@
 !> breakpoints at hand, as there are where supports unload, takes a few solves, not one for every choice of them.
 module gapbeam_single_direction
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_limits, only: most_looks, looks_without_progress
     use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_from
     use gapbeam_model_quad, only: beam_type
     use gapbeam_region_responses, only: responses_type, outgoing_type, solve_responses, find_falling, is_held_twice, &
@@ -12,9 +13,6 @@ module gapbeam_single_direction
     implicit none
     private
     public :: find_single_direction
-
-    !> Looks at regions without progress in which all that moves the wrong way is passed, and looks in all, for the single way
-    integer, parameter :: non_monotone_steps = 3, most_looks = 200
 
 contains
 
@@ -73,10 +71,10 @@ contains
                 call solve_responses(beam, closed, responses)
             end if
             if (.not. responses%regular) then
-                if (idle > non_monotone_steps) return
+                if (idle > looks_without_progress) return
                 ! One by one, from the beginning
                 closed(:) = before
-                idle = non_monotone_steps + 1
+                idle = looks_without_progress + 1
                 cycle
             end if
             call find_falling(beam, closed, factor, direction, reached, responses, falling)
@@ -88,7 +86,7 @@ contains
             else
                 idle = idle + 1
             end if
-            call pass_breakpoints(beam%supports, falling, idle > non_monotone_steps, closed)
+            call pass_breakpoints(beam%supports, falling, idle > looks_without_progress, closed)
         end do
     end subroutine search_way
 

@@ -2,27 +2,32 @@
 !> The solution as lines over the load factor, and the queue of the factors at which they reach zero.
 module gapbeam_stretch
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: agreement, same_factor
     use gapbeam_band, only: band_ok
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups
     use gapbeam_affine_response, only: response_type, response_of, without_dead_loads, value_at, width_at, zero_of, &
-        falls, stays_at_zero
+        falls, rises, stays_at_zero
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_linear_region, only: region_type
     implicit none
     private
-    public :: stretch_type, new_stretch, start_stretch, change_supports, add_those_at_zero, next_in_queue, response_in, same_factor
+    public :: stretch_type, new_stretch, start_stretch, change_supports, queue_all, add_those_at_zero, next_in_queue
+    public :: response_in, unloads_from_here
 
-    !> What happens so near to each other, relative to the factor or the way, happens at the same factor
-    real(wp), parameter :: same_factor = 1e-15_wp
-    !> Share of its factor by which an event may be off in doubles; if it may be more, it is found in quadruple precision
-    real(wp), parameter :: coarse = 1e-9_wp
-
-    !> What is known on a stretch of the path
+    !> What is known on a stretch of the path. Where the load falls, factors and lines are those of its negative
     type :: stretch_type
+        !> Direction in which the load goes, 1 or -1
+        real(wp) :: direction = 1.0_wp
+        !> Share of its factor by which an event may be off in doubles
+        real(wp) :: share_off = agreement
+        !> Which supports unload in a way of their own from wherever they are, if any do, shape (size(supports)); does one of them
+        !> turn back, or may it
+        logical, allocatable :: keeps_set(:)
+        logical :: turns_back = .false.
         !> The beam without its dead loads and gaps
         type(beam_type) :: incremental
         !> v0 and v1
@@ -73,7 +78,6 @@ contains
         real(wp), intent(in) :: factor
         type(stretch_type), intent(inout) :: stretch
         logical :: solved, follows, live_follows
-        integer :: k
 
         stretch%by_region = .false.
         call start_updates(beam, closed, stretch%dead, solved, follows)
@@ -82,10 +86,22 @@ contains
         stretch%current = solved
         if (solved) stretch%current = follows .and. live_follows
         if (.not. stretch%current) return
+        call queue_all(beam, closed, factor, stretch)
+    end subroutine start_stretch
+
+    !> Put all supports into the queue
+    pure subroutine queue_all(beam, closed, factor, stretch)
+        !> The beam, its scheme, current in the stretch, and the factor
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(stretch_type), intent(inout) :: stretch
+        integer :: k
+
         do k = 1, size(closed)
             call queue_support(beam, closed, k, factor, stretch)
         end do
-    end subroutine start_stretch
+    end subroutine queue_all
 
     !> Change supports in v0 and v1, and in the queue; afterwards the stretch is not current if that is not possible
     subroutine change_supports(beam, changed, factor, closed, stretch)
@@ -125,6 +141,7 @@ contains
         type(response_type) :: response
 
         response = response_of(beam, stretch%incremental, closed, k, stretch%dead, stretch%live)
+        response%v1 = stretch%direction*response%v1
     end function response_in
 
     !> Supports that are at zero at a factor
@@ -185,7 +202,7 @@ contains
             response = response_in(beam, closed, near(j), stretch)
             there(j) = abs(value_at(response, next)) <= width_at(response, next)
             if (there(j)) stretch%in_doubt = stretch%in_doubt .or. apart(response, next, limit) &
-                .or. width_at(response, next) > coarse*abs(next*response%v1)
+                .or. width_at(response, next) > stretch%share_off*abs(next*response%v1)
         end do
         at_zero = [at_zero, pack(near, there)]
     end subroutine next_in_queue
@@ -211,7 +228,11 @@ contains
         real(wp) :: zero
 
         response = response_in(beam, closed, k, stretch)
-        if (falls(response)) then
+        if (unloads_from_here(beam, closed, k, stretch)) then
+            ! It would unload from where it is, not from the breakpoint
+            call set_key(stretch%queue, k, huge(zero))
+            stretch%turns_back = stretch%turns_back .or. .not. rises(response)
+        else if (falls(response)) then
             zero = max(factor, zero_of(response))
             call set_key(stretch%queue, k, zero - width_at(response, zero)/abs(response%v1))
         else
@@ -219,5 +240,19 @@ contains
             if (stays_at_zero(response, factor) .and. max(abs(response%v0), abs(response%v1)) > 0.0_wp) stretch%in_doubt = .true.
         end if
     end subroutine queue_support
+
+    !> Is a breakpoint the last one passed of a support that keeps a set, so that it unloads from where it is
+    pure function unloads_from_here(beam, closed, k, stretch) result(it_does)
+        !> The beam and its scheme, and the number of the breakpoint
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        integer, intent(in) :: k
+        type(stretch_type), intent(in) :: stretch
+        logical :: it_does
+
+        it_does = allocated(stretch%keeps_set)
+        if (it_does) it_does = stretch%keeps_set(k) .and. closed(k) .and. beam%supports(k)%breakpoint > 1
+        if (it_does .and. beam%supports(k)%more) it_does = .not. closed(k + 1)
+    end function unloads_from_here
 
 end module gapbeam_stretch

@@ -15,17 +15,21 @@
 !> pivoting is needed, and a mechanism is found by exact zeros, not by large numbers. The one pivot that
 !> can vanish in a sound structure is a rigid beam (f = 0) on rigid supports; that goes to gapbeam_pivoting.
 !>
+!> Where the force of a support falls a stiffness is below zero. Then sums cancel, terms take either sign, and who asks for such a
+!> factor judges its growth by how fast residuals correct the solution (gapbeam_update).
+!>
 !> The limits are exact: rigid support (w known), hinge and free end (M known), clamp (psi known). Where the
 !> moment is known and nothing carries the shear so far (an overhang, the suspended part of a Gerber beam)
 !> the sweep passes on moment and shear by statics alone and finds the deflection on the way back.
 module gapbeam_band
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: pivot_digits
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_nodes, only: plain, hinge, restrained
     implicit none
     private
-    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain
+    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, count_unstable_pivots
     public :: band_ok, band_mechanism, band_needs_pivoting, band_stopped
     public :: plain, hinge, restrained
     ! For gapbeam_band_substitution, and for gapbeam_foundation_chain, which eliminates likewise
@@ -96,11 +100,13 @@ contains
         !> the left side passes on what it did before
         integer, intent(in), optional :: changed(2)
         real(wp) :: phi, beta, delta, h, divisor
-        logical :: floating
+        logical :: floating, falls
         integer :: i, n, begin, finish
 
         n = size(links)
         if (checked) call require(n > 0 .and. size(nodes) == n + 1 .and. size(pivots) == n + 1, "factor_chain: shapes")
+        falls = .false.
+        if (checked) falls = any(nodes%stiffness < 0.0_wp)
         state = band_ok
         phi = 0.0_wp
         beta = 0.0_wp
@@ -123,7 +129,8 @@ contains
                 if (repeats(pivots(i), phi, beta, delta, floating)) return
             end if
             ! Sums of terms that are not negative
-            if (checked) call require(.not. (phi < 0.0_wp .or. beta < 0.0_wp .or. delta < 0.0_wp), "factor_chain: a negative term")
+            if (checked) call require(falls .or. .not. (phi < 0.0_wp .or. beta < 0.0_wp .or. delta < 0.0_wp), &
+                                      "factor_chain: a negative term")
             associate (node => nodes(i), p => pivots(i))
                 p%floating = floating
                 p%phi = phi
@@ -159,7 +166,7 @@ contains
                         if (node%held) then
                             p%kind = both_known
                             phi = link%fbb
-                        else if (p%c > 0.0_wp) then
+                        else if (abs(p%c) > 0.0_wp) then
                             p%kind = m_known
                             p%reciprocal = 1/p%c
                             phi = link%fbb + h**2*p%reciprocal
@@ -201,10 +208,9 @@ contains
         real(wp), intent(in) :: phi, beta, delta
         logical, intent(in) :: floating
         logical :: same
-        real(wp), parameter :: digits = 4*epsilon(1.0_wp)
 
-        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= digits*phi &
-            .and. abs(beta - pivot%beta) <= digits*beta .and. abs(delta - pivot%delta) <= digits*delta
+        same = (floating .eqv. pivot%floating) .and. abs(phi - pivot%phi) <= pivot_digits*abs(phi) &
+            .and. abs(beta - pivot%beta) <= pivot_digits*abs(beta) .and. abs(delta - pivot%delta) <= pivot_digits*abs(delta)
     end function repeats
 
     !> The right end of the beam: no link follows
@@ -221,11 +227,39 @@ contains
         pivot%c = delta + node%stiffness
         if (node%kind == restrained) then
             ! phi, beta, delta already hold the restraint: the moment right of the node is zero
-            if (.not. node%held .and. .not. pivot%c > 0.0_wp) state = band_mechanism
-        else if (floating .or. .not. (node%held .or. pivot%c > 0.0_wp)) then
+            if (.not. node%held .and. .not. abs(pivot%c) > 0.0_wp) state = band_mechanism
+        else if (floating .or. .not. (node%held .or. abs(pivot%c) > 0.0_wp)) then
             state = band_mechanism
         end if
         if (.not. node%held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
     end subroutine factor_last
+
+    !> In how many independent ways the beam gives way by itself, as the pivots of its factor tell: the negative ones but one for
+    !> every moment (count_unstable of gapbeam_pivoting)
+    pure function count_unstable_pivots(nodes, pivots) result(index)
+        !> As for factor_chain, factored, shape (0:n)
+        type(node_type), intent(in) :: nodes(0:)
+        type(pivot_type), intent(in) :: pivots(0:)
+        integer :: index
+        integer :: i
+
+        index = 0
+        do i = 0, ubound(nodes, 1)
+            associate (node => nodes(i), p => pivots(i))
+                if (node%kind == restrained .and. .not. p%floating) index = index - merge(1, 0, p%phi + node%compliance < 0.0_wp)
+                select case (p%kind)
+                case (full)
+                    if (p%reciprocal < 0.0_wp) index = index + merge(1, -1, p%a > 0.0_wp)
+                case (w_known)
+                    if (p%a < 0.0_wp) index = index - 1
+                case (m_known)
+                    if (p%c < 0.0_wp) index = index + 1
+                case (end_of_beam)
+                    if (p%c < 0.0_wp .and. .not. node%held) index = index + 1
+                case default
+                end select
+            end associate
+        end do
+    end function count_unstable_pivots
 
 end module gapbeam_band

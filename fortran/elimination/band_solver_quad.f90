@@ -2,12 +2,10 @@
 !> LAPACK has that in double precision only.
 module gapbeam_band_solver_quad
     use gapbeam_kinds, only: wp => qp
+    use gapbeam_tolerances, only: least_quad_pivot
     implicit none
     private
     public :: solve_band
-
-    !> A pivot that has shrunk to this share of its row and column is zero but for rounding
-    real(wp), parameter :: least_pivot = 2.0_wp**(-90)
 
 contains
 
@@ -57,7 +55,7 @@ contains
             do i = k + 1, min(n, k + m)
                 if (abs(row(k - i, i)) > abs(row(k - pivot, pivot))) pivot = i
             end do
-            if (.not. abs(row(k - pivot, pivot)) > least_pivot) return
+            if (.not. abs(row(k - pivot, pivot)) > least_quad_pivot) return
             if (pivot /= k) then
                 swap(:) = row(0:2*m, k)
                 row(0:2*m, k) = row(k - pivot:k - pivot + 2*m, pivot)

@@ -2,6 +2,7 @@
 !> On the whole beam, or on as much of it as a change can be seen on.
 module gapbeam_band_substitution
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: hidden_change
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_nodes, only: hinge, restrained
@@ -9,9 +10,6 @@ module gapbeam_band_substitution
     implicit none
     private
     public :: solve_chain, correct_chain
-
-    !> Relative to the solution, what cannot be seen in it even if it comes back a thousand times
-    real(wp), parameter :: below_rounding = 2.0_wp**(-10)*epsilon(1.0_wp)
 
 contains
 
@@ -150,8 +148,8 @@ contains
             if (pivot%floating) then
                 small = .not. (abs(m) > 0.0_wp .or. abs(p) > 0.0_wp)
             else
-                small = abs(e) <= below_rounding*(pivot%phi*moment + pivot%beta*w) &
-                    .and. abs(p) <= below_rounding*(pivot%beta*moment + pivot%delta*w)
+                small = abs(e) <= hidden_change*(abs(pivot%phi)*moment + abs(pivot%beta)*w) &
+                    .and. abs(p) <= hidden_change*(abs(pivot%beta)*moment + abs(pivot%delta)*w)
             end if
         end associate
     end function fades
@@ -182,8 +180,8 @@ contains
                 ! Two nodes in a row, so that a deflection that passes through zero does not deceive
                 associate (a => answers(i + 1), s => solution(i + 1))
                     small = merge(small + 1, 0, .not. pivots(i)%floating .and. &
-                                  abs(a%deflection) <= below_rounding*abs(s%deflection) .and. &
-                                  abs(a%moment_left) <= below_rounding*abs(s%moment_left))
+                                  abs(a%deflection) <= hidden_change*abs(s%deflection) .and. &
+                                  abs(a%moment_left) <= hidden_change*abs(s%moment_left))
                 end associate
                 if (small == 2) then
                     first = i + 1

@@ -5,6 +5,7 @@
 !> 40 bytes of input, 48 of eliminated rows forward, 48 and 16 of output backward at each node.
 module gapbeam_elements
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_kernel, only: cell_type, row_type, eliminated_type, sweep_type, last_step, start_at_free_end, &
@@ -15,9 +16,6 @@ module gapbeam_elements
 
     !> What solve_elements found: a solution; an end that nothing holds; fewer than two elements, or a length or EI not positive
     integer, parameter :: elements_solved = 0, elements_mechanism = 1, elements_bad_input = 2
-    !> Steps assembled at a time
-    integer, parameter :: block_size = 64
-
 
     !> The elements outward of the nodes at hand: half the load, the rotation it would make at their ends; rotation and shear
     !> of a solution at their inward ends, high and low part
@@ -86,8 +84,8 @@ contains
         logical, intent(out) :: good
         !> Deflections and moments of a solution whose residuals take the place of the loads
         real(wp), intent(in), contiguous, optional :: solved_w(0:), solved_m(0:)
-        type(cell_type) :: cells(block_size)
-        type(row_type) :: rows(block_size)
+        type(cell_type) :: cells(cache_block)
+        type(row_type) :: rows(cache_block)
         type(sweep_type) :: both
         type(outward_type) :: outward
         real(wp) :: turn, shear
@@ -112,8 +110,8 @@ contains
             call step_alone(2, cells(1), rows(1), both, eliminated(1))
         end if
         call start_at_free_end(1, cells(1), rows(1), both, eliminated(odd))
-        do s = odd + 1, last_step(n), block_size
-            count = min(block_size, last_step(n) - s + 1)
+        do s = odd + 1, last_step(n), cache_block
+            count = min(cache_block, last_step(n) - s + 1)
             call assemble(s, count, cells, rows, outward, good)
             if (.not. good) return
             call sweep_inward(cells(:count), rows(:count), both, eliminated(s:s + count - 1))
@@ -133,7 +131,7 @@ contains
 
     contains
 
-        !> Links and rows of some steps (docs/method.md 1)
+        !> Links and rows of some steps (docs/method.md 2)
         pure subroutine assemble(first, count, cells, rows, outward, good)
             !> First step, and how many
             integer, intent(in) :: first, count
@@ -198,20 +196,16 @@ contains
         !> inverse is 1/l; what high lacks by its rounding is in low
         real(wp), intent(in) :: a(2), b(2), l(2), inverse(2)
         real(wp), intent(out) :: high(2), low(2)
-        real(wp), dimension(2) :: d, t, lost, p, h1, h2, l1, l2
+        real(wp), dimension(2) :: d, t, lost, p
 
         d = a - b
         t = d - a
         lost = (a - (d - t)) - (b + t)
         high = d*inverse
         p = high*l
-        h1 = splitter*high
-        h1 = h1 - (h1 - high)
-        h2 = high - h1
-        l1 = splitter*l
-        l1 = l1 - (l1 - l)
-        l2 = l - l1
-        low = (((d - p) - (((h1*l1 - p) + h1*l2 + h2*l1) + h2*l2)) + lost)*inverse
+        low = (((d - p) - product_error(high, l, p)) + lost)*inverse
     end subroutine divide_difference
+
+    include 'elimination/product_error.inc'
 
 end module gapbeam_elements

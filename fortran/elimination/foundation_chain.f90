@@ -142,7 +142,7 @@ contains
         if (placed) placed = pivots(i - 1)%kind == w_ahead
     end function is_placed
 
-    !> phi, beta, delta behind a link before which nothing is known (docs/method.md, section 12)
+    !> phi, beta, delta behind a link before which nothing is known (docs/method.md 3)
     pure function passed_on(link, phi, beta, carried, pivot) result(next)
         type(stretch_link_type), intent(in) :: link
         !> What comes from the left, and the stiffness of what stands at the node with it

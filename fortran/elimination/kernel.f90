@@ -65,22 +65,16 @@ contains
         type(row_type), intent(in) :: row
         type(sweep_type), intent(inout) :: sweep
         type(eliminated_type), intent(inout) :: eliminated
-        real(wp) :: softness, deflection, h
+        real(wp) :: softness
 
-        h = cell%inverse(lane)
-        softness = row%free(lane)/row%stiffness(lane)
-        deflection = row%shear(lane)/row%stiffness(lane)
-        eliminated%moment(lane) = 0.0_wp
-        eliminated%moment_m(lane) = 0.0_wp
-        eliminated%moment_w(lane) = 0.0_wp
-        eliminated%deflection(lane) = deflection
-        eliminated%deflection_m(lane) = h*softness
-        eliminated%deflection_w(lane) = 0.0_wp
-        sweep%phi(lane) = cell%far(lane) + h**2*softness
-        sweep%beta(lane) = h
-        sweep%delta(lane) = 0.0_wp
-        sweep%e(lane) = h*deflection
-        sweep%p(lane) = 0.0_wp
+        associate (h => cell%inverse(lane), far => cell%far(lane), stiff => row%stiffness(lane), free => row%free(lane), &
+                   load => row%shear(lane), phi => sweep%phi(lane), beta => sweep%beta(lane), delta => sweep%delta(lane), &
+                   e => sweep%e(lane), p => sweep%p(lane), moment => eliminated%moment(lane), &
+                   deflection => eliminated%deflection(lane), moment_m => eliminated%moment_m(lane), &
+                   moment_w => eliminated%moment_w(lane), deflection_m => eliminated%deflection_m(lane), &
+                   deflection_w => eliminated%deflection_w(lane))
+            include 'elimination/node_start.inc'
+        end associate
     end subroutine start_at_free_end
 
     !> A step of one lane while the other stands still
@@ -116,7 +110,7 @@ contains
         eliminated%deflection_w(lane) = result(1)%deflection_w(lane)
     end subroutine step_alone
 
-    !> Steps of both lanes: the pivots full and w_known of gapbeam_band in one
+    !> Steps of both lanes
     pure subroutine sweep_inward(cells, rows, sweep, eliminated)
         !> Links and rows of every step
         type(cell_type), intent(in), contiguous :: cells(:)
@@ -124,7 +118,9 @@ contains
         type(sweep_type), intent(inout) :: sweep
         !> Shape (size(cells))
         type(eliminated_type), intent(inout), contiguous :: eliminated(:)
-        real(wp), dimension(2) :: phi, beta, delta, e, p, a, b, c, h, reciprocal, free, b_free, c_h, turn, shear, next
+        real(wp), dimension(2) :: phi, beta, delta, e, p, a, b, c, reciprocal, b_free, c_h, next, turn_here, load_here
+        real(wp), dimension(2) :: h, near, far, cross, sum_near, sum_far, bending, determinant, stiff, free, turn, load
+        real(wp), dimension(2) :: moment, deflection, moment_m, moment_w, deflection_m, deflection_w
         integer :: s
 
         phi = sweep%phi
@@ -133,52 +129,41 @@ contains
         e = sweep%e
         p = sweep%p
         do s = 1, size(cells)
-            associate (x => eliminated(s), cell => cells(s), row => rows(s))
+            associate (cell => cells(s), row => rows(s))
                 h = cell%inverse
+                near = cell%near
+                far = cell%far
+                cross = cell%cross
+                sum_near = cell%sum_near
+                sum_far = cell%sum_far
+                bending = cell%bending
+                determinant = cell%determinant
+                stiff = row%stiffness
                 free = row%free
-                a = phi + cell%near
-                b = beta + h
-                c = free*delta + row%stiffness
-                b_free = free*b
-                reciprocal = 1/(a*c + b_free*b)
-                turn = row%turn + e
-                shear = row%shear + free*p
-                c_h = c*h
-                x%moment = (b*shear - c*turn)*reciprocal
-                x%deflection = (b_free*turn + a*shear)*reciprocal
-                x%moment_m = (b_free*h - c*cell%cross)*reciprocal
-                x%moment_w = c_h*reciprocal
-                x%deflection_m = free*(b*cell%cross + a*h)*reciprocal
-                x%deflection_w = b_free*h*reciprocal
-                next = (free*((phi + cell%bending)*(h*h) + beta*(2*h*cell%sum_far + beta*cell%far)) &
-                        + c*(phi*cell%far + cell%determinant))*reciprocal
-                beta = (c_h*(phi + cell%sum_near) + b_free*h*beta)*reciprocal
-                phi = next
-                delta = c_h*h*reciprocal
-                e = h*x%deflection + cell%cross*x%moment
-                p = h*x%moment
+                turn = row%turn
+                load = row%shear
             end associate
+            include 'elimination/node_step.inc'
+            eliminated(s) = eliminated_type(moment, deflection, moment_m, moment_w, deflection_m, deflection_w)
         end do
         sweep = sweep_type(phi, beta, delta, e, p)
     end subroutine sweep_inward
 
     !> The node at which the lanes meet
-    pure subroutine meet(stiffness, free, turn, shear, sweep, m, w)
+    pure subroutine meet(stiff, free, turn, load, sweep, moment, deflection)
         !> Its rows, as in row_type
-        real(wp), intent(in) :: stiffness, free, turn, shear
+        real(wp), intent(in) :: stiff, free, turn, load
         type(sweep_type), intent(in) :: sweep
         !> Its moment and deflection
-        real(wp), intent(out) :: m, w
-        real(wp) :: a, b, c, r, v, reciprocal
+        real(wp), intent(out) :: moment, deflection
+        real(wp) :: phi, beta, delta, e, p, a, b, c, b_free, reciprocal, turn_here, load_here
 
-        a = sum(sweep%phi)
-        b = sum(sweep%beta)
-        c = free*sum(sweep%delta) + stiffness
-        reciprocal = 1/(a*c + free*b**2)
-        r = turn + sum(sweep%e)
-        v = shear + free*sum(sweep%p)
-        m = (b*v - c*r)*reciprocal
-        w = (free*b*r + a*v)*reciprocal
+        phi = sum(sweep%phi)
+        beta = sum(sweep%beta)
+        delta = sum(sweep%delta)
+        e = sum(sweep%e)
+        p = sum(sweep%p)
+        include 'elimination/node_meeting.inc'
     end subroutine meet
 
     !> Substitute from the node at which the lanes met to both ends

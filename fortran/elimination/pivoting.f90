@@ -5,6 +5,7 @@
 !> restraint has a third unknown, its second moment. Half bandwidth 3.
 module gapbeam_pivoting
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: pivot_hair
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained
     use gapbeam_band_solver, only: solve_band
@@ -67,8 +68,6 @@ contains
         logical, allocatable :: known(:)
         real(wp) :: multiplier, size_of_pivot
         integer :: n, unknowns, i, j, k
-        ! In place of a pivot that is zero only until the next unknowns are eliminated
-        real(wp), parameter :: hair = 2.0_wp**(-56)
 
         n = size(links)
         call number_unknowns(nodes, left, deflection, right, unknowns)
@@ -87,7 +86,7 @@ contains
                 if (.not. known(i)) size_of_pivot = max(size_of_pivot, abs(matrix(half_bandwidth + 1 + i - k, k)))
             end do
             associate (pivot => matrix(half_bandwidth + 1, k))
-                if (abs(pivot) <= hair*epsilon(pivot)*size_of_pivot) pivot = hair*size_of_pivot
+                if (abs(pivot) <= pivot_hair*epsilon(pivot)*size_of_pivot) pivot = pivot_hair*size_of_pivot
                 if (pivot < 0.0_wp) index = index + 1
                 do i = k + 1, min(unknowns, k + half_bandwidth)
                     if (known(i)) cycle

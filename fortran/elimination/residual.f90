@@ -1,10 +1,10 @@
 !> Residual of the mixed system in twice the working precision.
 !>
-!> Double-double arithmetic, a number as the unevaluated sum of two doubles, by error-free sums and products (Knuth 1969,
-!> Dekker 1971; Ogita, Rump and Oishi 2005). It relies on IEEE arithmetic without contraction and without reordering:
-!> never compile with -ffast-math. It stands here and not in a module of its own so that compilers inline it.
+!> Numbers are unevaluated sums of two doubles (double_double.inc), with differences of neighbouring deflections and moments
+!> formed first.
 module gapbeam_residual
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
@@ -12,16 +12,6 @@ module gapbeam_residual
     implicit none
     private
     public :: residual_chain, residual_inside, size_type
-
-    !> So many nodes at a time, in arrays that stay in the first-level cache
-    integer, parameter :: block = 64
-
-    !> high + low, high the nearest double
-    type :: double_double
-        real(wp) :: high = 0.0_wp
-        real(wp) :: low = 0.0_wp
-    end type double_double
-
 
     !> Sums of the absolute values of the terms of a node's rows. A difference of deflections or moments is one term: only
     !> the length that divides it can be off
@@ -32,7 +22,7 @@ module gapbeam_residual
 
     !> Rotation and shear at an end of a link, and the sizes of their terms
     type :: end_type
-        type(double_double) :: psi, shear
+        real(wp) :: psi = 0.0_wp, psi_low = 0.0_wp, shear = 0.0_wp, shear_low = 0.0_wp
         real(wp) :: size_of_psi = 0.0_wp, size_of_shear = 0.0_wp
     end type end_type
 
@@ -55,8 +45,7 @@ contains
         !> First and last node of interest, if not all are
         integer, intent(in), optional :: range(2)
         type(end_type) :: left, right, left_of_next
-        type(double_double) :: turn
-        real(wp) :: largest_turn, largest_shear
+        real(wp) :: turn, turn_low, high, low, largest_turn, largest_shear
         integer :: i, n, begin, finish
 
         n = size(links)
@@ -88,15 +77,27 @@ contains
                     end associate
                 end if
                 if (node%kind == restrained) then
-                    turn = plus(plus(double_double(a%moment_left, 0.0_wp), -a%moment_right), b%couple)
-                    turn = plus_product(double_double(node%compliance*turn%low, 0.0_wp), node%compliance, turn%high)
-                    if (i > 0) r%left = value_of(plus(plus(minus(turn, left%psi), b%left), 0.0_wp))
-                    if (i < n) r%right = value_of(plus(minus(right%psi, turn), b%right))
-                    s%left = left%size_of_psi + abs(turn%high) + abs(b%left)
-                    s%right = right%size_of_psi + abs(turn%high) + abs(b%right)
+                    call turn_of_restraint(node%compliance, a%moment_left, a%moment_right, b%couple, turn, turn_low)
+                    high = turn
+                    low = turn_low
+                    call subtract(high, low, left%psi, left%psi_low)
+                    call add(high, low, b%left)
+                    if (i > 0) r%left = high + low
+                    high = right%psi
+                    low = right%psi_low
+                    call subtract(high, low, turn, turn_low)
+                    call add(high, low, b%right)
+                    if (i < n) r%right = high + low
+                    s%left = left%size_of_psi + abs(turn) + abs(b%left)
+                    s%right = right%size_of_psi + abs(turn) + abs(b%right)
                     compatibility = max(compatibility, abs(r%left), abs(r%right))
                 else if (node%kind == plain .and. i > 0 .and. i < n) then
-                    r%right = value_of(plus(plus(minus(right%psi, left%psi), b%left), b%right))
+                    high = right%psi
+                    low = right%psi_low
+                    call subtract(high, low, left%psi, left%psi_low)
+                    call add(high, low, b%left)
+                    call add(high, low, b%right)
+                    r%right = high + low
                     s%right = left%size_of_psi + right%size_of_psi + abs(b%left) + abs(b%right)
                     compatibility = max(compatibility, abs(r%right))
                 end if
@@ -106,8 +107,12 @@ contains
                 if (node%held) then
                     r%deflection = b%deflection - a%deflection
                 else
-                    r%shear = value_of(plus_product(plus(minus(right%shear, left%shear), b%shear), &
-                                                    -node%stiffness, a%deflection))
+                    high = right%shear
+                    low = right%shear_low
+                    call subtract(high, low, left%shear, left%shear_low)
+                    call add(high, low, b%shear)
+                    call add_product(high, low, -node%stiffness, a%deflection)
+                    r%shear = high + low
                     equilibrium = max(equilibrium, abs(r%shear))
                 end if
             end associate
@@ -127,13 +132,13 @@ contains
         real(wp), intent(in), contiguous :: moment(0:), deflection(0:)
         !> Residuals of compatibility and of equilibrium, or of the known deflection, shape (0:n); those at the ends are not set
         real(wp), intent(inout), contiguous :: turn(0:), shear(0:)
-        real(wp), dimension(block + 1) :: length, faa, fab, fbb
-        real(wp), dimension(block) :: left, right, force, known, stiffness, held
+        real(wp), dimension(cache_block + 1) :: length, faa, fab, fbb
+        real(wp), dimension(cache_block) :: left, right, force, known, stiffness, held
         integer :: from, to, i, m
 
         if (checked) call require(all(nodes(1:size(links) - 1)%kind == plain), "residual_inside: nodes")
-        do from = 1, size(links) - 1, block
-            to = min(from + block - 1, size(links) - 1)
+        do from = 1, size(links) - 1, cache_block
+            to = min(from + cache_block - 1, size(links) - 1)
             m = to - from + 1
             do i = from, to + 1
                 length(i - from + 1) = links(i)%length
@@ -154,55 +159,23 @@ contains
         end do
     end subroutine residual_inside
 
-    !> Residuals of m nodes, with the links to both sides
-    pure subroutine residual_of_block(m, length, faa, fab, fbb, left, right, force, known, stiffness, held, moment, deflection, &
-                                      turn, shear)
-        integer, intent(in) :: m
-        real(wp), intent(in) :: length(m + 1), faa(m + 1), fab(m + 1), fbb(m + 1), left(m), right(m), force(m), known(m), &
-            stiffness(m), held(m), moment(0:m + 1), deflection(0:m + 1)
-        real(wp), intent(out) :: turn(m), shear(m)
-        real(wp), dimension(block + 1) :: a_high, a_low, b_high, b_low, v_high, v_low
-        type(double_double) :: slope, a, b, v
-        real(wp) :: by_force, by_deflection
-        integer :: i
-
-        do i = 1, m + 1
-            slope = divided(plus(double_double(deflection(i), 0.0_wp), -deflection(i - 1)), length(i))
-            a = plus_product(plus_product(slope, faa(i), moment(i - 1)), fab(i), moment(i))
-            b = plus_product(plus_product(slope, -fab(i), moment(i - 1)), -fbb(i), moment(i))
-            v = divided(plus(double_double(moment(i), 0.0_wp), -moment(i - 1)), length(i))
-            a_high(i) = a%high
-            a_low(i) = a%low
-            b_high(i) = b%high
-            b_low(i) = b%low
-            v_high(i) = v%high
-            v_low(i) = v%low
-        end do
-        do i = 1, m
-            a = double_double(a_high(i + 1), a_low(i + 1))
-            b = double_double(b_high(i), b_low(i))
-            turn(i) = value_of(plus(plus(minus(a, b), left(i)), right(i)))
-            a = double_double(v_high(i + 1), v_low(i + 1))
-            b = double_double(v_high(i), v_low(i))
-            by_force = value_of(plus_product(plus(minus(a, b), force(i)), -stiffness(i), deflection(i)))
-            by_deflection = known(i) - deflection(i)
-            shear(i) = by_force*(1 - held(i)) + by_deflection*held(i)
-        end do
-    end subroutine residual_of_block
-
     !> Rotations and shear at the two ends of a link
     pure subroutine ends_of_link(link, a, b, end_a, end_b)
         type(link_type), intent(in) :: link
         type(answer_type), intent(in) :: a, b
         type(end_type), intent(out) :: end_a, end_b
-        type(double_double) :: turn
         real(wp) :: size_of_turn
 
-        turn = divided(plus(double_double(b%deflection, 0.0_wp), -a%deflection), link%length)
-        end_a%psi = plus_product(plus_product(turn, link%faa, a%moment_right), link%fab, b%moment_left)
-        end_b%psi = plus_product(plus_product(turn, -link%fab, a%moment_right), -link%fbb, b%moment_left)
-        end_a%shear = divided(plus(double_double(b%moment_left, 0.0_wp), -a%moment_right), link%length)
+        call divide_difference(b%deflection, a%deflection, link%length, end_a%psi, end_a%psi_low)
+        end_b%psi = end_a%psi
+        end_b%psi_low = end_a%psi_low
+        call add_product(end_a%psi, end_a%psi_low, link%faa, a%moment_right)
+        call add_product(end_a%psi, end_a%psi_low, link%fab, b%moment_left)
+        call add_product(end_b%psi, end_b%psi_low, -link%fab, a%moment_right)
+        call add_product(end_b%psi, end_b%psi_low, -link%fbb, b%moment_left)
+        call divide_difference(b%moment_left, a%moment_right, link%length, end_a%shear, end_a%shear_low)
         end_b%shear = end_a%shear
+        end_b%shear_low = end_a%shear_low
         size_of_turn = difference_size(b%deflection, a%deflection)/link%length
         end_a%size_of_psi = size_of_turn + link%faa*abs(a%moment_right) + abs(link%fab*b%moment_left)
         end_b%size_of_psi = size_of_turn + abs(link%fab*a%moment_right) + link%fbb*abs(b%moment_left)
@@ -218,62 +191,8 @@ contains
         total = abs(x - y) + epsilon(x)*(abs(x) + abs(y))
     end function difference_size
 
-    !> x + y with a double y; the low part collects the rounding errors and is not normalized
-    elemental function plus(x, y) result(z)
-        type(double_double), intent(in) :: x
-        real(wp), intent(in) :: y
-        type(double_double) :: z
-        real(wp) :: t
-
-        z%high = x%high + y
-        t = z%high - x%high
-        z%low = x%low + ((x%high - (z%high - t)) + (y - t))
-    end function plus
-
-    !> x + a b with doubles a and b
-    elemental function plus_product(x, a, b) result(z)
-        type(double_double), intent(in) :: x
-        real(wp), intent(in) :: a, b
-        type(double_double) :: z
-        real(wp) :: p, a1, a2, b1, b2
-
-        p = a*b
-        a1 = splitter*a
-        a1 = a1 - (a1 - a)
-        a2 = a - a1
-        b1 = splitter*b
-        b1 = b1 - (b1 - b)
-        b2 = b - b1
-        z = plus(x, p)
-        z%low = z%low + (((a1*b1 - p) + a1*b2 + a2*b1) + a2*b2)
-    end function plus_product
-
-    !> x/y with a double y
-    elemental function divided(x, y) result(z)
-        type(double_double), intent(in) :: x
-        real(wp), intent(in) :: y
-        type(double_double) :: z, rest
-        real(wp) :: q
-
-        q = x%high/y
-        rest = plus_product(x, -q, y)
-        z = double_double(q, (rest%high + rest%low)/y)
-    end function divided
-
-    !> The nearest double
-    elemental function value_of(x) result(value)
-        type(double_double), intent(in) :: x
-        real(wp) :: value
-
-        value = x%high + x%low
-    end function value_of
-
-    !> x - y
-    elemental function minus(x, y) result(z)
-        type(double_double), intent(in) :: x, y
-        type(double_double) :: z
-
-        z = plus(plus(x, -y%high), -y%low)
-    end function minus
+    include 'elimination/turn_of_restraint.inc'
+    include 'elimination/residual_along.inc'
+    include 'elimination/double_double.inc'
 
 end module gapbeam_residual

@@ -2,6 +2,7 @@
 module gapbeam_api_cases
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: case_batch
     use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_stopped
@@ -14,6 +15,7 @@ module gapbeam_api_cases
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
     use gapbeam_cases, only: case_loads_type, split_loads
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
     use gapbeam_query, only: node_places
     use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, &
@@ -21,9 +23,6 @@ module gapbeam_api_cases
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
-
-    !> Cases that are solved in one go, so that what they need stays in the cache
-    integer, parameter :: most = 256
 
     !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
     type :: cases_type
@@ -59,9 +58,9 @@ contains
             end if
             n = size(lowered%node_point)
             m = size(lowered%beam%supports)
-            allocate (cases%start(m), cases%closed(m, most), cases%solves(most), cases%w(n, most), cases%ml(n, most), &
-                      cases%mr(n, most), cases%reaction(m, most), cases%values(3, size(lowered%model%supports), most), &
-                      cases%loads, stat=stat)
+            allocate (cases%start(m), cases%closed(m, case_batch), cases%solves(case_batch), cases%w(n, case_batch), &
+                      cases%ml(n, case_batch), cases%mr(n, case_batch), cases%reaction(m, case_batch), &
+                      cases%values(3, size(lowered%model%supports), case_batch), cases%loads, stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -84,9 +83,9 @@ contains
                            deflection, moment_left, moment_right, solves)
         !> Prepared; by prepare_cases from it
         type(prepared_type), intent(in) :: beam
-        type(cases_type), intent(inout) :: cases
+        type(cases_type), intent(inout), target :: cases
         !> Factor of every load, shape (nload, ncase)
-        real(wp), intent(in) :: factors(:, :)
+        real(wp), intent(in), contiguous, target :: factors(:, :)
         !> gapbeam_solved, gapbeam_no_equilibrium, or the code of the error that solve_beam would give, shape (ncase)
         integer, intent(out) :: status(:)
         !> gapbeam_bad_input: nothing is solved; also where supports vary that have laws.
@@ -107,9 +106,11 @@ contains
         integer, intent(out), optional :: solves(:)
         type(environment_type) :: environment
         type(options_type) :: chosen
-        integer, allocatable :: codes(:)
-        real(wp) :: own_spans(2, 0, 0)
-        integer :: supports, nodes, first, last, given, n, i, stat
+        type(case_numbers_type) :: numbers
+        type(case_solutions_type) :: solutions
+        integer, allocatable, target :: codes(:)
+        integer :: supports, nodes, first, last, n, i, stat
+        logical :: given
 
         call require_beam(beam, error)
         if (allocated(error)) return
@@ -120,8 +121,8 @@ contains
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
         supports = size(beam%lowered%model%supports)
         nodes = size(beam%lowered%node_point)
-        given = merge(supports, 0, present(settlement) .or. present(gap) .or. present(stiffness))
-        if (given > 0) call require_own_supports(beam%lowered, error)
+        given = present(settlement) .or. present(gap) .or. present(stiffness)
+        if (given) call require_own_supports(beam%lowered, error)
         if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
         if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
         if (present(stiffness)) call check_values(beam%lowered, size(status), stiffness, "stiffness", error)
@@ -131,13 +132,13 @@ contains
         if (present(moment_right)) call check_shape([nodes, size(status)], shape(moment_right), error)
         if (present(condition)) call check_shape([supports, size(status)], shape(condition), error)
         if (present(solves)) call check_shape([size(status)], shape(solves), error)
-        allocate (codes(min(most, size(status))), stat=stat)
+        allocate (codes(min(case_batch, size(status))), stat=stat)
         if (stat /= 0 .and. .not. allocated(error)) call no_memory(error)
-        do first = 1, size(status), most
+        do first = 1, size(status), case_batch
             if (allocated(error)) exit
-            last = min(first + most - 1, size(status))
+            last = min(first + case_batch - 1, size(status))
             n = last - first + 1
-            do i = 1, merge(n, 0, given > 0)
+            do i = 1, merge(n, 0, given)
                 associate (own => beam%lowered%model%supports, values => cases%values(:, :, i), c => first + i - 1)
                     values(1, :) = own%settlement
                     values(2, :) = own%gap
@@ -148,12 +149,17 @@ contains
                 end associate
             end do
             cases%closed(:, :n) = spread(cases%start, 2, n)
-            call solve_in_room(beam%lowered, cases%loads, factors(:, first:last), cases%values(:, :given, :n), own_spans, &
-                               chosen%rule, cases%room, cases%closed(:, :n), &
-                               cases%w(:merge(cases%nodes, 0, present(deflection)), :n), &
-                               cases%ml(:merge(cases%nodes, 0, present(moment_left)), :n), &
-                               cases%mr(:merge(cases%nodes, 0, present(moment_right)), :n), &
-                               cases%reaction(:merge(cases%supports, 0, present(reaction)), :n), cases%solves(:n), codes(:n))
+            numbers%factors => factors(:, first:last)
+            numbers%rule = chosen%rule
+            if (given) numbers%supports => cases%values(:, :, :n)
+            solutions%closed => cases%closed(:, :n)
+            if (present(deflection)) solutions%w => cases%w(:, :n)
+            if (present(moment_left)) solutions%ml => cases%ml(:, :n)
+            if (present(moment_right)) solutions%mr => cases%mr(:, :n)
+            if (present(reaction)) solutions%reaction => cases%reaction(:, :n)
+            solutions%solves => cases%solves(:n)
+            solutions%status => codes(:n)
+            call solve_in_room(beam%lowered, cases%loads, numbers, cases%room, solutions)
             if (codes(1) == gapbeam_no_memory) call no_memory(error)
             if (codes(1) == gapbeam_stopped) call end_if_stopped(beam%lowered%beam%watch, error)
             if (allocated(error)) exit

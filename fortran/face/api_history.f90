@@ -3,6 +3,7 @@
 module gapbeam_api_history
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_path_segments
     use gapbeam_environment, only: environment_type, hold_environment, restore_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
     use gapbeam_extended_precision, only: rule_given
@@ -23,9 +24,6 @@ module gapbeam_api_history
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
     public :: gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow
     public :: gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
-
-    !> Stretches after which a path is cut off; without plastic and broken supports there are finitely many
-    integer, parameter :: most_stretches = 20000
 
     !> A stretch of a path on which all supports stay on their piece
     type :: stretch_type
@@ -106,7 +104,7 @@ contains
             if (stat /= 0) call no_memory(error)
         end if
         if (.not. allocated(error)) then
-            call follow_path_through(beam%lowered, factors, at_limit, most_stretches, history%path, error)
+            call follow_path_through(beam%lowered, factors, at_limit, most_path_segments, history%path, error)
             call name_range(beam%lowered, error)
         end if
         if (.not. allocated(error)) then

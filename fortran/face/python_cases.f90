@@ -44,7 +44,8 @@ end subroutine gbleav
 subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor, supp, span, rule, closed, w, ml, mr, react, &
                   solves, status)
     use gapbeam_beam_handle, only: handle_type, handle_of, room_of
-    use gapbeam_many_cases, only: case_room_type, solve_cases
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
+    use gapbeam_many_cases, only: solve_cases
     implicit none
     ! The beam, and room of its own (GBROOM)
     integer(8), intent(in) :: beam, room
@@ -60,15 +61,14 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     integer, intent(in) :: nw, nl, nr, nt
     ! Factor of every load in every case; settlement, gap and stiffness of every support, of supports without laws; EI and GA of
     ! every span
-    double precision, intent(in) :: factor(nd, nc), span(2, np, pc)
-    double precision, intent(in), target :: supp(3, nv, vc)
+    double precision, intent(in), target :: factor(nd, nc), span(2, np, pc), supp(3, nv, vc)
     integer, intent(in) :: rule
     ! Schemes: start in, contact state out; of a case that is not solved all open, and its results are not numbers
-    integer, intent(inout) :: closed(ns, nc)
+    integer, intent(inout), target :: closed(ns, nc)
     ! In the scene's units: deflections and moments left and right of the nodes, reactions
     double precision, intent(inout), target :: w(nw, nc), ml(nl, nc), mr(nr, nc), react(nt, nc)
     ! Where memory ends all STATUS say so
-    integer, intent(inout) :: solves(nc), status(nc)
+    integer, intent(inout), target :: solves(nc), status(nc)
     !f2py threadsafe
     !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
     !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
@@ -82,37 +82,35 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     !f2py integer, intent(hide), depend(mr) :: nr = shape(mr, 0)
     !f2py integer, intent(hide), depend(react) :: nt = shape(react, 0)
     type(handle_type), pointer :: handle
-    type(case_room_type), pointer :: kept
-    double precision, target :: not_wanted(0, nc), own(3, 0, vc)
-    double precision, pointer, contiguous :: w_wanted(:, :), ml_wanted(:, :), mr_wanted(:, :), reactions(:, :), values(:, :, :)
+    type(case_numbers_type) :: numbers
+    type(case_solutions_type) :: solutions
 
     handle => handle_of(beam)
-    kept => room_of(room)
-    ! By pointers, as sections would be copied
-    w_wanted => not_wanted
-    ml_wanted => not_wanted
-    mr_wanted => not_wanted
-    reactions => not_wanted
-    values => own
-    if (nw > 1) w_wanted => w
-    if (nl > 1) ml_wanted => ml
-    if (nr > 1) mr_wanted => mr
-    if (nt > 1) reactions => react
-    if (nv > 1) values => supp
-    call solve_cases(handle%lowered, handle%cases, factor, values, span(:, :np - 1, :), rule, kept, closed, w_wanted, ml_wanted, &
-                     mr_wanted, reactions, solves, status)
+    numbers%factors => factor
+    numbers%rule = rule
+    if (nv > 1) numbers%supports => supp
+    if (np > 1) numbers%spans => span
+    solutions%closed => closed
+    if (nw > 1) solutions%w => w
+    if (nl > 1) solutions%ml => ml
+    if (nr > 1) solutions%mr => mr
+    if (nt > 1) solutions%reaction => react
+    solutions%solves => solves
+    solutions%status => status
+    call solve_cases(handle%lowered, handle%cases, numbers, room_of(room), solutions)
 end subroutine gbcase
 
 ! Solve one case of a beam with loads, every search from all supports closed, at the least cost of a call
 subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     use gapbeam_error, only: gapbeam_no_memory
     use gapbeam_beam_handle, only: handle_type, handle_of, room_of
-    use gapbeam_many_cases, only: case_room_type, solve_cases
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
+    use gapbeam_many_cases, only: solve_cases
     implicit none
     ! As for GBCASE
     integer(8), intent(in) :: beam, room
     integer, intent(in) :: nd, nv, nb
-    double precision, intent(in) :: factor(nd), supp(3, nv)
+    double precision, intent(in), target :: factor(nd), supp(3, nv)
     integer, intent(in) :: rule
     ! STATUS and solves; deflections; moments left and right; reactions; scheme; the factors again
     double precision, intent(inout), target :: block(nb)
@@ -123,30 +121,33 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
     !f2py integer, intent(hide), depend(block) :: nb = shape(block, 0)
     type(handle_type), pointer :: handle
-    type(case_room_type), pointer :: kept
-    double precision, pointer, contiguous :: w(:, :), ml(:, :), mr(:, :), react(:, :)
-    integer, allocatable :: closed(:, :)
-    double precision :: factors(nd, 1), values(3, nv - 1, 1), spans(2, 0, 1)
-    integer :: n, m, at, stat, solves(1), found(1)
+    type(case_numbers_type) :: numbers
+    type(case_solutions_type) :: solutions
+    integer, target :: solves(1), found(1)
+    integer, allocatable, target :: closed(:, :)
+    integer :: n, m, at, stat
 
     status = -1
     if (.not. all(abs(factor) <= huge(1.0d0))) return
     handle => handle_of(beam)
-    kept => room_of(room)
     n = size(handle%lowered%beam%links) + 1
     m = size(handle%lowered%beam%supports)
     at = 3*n + 2
-    w(1:n, 1:1) => block(3:n + 2)
-    ml(1:n, 1:1) => block(n + 3:2*n + 2)
-    mr(1:n, 1:1) => block(2*n + 3:at)
-    react(1:m, 1:1) => block(at + 1:at + m)
-    factors(:, 1) = factor
-    values(:, :, 1) = supp(:, :nv - 1)
     status = gapbeam_no_memory
     allocate (closed(m, 1), stat=stat)
     if (stat /= 0) return
     closed(:, :) = 1
-    call solve_cases(handle%lowered, handle%cases, factors, values, spans, rule, kept, closed, w, ml, mr, react, solves, found)
+    numbers%factors(1:nd, 1:1) => factor
+    numbers%rule = rule
+    if (nv > 1) numbers%supports(1:3, 1:nv, 1:1) => supp
+    solutions%closed => closed
+    solutions%w(1:n, 1:1) => block(3:n + 2)
+    solutions%ml(1:n, 1:1) => block(n + 3:2*n + 2)
+    solutions%mr(1:n, 1:1) => block(2*n + 3:at)
+    solutions%reaction(1:m, 1:1) => block(at + 1:at + m)
+    solutions%solves => solves
+    solutions%status => found
+    call solve_cases(handle%lowered, handle%cases, numbers, room_of(room), solutions)
     status = found(1)
     block(1) = status
     block(2) = solves(1)

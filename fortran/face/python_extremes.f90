@@ -6,29 +6,30 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, 
                   dist, field, status, there)
     use gapbeam_beam_handle, only: handle_type, handle_of
     use gapbeam_lane_spans, only: fits_spans
-    use gapbeam_case_extremes, only: has_lane_extremes, extremes_of_cases
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
+    use gapbeam_case_extremes, only: case_fields_type, has_lane_extremes, extremes_of_cases
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nl, ns, nd, nv, np, nc, pc, nx
     ! Quantities of bending (fortran/beam/quantities.f90)
     integer, intent(in) :: nb
     ! As for GBCASE
-    double precision, intent(in) :: factor(nd, nc), supp(3, nv, nc), span(2, np, pc)
+    double precision, intent(in), target :: factor(nd, nc), supp(3, nv, nc), span(2, np, pc)
     integer, intent(in) :: rule
     ! By GBCASE
-    integer, intent(in) :: closed(ns + 1, nc)
-    double precision, intent(in) :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc)
+    integer, intent(in), target :: closed(ns + 1, nc)
+    double precision, intent(in), target :: w(0:nl, nc), ml(0:nl, nc), mr(0:nl, nc)
     ! 1 for those quantities that are asked for
     integer, intent(in) :: want(nb)
     ! Maximum and minimum of those, and where they are, in the scene's units; the others as they were, as are all of a case that is
     ! not solved
-    double precision, intent(inout) :: extr(2, nb, nc), place(2, nb, nc)
+    double precision, intent(inout), target :: extr(2, nb, nc), place(2, nb, nc)
     ! Places, as for GBVALU, and the fields there
     integer, intent(in) :: piece(nx)
     double precision, intent(in) :: dist(nx)
-    double precision, intent(inout) :: field(nb, nx, nc)
+    double precision, intent(inout), target :: field(nb, nx, nc)
     ! By GBCASE in; out otherwise where a case has no extremes. Where memory ends some say so
-    integer, intent(inout) :: status(nc)
+    integer, intent(inout), target :: status(nc)
     ! 0: not for such a beam, and nothing is done
     integer, intent(out) :: there
     !f2py threadsafe
@@ -42,6 +43,9 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, 
     !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle
+    type(case_numbers_type) :: numbers
+    type(case_solutions_type) :: solutions
+    type(case_fields_type) :: found
 
     handle => handle_of(beam)
     there = merge(1, 0, allocated(handle%cases))
@@ -51,6 +55,17 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, 
         if (.not. fits_spans(handle%lowered, handle%cases)) there = 0
     end if
     if (there == 0 .or. nc == 0) return
-    call extremes_of_cases(handle%lowered, handle%cases, factor(:nd - 1, :), supp(:, :nv - 1, :), span(:, :np - 1, :), rule, &
-                           closed, w, ml, mr, want /= 0, extr, place, piece(:nx - 1), dist(:nx - 1), field(:, :nx - 1, :), status)
+    numbers%factors => factor
+    numbers%rule = rule
+    if (nv > 1) numbers%supports => supp
+    if (np > 1) numbers%spans => span
+    solutions%closed => closed
+    solutions%w => w
+    solutions%ml => ml
+    solutions%mr => mr
+    solutions%status => status
+    found%extremes => extr
+    found%places => place
+    found%fields => field
+    call extremes_of_cases(handle%lowered, handle%cases, numbers, solutions, want /= 0, piece(:nx - 1), dist(:nx - 1), found)
 end subroutine gbcext

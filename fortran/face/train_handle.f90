@@ -94,7 +94,7 @@ contains
     !> Extremes as arrays
     pure subroutine pack_extremes(extremes, values, sides, ties)
         type(extreme_type), intent(in) :: extremes(:, :)
-        !> Value, x, position, shape (3, most_ties, 2, 4); side (tie_type), shape (most_ties, 2, 4)
+        !> Value, x, position, shape (3, most_extreme_ties, 2, 4); side (tie_type), shape (most_extreme_ties, 2, 4)
         real(wp), intent(inout) :: values(:, :, :, :)
         integer, intent(inout) :: sides(:, :, :)
         !> How many there are, shape (2, 4)

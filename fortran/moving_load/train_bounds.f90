@@ -10,7 +10,8 @@
 !> passes an end of the beam.
 module gapbeam_train_bounds
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_slack
+    use gapbeam_limits, only: most_halves
+    use gapbeam_path_tolerances, only: train_slack, longest_way, far_below
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_nodes, only: hinge
@@ -25,16 +26,7 @@ module gapbeam_train_bounds
         mark_stretches
     implicit none
     private
-    public :: bounds_type, find_bounds, most_lost
-
-    !> Share by which they are off at most, where they are to be trusted
-    real(wp), parameter :: most_lost = 2.0_wp**(-34)
-    !> The longest way without a look, as a share of a link
-    real(wp), parameter :: longest_way = 1.0_wp/14
-    !> Values below this share of the largest are not looked at closely
-    real(wp), parameter :: far_below = 0.5_wp
-    !> Where an extreme value may be, stretches are halved up to so many times
-    integer, parameter :: most_halves = 5
+    public :: bounds_type, find_bounds
 
     !> A link on stretches in a row
     type :: part_type

@@ -1,7 +1,7 @@
 !> Candidates for extreme values: parts of a train's way that bounds do not rule out.
 module gapbeam_train_candidates
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_equal
+    use gapbeam_path_tolerances, only: train_equal
     use gapbeam_patch, only: patch_type
     use gapbeam_train_cells, only: cell_type
     implicit none

@@ -5,7 +5,8 @@
 !> left is looked into (gapbeam_bernstein).
 module gapbeam_train_envelope
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_slack, train_equal
+    use gapbeam_limits, only: bound_trials
+    use gapbeam_path_tolerances, only: train_slack, train_equal, most_lost, lebesgue
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
@@ -18,8 +19,8 @@ module gapbeam_train_envelope
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_traversal, only: traversal_type
-    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, along_cell, bound_fields, &
-        degree_along, lebesgue
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, &
+        bound_fields, degree_along
     use gapbeam_train_columns, only: set_scheme
     use gapbeam_train_link_bounds, only: link_bounds_type, enter_stretch, bound_link
     use gapbeam_train_support_bounds, only: watch_scheme
@@ -27,15 +28,13 @@ module gapbeam_train_envelope
     use gapbeam_train_prescribed_deflections, only: keep_prescribed_extreme
     use gapbeam_train_ties, only: extreme_type, drop_rounding
     use gapbeam_train_extremes, only: find_extreme, ends_of
-    use gapbeam_train_bounds, only: bounds_type, find_bounds, most_lost
+    use gapbeam_train_bounds, only: bounds_type, find_bounds
     implicit none
     private
     public :: envelope_type, find_envelope
 
     !> Values of a support: reaction, opening, deflection, couple
     integer, parameter :: at_support = 4
-    !> Stretches on which it is tried whether bounds are to be trusted
-    integer, parameter :: trials = 8
 
     !> Largest (1) and smallest (2) values in the user's units; none where no stretch is solved
     type :: envelope_type
@@ -65,7 +64,7 @@ contains
         integer :: powers(bending_count), c, f, i, k, last, m, n, sampled, stat
 
         m = size(assembled%model%supports)
-        call new_samples(assembled, track, train, samples, error)
+        call new_samples(assembled, track, train, degree_in_position(train), samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, bending_count), of_supports(2, at_support, m), envelope%supports(2, at_support, m), &
@@ -167,7 +166,7 @@ contains
             integer :: apart, field, way
 
             told = .true.
-            apart = max(traversal%number/trials, 32)
+            apart = max(traversal%number/bound_trials, 32)
             do k = apart, traversal%number, apart
                 if (traversal%status(k) == gapbeam_solved) call try_stretch()
                 if (allocated(error) .or. .not. told) return

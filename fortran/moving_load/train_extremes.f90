@@ -1,7 +1,7 @@
 !> Largest value among candidates while a train goes over a beam, exact in place and position.
 module gapbeam_train_extremes
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_equal
+    use gapbeam_path_tolerances, only: train_equal, train_rounding
     use gapbeam_bernstein, only: value_of
     use gapbeam_patch, only: greatest_on_patch
     use gapbeam_assembled_model, only: assembled_type
@@ -17,8 +17,6 @@ module gapbeam_train_extremes
 
     !> How far inside a stretch that does not hold at its first or last position, in least distances
     real(wp), parameter :: inside(0:2) = [0.0_wp, 2.0_wp, -2.0_wp]
-    !> What values that are the same differ by, as a share of the largest
-    real(wp), parameter :: rounding = 2.0_wp**(-46)
 
 contains
 
@@ -69,7 +67,7 @@ contains
                 if (candidates%number == 0) return
                 if (candidates%list(next)%cell%piece == 0) cycle
                 if (.not. any(found(1, :next - 1) >= best - train_equal*candidates%largest .and. &
-                              found(1, :next - 1) < found(1, next) - rounding*candidates%largest)) cycle
+                              found(1, :next - 1) < found(1, next) - train_rounding*candidates%largest)) cycle
                 q = next
             end if
             if (found(1, q) < best - train_equal*candidates%largest) cycle

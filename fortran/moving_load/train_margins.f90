@@ -3,6 +3,7 @@
 !> the same of the work of the loads along a free motion
 module gapbeam_train_margins
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: least_train_share
     use gapbeam_bernstein, only: sample_points, to_coefficients, halve, first_below, crossing, highest_degree
     use gapbeam_band, only: band_ok
     use gapbeam_law_margins, only: find_margins
@@ -15,10 +16,7 @@ module gapbeam_train_margins
     use gapbeam_train_loads, only: place_train
     implicit none
     private
-    public :: margins_type, sample_margins, sample_work, find_interval, are_zero, least_share
-
-    !> The nearest place at which a scheme is looked for, as a share of what is left of the interval
-    real(wp), parameter :: least_share = 2.0_wp**(-42)
+    public :: margins_type, sample_margins, sample_work, find_interval, are_zero
 
     !> Reactions and openings over a stretch, or work along a motion: all are right where none is below its rounding error
     type :: margins_type
@@ -131,7 +129,7 @@ contains
         end do
         at_end(:) = .false.
         do k = 1, min(margins%count, size(at_end))
-            at_end(k) = zeros(k) <= end + least_share .and. margins%count == size(at_end)
+            at_end(k) = zeros(k) <= end + least_train_share .and. margins%count == size(at_end)
         end do
     end subroutine find_interval
 

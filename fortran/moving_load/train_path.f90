@@ -11,6 +11,8 @@
 !> on, the share grows, so that every interval comes to an end.
 module gapbeam_train_path
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_train_changes, most_of_each
+    use gapbeam_path_tolerances, only: first_train_share, most_train_share, sliver, least_train_share
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged
@@ -29,18 +31,10 @@ module gapbeam_train_path
     use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_traversal, only: traversal_type, not_unique, keep_motion, lengthen
-    use gapbeam_train_margins, only: margins_type, sample_margins, sample_work, find_interval, are_zero, least_share
+    use gapbeam_train_margins, only: margins_type, sample_margins, sample_work, find_interval, are_zero
     implicit none
     private
     public :: pass_train
-
-    !> Where the scheme is looked for first, as a share of what is left of the interval; the largest share that is left out where
-    !> nothing else leads on
-    real(wp), parameter :: first_share = 2.0_wp**(-20), largest_share = 2.0_wp**(-24)
-    !> What is a sliver of an interval
-    real(wp), parameter :: sliver = 2.0_wp**(-16)
-    !> Changes of the scheme in an interval at most: so many, and so many a support
-    integer, parameter :: most_changes = 200, most_of_each = 20
 
 contains
 
@@ -130,7 +124,7 @@ contains
         now = interval%from
         changed = 0
         searches = 0
-        skipped = least_share
+        skipped = least_train_share
         do
             if (known .and. .not. changes) then
                 call accept(gapbeam_solved, 1.0_wp)
@@ -144,7 +138,7 @@ contains
                     if (allocated(error) .or. now >= interval%to) return
                     closed(:) = closed .neqv. at_end
                     changed = changed + 1
-                    if (changed <= most_changes + most_of_each*size(closed)) cycle
+                    if (changed <= most_train_changes + most_of_each*size(closed)) cycle
                     call too_near(now)
                     return
                 end if
@@ -155,7 +149,7 @@ contains
             call search_further(skipped)
             if (allocated(error) .or. now >= interval%to) return
             searches = searches + 1
-            if (searches > most_changes + most_of_each*size(closed)) call too_near(now)
+            if (searches > most_train_changes + most_of_each*size(closed)) call too_near(now)
             if (allocated(error)) return
         end do
 
@@ -167,7 +161,7 @@ contains
             real(wp) :: share
 
             share = 0.0_wp
-            if (interval%to > now) share = min(0.25_wp, max(least_share, least_distance(track, train)/(interval%to - now)))
+            if (interval%to > now) share = min(0.25_wp, max(least_train_share, least_distance(track, train)/(interval%to - now)))
         end function resolution
 
         !> Give up
@@ -242,7 +236,7 @@ contains
                 call accept(not_unique, 1.0_wp)
                 return
             end if
-            share = merge(first_share, 0.0_wp, interval%to > interval%from)
+            share = merge(first_train_share, 0.0_wp, interval%to > interval%from)
             closely = .false.
             do
                 place = now + share*(interval%to - now)
@@ -288,7 +282,7 @@ contains
                 if (.not. interval%to > interval%from) exit
                 if (right .and. begin <= least) exit
                 if (share <= least) then
-                    if (least > max(largest_share, 64*resolution())) then
+                    if (least > max(most_train_share, 64*resolution())) then
                         call too_near(place)
                         return
                     end if
@@ -342,7 +336,7 @@ contains
             stays = .true.
             do k = 3, 1, -1
                 closed(:) = start
-                call place_train(track, train, interval, now + share*(k/3.0_wp - first_share)*(interval%to - now))
+                call place_train(track, train, interval, now + share*(k/3.0_wp - first_train_share)*(interval%to - now))
                 call set_loads(track%beam, 1.0_wp, work)
                 if (status == not_unique) then
                     call find_contact_state(track%beam, 1.0_wp, rule_block, closed, work, outcome, error)

@@ -5,6 +5,7 @@
 !> with a uniform load.
 module gapbeam_train_samples
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: lebesgue
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
@@ -28,12 +29,8 @@ module gapbeam_train_samples
     use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
-    public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, bound_fields, &
-        degree_along, lebesgue
-
-    !> No polynomial of these degrees leaves its samples by more than this times what they differ by (the Lebesgue constant of the
-    !> sample points is 2.2 at most)
-    real(wp), parameter :: lebesgue = 2.5_wp
+    public :: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, powers_along, &
+        bound_fields, degree_along
 
     !> What is sampled of a stretch
     type :: samples_type
@@ -64,21 +61,22 @@ contains
     end function degree_in_position
 
     !> Room for samples
-    subroutine new_samples(assembled, track, train, samples, error)
+    subroutine new_samples(assembled, track, train, degree, samples, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
         type(train_type), intent(in) :: train
+        !> Of what is made of the samples, in the position
+        integer, intent(in) :: degree
         type(samples_type), intent(out) :: samples
         !> No memory, or as for solve_along_axis
         type(error_type), allocatable, intent(out) :: error
-        integer :: most, d, stat
+        integer :: most, stat
 
-        d = degree_in_position(train)
-        samples%degree = d
+        samples%degree = degree
         most = size(track%link) + size(train%offset) + 2*size(train%uniform)
         call new_cells(track, train, samples%cells, stat)
-        if (stat == 0) allocate (samples%position(0:d), samples%starts(0:d, most), samples%pieces(0:d, most), &
-                                 samples%loads(0:d, most), samples%supports(0:degree_of(train), 4, &
+        if (stat == 0) allocate (samples%position(0:degree), samples%starts(0:degree, most), samples%pieces(0:degree, most), &
+                                 samples%loads(0:degree, most), samples%supports(0:degree_of(train), 4, &
                                                                             size(assembled%model%supports)), &
                                  stat=stat)
         if (stat /= 0) then
@@ -257,19 +255,10 @@ contains
         type(piece_load_type), intent(in) :: q
         !> Shape (0:degree)
         real(wp), intent(out) :: b(0:)
-        real(wp) :: c(0:most_along), share(state_count + 1, derived_count), weight
+        real(wp) :: c(0:most_along), weight
         integer :: i, k
 
-        if (quantity <= state_count) then
-            c(:) = powers_along(quantity, a, p, q)
-        else
-            share(:, :) = shares_of(softness_of(p))
-            c(:) = 0.0_wp
-            c(0) = share(state_count + 1, quantity - state_count)*q%kappa
-            do k = 1, state_count
-                c(:) = c + share(k, quantity - state_count)*powers_along(k, a, p, q)
-            end do
-        end if
+        c(:) = powers_along(quantity, a, p, q)
         do i = 0, degree
             b(i) = 0.0_wp
             weight = 1.0_wp
@@ -280,8 +269,31 @@ contains
         end do
     end subroutine along_cell
 
-    !> Coefficients of deflection (1), rotation, moment or shear (4) along a cell, of powers of the share of its length
-    pure function powers_along(field, a, p, q) result(c)
+    !> Coefficients of a quantity of bending along a cell, of powers of the share of its length
+    pure function powers_along(quantity, a, p, q) result(c)
+        integer, intent(in) :: quantity
+        !> As for along_cell
+        type(field_type), intent(in) :: a
+        type(piece_type), intent(in) :: p
+        type(piece_load_type), intent(in) :: q
+        real(wp) :: c(0:most_along)
+        real(wp) :: share(state_count + 1, derived_count)
+        integer :: k
+
+        if (quantity <= state_count) then
+            c(:) = powers_of_state(quantity, a, p, q)
+            return
+        end if
+        share(:, :) = shares_of(softness_of(p))
+        c(:) = 0.0_wp
+        c(0) = share(state_count + 1, quantity - state_count)*q%kappa
+        do k = 1, state_count
+            c(:) = c + share(k, quantity - state_count)*powers_of_state(k, a, p, q)
+        end do
+    end function powers_along
+
+    !> Coefficients of deflection (1), rotation, moment or shear (4)
+    pure function powers_of_state(field, a, p, q) result(c)
         integer, intent(in) :: field
         !> As for along_cell
         type(field_type), intent(in) :: a
@@ -313,6 +325,6 @@ contains
                 c(0:2) = [a%shear, -l*q%qa, -l*slope/2]
             end select
         end associate
-    end function powers_along
+    end function powers_of_state
 
 end module gapbeam_train_samples

@@ -3,7 +3,7 @@
 !> between the values at both ends, moved by h**2/8 of the second derivative (gapbeam_train_columns)
 module gapbeam_train_support_bounds
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: train_slack
+    use gapbeam_path_tolerances, only: train_slack
     use gapbeam_law, only: both
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type

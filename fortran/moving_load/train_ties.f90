@@ -1,13 +1,12 @@
 !> Extreme values of a train at all places that tie.
 module gapbeam_train_ties
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: same_tie
+    use gapbeam_limits, only: most_extreme_ties
     use gapbeam_law, only: both
     implicit none
     private
     public :: tie_type, extreme_type, add_tie, drop_rounding
-
-    !> Equal values are listed up to so many
-    integer, parameter :: most_ties = 16
 
     !> Where an extreme value is: x, position of the train, value; 1 where it is the value left of x, 2 right of it (0: both). At an
     !> end of a stretch that does not hold there the position is one just inside, at which an axle that is near the end of the beam
@@ -24,7 +23,7 @@ module gapbeam_train_ties
     !> Extremes of a quantity, all ties
     type :: extreme_type
         integer :: number = 0
-        type(tie_type) :: ties(most_ties)
+        type(tie_type) :: ties(most_extreme_ties)
     end type extreme_type
 
 contains
@@ -65,7 +64,7 @@ contains
                 end if
             end associate
         end do
-        if (extreme%number == most_ties) return
+        if (extreme%number == most_extreme_ties) return
         extreme%number = extreme%number + 1
         extreme%ties(extreme%number) = tie
 
@@ -75,10 +74,9 @@ contains
         pure function same(x, position, other_x, other_position)
             real(wp), intent(in) :: x, position, other_x, other_position
             logical :: same
-            real(wp), parameter :: near = 1e-9_wp
 
-            same = abs(x - other_x) <= near*max(1.0_wp, abs(x)) .and. &
-                abs(position - other_position) <= near*max(1.0_wp, abs(position))
+            same = abs(x - other_x) <= same_tie*max(1.0_wp, abs(x)) .and. &
+                abs(position - other_position) <= same_tie*max(1.0_wp, abs(position))
         end function same
 
     end subroutine add_tie

@@ -1,6 +1,7 @@
 !> The way of a train over a beam as stretches of positions with one contact state.
 module gapbeam_train_traversal
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: same_tie
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_train_intervals, only: interval_type
     implicit none
@@ -43,7 +44,7 @@ contains
 
         count = size(traversal%motion, 2)
         if (count > 0) then
-            if (maxval(abs(traversal%motion(:, count) - motion)) <= 1e-9_wp) then
+            if (maxval(abs(traversal%motion(:, count) - motion)) <= same_tie) then
                 traversal%motion_of(traversal%number) = count
                 return
             end if

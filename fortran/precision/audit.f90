@@ -6,23 +6,18 @@
 !> terms (gapbeam_ledger).
 module gapbeam_audit
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_left_out, everywhere, audit_allows
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_band, only: answer_type
     use gapbeam_law, only: is_plainly_right, force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: beam_type, softest
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_ledger, only: ledger_type, note, allowed, of_bending, of_equilibrium, of_supports, of_restraints, rotations, &
-        moments, forces, deflections, beyond, pulls, kinds
+    use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_supports, of_restraints, rotations, moments, &
+        forces, deflections, beyond, pulls, kinds
     implicit none
     private
     public :: audit_beam, audit_axial, audit_residuals
-
-    !> Share of the largest terms of the beam that count as terms of every sum: elimination carries their rounding everywhere, and
-    !> refining leaves the square of it
-    real(wp), parameter :: everywhere = 2.0_wp**(-40)
-    !> Share of the largest load up to which a reaction that is nothing but rounding is left out (gapbeam_extended_precision)
-    real(wp), parameter :: left_out = 2.0_wp**(-27)
 
 contains
 
@@ -51,7 +46,7 @@ contains
         integer :: i, j, n
 
         n = ubound(answers, 1)
-        limit = allowed*epsilon(1.0_wp)
+        limit = audit_allows*epsilon(1.0_wp)
         if (present(measured)) limit = merge(0.0_wp, limit, measured)
         farthest = maxval(abs(answers%deflection))
         least(:) = -1.0_wp
@@ -178,7 +173,7 @@ contains
             do k = beam%first(i), beam%first(i + 1) - 1
                 if (abs(reaction(beam%order(k))) > 0.0_wp) cycle
                 call force_by_spring(beam%supports, closed, beam%order(k), 0.0_wp, 0.0_wp, acts, rigid, force, rounding)
-                if (acts) found = left_out/epsilon(1.0_wp)*most_load + bent
+                if (acts) found = most_left_out/epsilon(1.0_wp)*most_load + bent
             end do
         end function size_left_out
 

@@ -7,7 +7,7 @@
 module gapbeam_certificate
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_tolerances, only: unit => rounding_unit
+    use gapbeam_tolerances, only: unit => rounding_unit, movement_safety, fine_error, upward
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
@@ -33,12 +33,6 @@ module gapbeam_certificate
     implicit none
     private
     public :: certificate_type, certify
-
-    !> Movements are taken so many times: they are estimates, hardly ever more than so many times too small; so are the forces of
-    !> weak springs, since levers make more of them
-    real(wp), parameter :: safety = 4.0_wp
-    !> Error of the solution in quadruple precision, relative to the sizes of its terms
-    real(qp), parameter :: fine_error = 2.0_qp**20*epsilon(1.0_qp)
 
     !> The certificate of a state
     type :: certificate_type
@@ -120,7 +114,7 @@ contains
             certificate%rotation = certificate%rotation + moves(of_rotations)
             certificate%moment = certificate%moment + moves(of_moments)
             ! Weak springs of a beam that is free to move are a load that it does not have
-            springs = safety*real(sum(work%proximal_weight*abs(work%reference - a%deflection)), wp)
+            springs = movement_safety*real(sum(work%proximal_weight*abs(work%reference - a%deflection)), wp)
             certificate%reaction = certificate%reaction + springs
             certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
             certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
@@ -193,7 +187,7 @@ contains
         do kind = 1, size(moves)
             call largest_movement(beam, sensitivity, kind, work, moves(kind))
         end do
-        moves(:) = safety*moves
+        moves(:) = movement_safety*moves
         moves(of_shears) = moves(of_shears) + of_shear
         moves(of_reactions) = moves(of_reactions) + of_reaction
         ! Between the nodes: what the ends of a link do to it, and its own loads
@@ -278,7 +272,7 @@ contains
         apart = maxval(abs(fine - rounded))
         largest = 0.0_wp
         if (any(abs(rounded) > 0.0_wp) .or. apart > fine_error*maxval(sizes)) then
-            largest = real(max(apart, fine_error*maxval(sizes))*(1 + 64*epsilon(1.0_wp)), wp)
+            largest = real(max(apart, fine_error*maxval(sizes))*upward, wp)
         end if
     end function difference
 
@@ -315,7 +309,7 @@ contains
         real(wp), intent(in) :: rounded
         real(wp) :: distance
 
-        distance = real(abs(fine - rounded)*(1 + 64*epsilon(1.0_wp)), wp)
+        distance = real(abs(fine - rounded)*upward, wp)
     end function apart
 
     !> Errors of the fields inside a piece: those at its left end, carried on, and the rounding of every term

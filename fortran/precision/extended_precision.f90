@@ -7,7 +7,9 @@
 !> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
 module gapbeam_extended_precision
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction
+    use gapbeam_limits, only: most_examined
+    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction, fine_width, most_left_out, most_hidden, &
+        given_leeway
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
@@ -40,19 +42,6 @@ module gapbeam_extended_precision
     !> Beside the rules of gapbeam_search: the scheme is known; its lines are followed beyond where it holds, as tangents are, and
     !> signs say nothing
     integer, parameter :: rule_given = 2, rule_extended = 3
-    !> Rounding errors in quadruple precision beyond which a sign counts: some digits more than in doubles are given away, there
-    !> are enough of them
-    real(qp), parameter :: fine_width = 2.0_qp**17
-    !> Of more supports near zero than these all are named
-    integer, parameter :: most_examined = 64
-    !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time
-    !> And correction of deflections, relative to the largest, that refining them once may leave too much of
-    !> Of the largest load smaller shares are what is left out of reactions as rounding, and what rounding may do to one of which
-    !> nothing is left
-    real(qp), parameter :: most_left_out = 2.0_qp**(-27), most_hidden = 2.0_qp**(-10)
-    !> Roundings by which signs of a scheme that is known from the path may be wrong: the last digit of the load factor moves a beam
-    !> that is nearly unstable so far
-    real(wp), parameter :: given_leeway = 2.0_wp**26
 
 contains
 

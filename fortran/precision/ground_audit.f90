@@ -6,6 +6,7 @@
 !> hinges; every layer is on the piece of its law on which it is said to be, and goes on to another one where it is said to.
 module gapbeam_ground_audit
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: lost_digits
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
     use gapbeam_law, only: force_by_spring
@@ -13,7 +14,7 @@ module gapbeam_ground_audit
     use gapbeam_ground_laws, only: distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: field_at_end, find_sizes, lost
+    use gapbeam_ground_fields, only: field_at_end, find_sizes
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
@@ -52,10 +53,10 @@ contains
         end do
         ! Rigid parts pass rounding on
         associate (s => sizes_of, n => least_of)
-            n%deflection = n%deflection + lost*maxval(s%deflection)
-            n%rotation = n%rotation + lost*maxval(s%rotation)
-            n%moment = n%moment + lost*maxval(s%moment)
-            n%shear = n%shear + lost*maxval(s%shear)
+            n%deflection = n%deflection + lost_digits*maxval(s%deflection)
+            n%rotation = n%rotation + lost_digits*maxval(s%rotation)
+            n%moment = n%moment + lost_digits*maxval(s%moment)
+            n%shear = n%shear + lost_digits*maxval(s%shear)
         end associate
         i = 1
         do j = 0, size(ground%pieces)

@@ -1,6 +1,7 @@
 !> The fields of a solved beam on the ground inside its stretches
 module gapbeam_ground_fields
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: lost_digits
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_taylor, only: is_sloped
@@ -11,10 +12,7 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes, lost
-
-    !> Rounding of quadruple precision, some digits of it lost, in that of doubles
-    real(wp), parameter :: lost = 2.0_wp**(-90)/epsilon(1.0_wp)
+    public :: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type
@@ -197,10 +195,10 @@ contains
             if (s%flexibility > 0.0_wp) then
                 bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/s%flexibility
             end if
-            least%deflection = lost*s%length*sizes%rotation
-            least%rotation = lost*(sizes%deflection/s%length + s%shear_flexibility*sizes%shear)
-            least%moment = lost*bent
-            least%shear = lost*(bent/s%length + s%length*modulus*sizes%deflection)
+            least%deflection = lost_digits*s%length*sizes%rotation
+            least%rotation = lost_digits*(sizes%deflection/s%length + s%shear_flexibility*sizes%shear)
+            least%moment = lost_digits*bent
+            least%shear = lost_digits*(bent/s%length + s%length*modulus*sizes%deflection)
         end associate
     end subroutine find_sizes
 

@@ -6,6 +6,8 @@
 !> zones nor springs tell, this does.
 module gapbeam_ground_limit
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_motion_steps
+    use gapbeam_tolerances, only: no_ground_work, fine_rounding, near_motion
     use gapbeam_watch, only: is_stopped
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_ground_quad, only: ground_type
@@ -15,14 +17,6 @@ module gapbeam_ground_limit
     private
     public :: find_collapse, find_limit
 
-    !> Work, relative to its parts, that counts as none: places and loads are rounded to doubles. Ground at its limit is weighed to
-    !> the last digit, so that all load factors but one are on one side
-    real(qp), parameter :: no_work = 8*epsilon(1.0_wp), least_excess = 2.0_qp**(-90)
-    !> Displacements, relative to the largest, that are nothing but rounding
-    real(qp), parameter :: zero_motion = 2.0_qp**(-90)
-    !> Steps of the search for a motion at most, and how near to it they come: the work is wrong by the square of that
-    integer, parameter :: most_steps = 60
-    real(qp), parameter :: near = 2.0_qp**(-52)
     !> Displacements of the two ends of the beam: all motions are a positive number times one of start + t way, -1 <= t <= 1
     real(qp), parameter :: start(2, 4) = reshape([1, 0, -1, 0, 0, 1, 0, -1], [2, 4]), &
         way(2, 4) = reshape([0, 1, 0, 1, 1, 0, 1, 0], [2, 4])
@@ -69,7 +63,7 @@ contains
             y = start(:, k) + way(:, k)*most_work(ground, share, work, start(:, k), way(:, k), low, high)
             resisted = dot_product(y, resistance(ground, share, y))
             excess = dot_product(y, work) - resisted
-            least = merge(least_excess, no_work, resisted > 0.0_qp)*(sum(parts) + resisted)
+            least = merge(fine_rounding, no_ground_work, resisted > 0.0_qp)*(sum(parts) + resisted)
             tied = tied .or. abs(excess) <= least
             if (abs(excess) <= least .and. .not. max(most, resisted) > 0.0_qp) best = y
             stands = stands .and. excess < -least
@@ -80,7 +74,7 @@ contains
         found = most > 0.0_qp
         if (.not. any(abs(best) > 0.0_qp)) return
         share = best(1) + share*(best(2) - best(1))
-        where (abs(share) <= zero_motion) share = 0.0_qp
+        where (abs(share) <= fine_rounding) share = 0.0_qp
         allocate (motion(0:size(ground%pieces)))
         motion(:) = real(share/maxval(abs(share)), wp)
     end subroutine find_collapse
@@ -181,11 +175,11 @@ contains
         t = high
         if (slopes(2) >= 0.0_qp) return
         last = 0
-        do step = 1, most_steps
+        do step = 1, most_motion_steps
             t = (ends(2)*slopes(1) - ends(1)*slopes(2))/(slopes(1) - slopes(2))
             slope = slope_at(t)
             side = merge(1, 2, slope > 0.0_qp)
-            if (abs(t - ends(side)) <= near .or. .not. abs(slope) > 0.0_qp) exit
+            if (abs(t - ends(side)) <= near_motion .or. .not. abs(slope) > 0.0_qp) exit
             ends(side) = t
             slopes(side) = slope
             if (side == last) slopes(3 - side) = slopes(3 - side)/2

@@ -2,11 +2,12 @@
 !> Ends, fields, reactions, and the force of every layer on every stretch.
 module gapbeam_ground_solution
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_taylor_terms
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
-    use gapbeam_tolerances, only: sign_width
+    use gapbeam_tolerances, only: sign_width, fine_rounding, ground_fine_width, same_ratio_of_slopes
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
-    use gapbeam_foundation_taylor_quad, only: expand, terms_of, most_terms
+    use gapbeam_foundation_taylor_quad, only: expand, terms_of
     use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
@@ -19,11 +20,6 @@ module gapbeam_ground_solution
     implicit none
     private
     public :: ground_solution_type, take_rounded
-
-    !> Roundings in quadruple precision below which a reaction is none
-    real(qp), parameter :: fine_width = 4096.0_qp
-    !> Numbers that are smaller beside the terms they are made of are nothing but rounding in quadruple precision
-    real(qp), parameter :: no_number = 2.0_qp**(-90)
 
     !> A solved beam on the ground, in stretches from left to right, and the values at the nodes
     type :: ground_solution_type
@@ -121,7 +117,7 @@ contains
             solution%undecided(k) = .false.
             if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
             solution%undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            if (closed(k) .and. abs(margin(k)) <= fine_width*rounding(k)) work%reaction(k) = 0.0_qp
+            if (closed(k) .and. abs(margin(k)) <= ground_fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         associate (a => work%answers(grounded%node))
             solution%deflection(:) = real(a%deflection, wp)
@@ -235,8 +231,8 @@ contains
         associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
             size_of_shear = g%pa*max(abs(a%moment_right), abs(b%moment_left)) + g%gaa*max(abs(a%deflection), abs(b%deflection)) &
                 + sum(abs(link%shear_a))
-            if (abs(a%moment_right) <= no_number*size_of_shear/g%pa) a%moment_right = 0.0_qp
-            if (abs(b%moment_left) <= no_number*size_of_shear/g%pa) b%moment_left = 0.0_qp
+            if (abs(a%moment_right) <= fine_rounding*size_of_shear/g%pa) a%moment_right = 0.0_qp
+            if (abs(b%moment_left) <= fine_rounding*size_of_shear/g%pa) b%moment_left = 0.0_qp
         end associate
     end subroutine drop_rounding
 
@@ -256,7 +252,7 @@ contains
             sizes = [g%pa*w + max(g%faa, g%fbb)*moment + abs(link%turn_a(1)) + abs(factor*link%turn_a(2)), &
                      g%pa*moment + max(g%gaa, g%gbb)*w + abs(link%shear_a(1)) + abs(factor*link%shear_a(2))]
         end associate
-        where (abs(field) <= no_number*spread(sizes, 1, 2)) field = 0.0_qp
+        where (abs(field) <= fine_rounding*spread(sizes, 1, 2)) field = 0.0_qp
     end subroutine drop_small
 
     !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
@@ -307,7 +303,7 @@ contains
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
                     if (.not. any(slope > 0.0_qp)) cycle
                     ! Is its share of the modulus the same everywhere
-                    same_ratio = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > 64*epsilon(1.0_qp)*slope(1)*modulus(2)
+                    same_ratio = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > same_ratio_of_slopes*slope(1)*modulus(2)
                     if (same_ratio) then
                         forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
                     else
@@ -323,7 +319,7 @@ contains
         function integral(slope) result(total)
             real(qp), intent(in) :: slope(2)
             real(qp) :: total
-            real(qp) :: c(1, 4, 0:most_terms), start(1, 4)
+            real(qp) :: c(1, 4, 0:most_taylor_terms), start(1, 4)
             integer :: n, i
 
             if (allocated(curved)) then

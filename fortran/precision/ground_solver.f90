@@ -5,6 +5,8 @@
 !> tells (gapbeam_ground_energy); that loads are more than the ground can bear is proved by limit analysis (gapbeam_ground_limit).
 module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: last_try, last_if_tied, most_edge_nodes, most_stiffer
+    use gapbeam_tolerances, only: movement_safety, nearly_settled, fine_ends, movable_ends, no_displacement, rough
     use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate, gapbeam_stopped
     use gapbeam_foundation, only: stretch_ends_type
@@ -28,28 +30,12 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
-    use gapbeam_ground_start, only: ground_start_type, rough
+    use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_ties, only: stands_on_edge, may_move
     use gapbeam_ground_limit, only: find_collapse, find_limit
     implicit none
     private
     public :: ground_solution_type, solve_on_ground, limit_on_ground
-
-    !> Shares of the stretches beside them by which ends may still move in the round that is taken for the last one
-    real(wp), parameter :: nearly = 1e-2_wp
-    real(qp), parameter :: fine_enough = 1e-15_qp
-    !> Ends that still move by no more are taken, with the fields there: what is left is the square of the way
-    real(qp), parameter :: movable = 1e-11_qp
-    !> Zones are tried from full contact, then from meshes, each finer than the one before; not from all of them where no mesh can
-    !> tell
-    integer, parameter :: last_try = 5, last_if_tied = 4
-    !> Nodes of a mesh that are pressed at most where the beam stands on edges, and how often a mesh is refined at once where ground
-    !> has become stiffer
-    integer, parameter :: edge_nodes = 4, most_stiffer = 6
-    !> Part of the largest displacement of a motion that is none
-    real(wp), parameter :: zero_motion = 1e-6_wp
-    !> Differences are taken so many times
-    real(wp), parameter :: safety = 4.0_wp
 
 contains
 
@@ -137,7 +123,7 @@ contains
                     if (.not. stands) return
                     exit
                 end if
-                on_edge = pressed <= edge_nodes .and. pressed > 0
+                on_edge = pressed <= most_edge_nodes .and. pressed > 0
                 if (on_edge) call weigh()
                 if (on_edge .and. tips_over()) then
                     ! Zones as short as that show on a finer mesh, or not at all
@@ -161,7 +147,7 @@ contains
                 motion(:) = outcome%motion(grounded%node)
                 call move_alloc(motion, outcome%motion)
             end if
-            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= zero_motion)
+            outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_displacement)
             ! No support would stop it sooner or later
             if (.not. is_blocked(ground%beam%supports, outcome%motion)) return
         end if
@@ -190,7 +176,7 @@ contains
             end if
             if (outcome%status /= gapbeam_solved) return
             ! Where it all but touches, only quadruple precision tells where
-            if (.not. known .and. only_near_by .and. moved > nearly) return
+            if (.not. known .and. only_near_by .and. moved > nearly_settled) return
             call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
             if (carries) edges = edges + 1
             if (allocated(error)) then
@@ -220,7 +206,7 @@ contains
             tips = .false.
             if (.not. allocated(motion)) return
             tips = .not. (is_blocked(ground%beam%supports, motion) &
-                          .or. any(abs(motion(ground%beam%supports%node)) <= zero_motion))
+                          .or. any(abs(motion(ground%beam%supports%node)) <= no_displacement))
         end function tips_over
 
         !> Solve on the first mesh, or on one that is finer where zones end
@@ -289,15 +275,15 @@ contains
         settled = .false.
         carries = .false.
         if (known) then
-            call polish_zones(fine, factor, rule, movable, zones, closed, grounded, work, found, settled, error)
+            call polish_zones(fine, factor, rule, movable_ends, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
         end if
         if (.not. settled) then
-            call settle_fine_zones(fine, factor, rule, fine_enough, zones, closed, grounded, work, found, settled, moved, error)
+            call settle_fine_zones(fine, factor, rule, fine_ends, zones, closed, grounded, work, found, settled, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) return
-            settled = settled .or. moved <= movable
+            settled = settled .or. moved <= movable_ends
             if (.not. settled) return
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
@@ -353,7 +339,7 @@ contains
             solution%bounds(5) = maxval(abs(work%reaction - solution%reaction))
             largest(5) = maxval(abs(solution%reaction))
         end if
-        solution%bounds(:) = safety*(solution%bounds + epsilon(1.0_wp)*largest)
+        solution%bounds(:) = movement_safety*(solution%bounds + epsilon(1.0_wp)*largest)
 
     contains
 

@@ -1,6 +1,7 @@
 !> Start of a solve on the ground from the solution at a load factor nearby.
 module gapbeam_ground_start
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: rough
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones
     use gapbeam_workspace, only: workspace_type
@@ -9,16 +10,13 @@ module gapbeam_ground_start
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: ground_start_type, start_from, settle_nearby, polish_nearby, take_zones, rough
+    public :: ground_start_type, start_from, settle_nearby, polish_nearby, take_zones
 
     !> Where the search for a solution may begin: zones and states of the supports at a load factor nearby
     type :: ground_start_type
         type(zones_type) :: zones
         logical, allocatable :: closed(:)
     end type ground_start_type
-
-    !> Share of the stretches beside them by which ends may still move in the round that is taken for the last one
-    real(wp), parameter :: rough = 1e-10_wp
 
 contains
 

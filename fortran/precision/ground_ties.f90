@@ -1,6 +1,7 @@
 !> Zones of contact that carry nothing, or are too short for what they would have to carry
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_tolerances, only: min_tied_zone, least_tied_share, no_tied_force
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
@@ -11,13 +12,6 @@ module gapbeam_ground_ties
     implicit none
     private
     public :: stands_on_edge, may_move
-
-    !> Zones of less than this share of the beam have no length
-    real(qp), parameter :: min_zone_length = 4*epsilon(1.0_wp)
-    !> Share of all loads, or of what they bend the beam by, that is nothing
-    real(qp), parameter :: least_share = 1e-6_qp
-    !> The same where quadruple precision has settled all zones
-    real(qp), parameter :: no_force = 1e-20_qp
 
 contains
 
@@ -46,9 +40,9 @@ contains
         stands = .false.
         carries = .false.
         do i = 1, size(zones%piece)
-            if (zones%to(i) - zones%from(i) > min_zone_length*length .or. .not. any(zones%acts(:, i) > 0)) cycle
-            carries = carries .or. force_on(grounded, factor, work, i, length) > least_share*force
-            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > least_share*way
+            if (zones%to(i) - zones%from(i) > min_tied_zone*length .or. .not. any(zones%acts(:, i) > 0)) cycle
+            carries = carries .or. force_on(grounded, factor, work, i, length) > least_tied_share*force
+            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > least_tied_share*way
         end do
     end subroutine stands_on_edge
 
@@ -147,7 +141,7 @@ contains
         forces(:) = sum(abs(real(carried, qp)), 1)
         force = max(force, maxval(forces), maxval([0.0_qp, abs(work%reaction)]))
         do i = 1, size(zones%piece)
-            idle(i) = acts_one_way(i) .and. forces(i) <= no_force*force
+            idle(i) = acts_one_way(i) .and. forces(i) <= no_tied_force*force
         end do
         if (.not. (any(idle) .or. any(closed .and. undecided))) return
         beam = grounded%beam
@@ -192,7 +186,7 @@ contains
                     do k = first, ground%first(zones%piece(i) + 1) - 1
                         if (zones%acts(k - first + 1, i) == 0) cycle
                         do node = max(i - 1, motion%first), min(i, motion%last)
-                            leaves = leaves .and. sense*ground%layers(k)%side*motion%displacement(node) <= min_zone_length
+                            leaves = leaves .and. sense*ground%layers(k)%side*motion%displacement(node) <= min_tied_zone
                         end do
                     end do
                 end associate

@@ -6,6 +6,8 @@
 !> index), and the solution tells whether that matters.
 module gapbeam_ill_scaled_signs
     use gapbeam_kinds, only: qp
+    use gapbeam_limits, only: most_flips, most_tie_solves
+    use gapbeam_tolerances, only: fine_width, least_force_share
     use gapbeam_band, only: band_ok
     use gapbeam_model_quad, only: beam_type
     use gapbeam_workspace_quad, only: workspace_type
@@ -15,13 +17,6 @@ module gapbeam_ill_scaled_signs
     implicit none
     private
     public :: flip_ill_scaled
-
-    !> Forces below this share of the largest one do not matter: they are less than doubles promise
-    real(qp), parameter :: least_share = 2.0_qp**(-44)
-    !> Supports that are flipped before the state counts as unknown, and solves for supports that are at zero
-    integer, parameter :: most_flips = 64, most_ties = 64
-    !> Rounding errors beyond which a sign is no matter of rounding
-    real(qp), parameter :: far_beyond = 2.0_qp**17
 
 contains
 
@@ -49,7 +44,7 @@ contains
         ties = 0
         do
             k = first_wrong(beam, closed, work, is_tie)
-            if (k == 0 .or. ties == most_ties) exit
+            if (k == 0 .or. ties == most_tie_solves) exit
             ! Where all forces are nothing but rounding, signs go round without end, and none matters
             known = flips < most_flips .or. all(abs(work%reaction) <= work%reaction_error)
             if (flips == most_flips) exit
@@ -117,7 +112,7 @@ contains
             call margin_of(s, closed(k), work%answers(s%node)%deflection, work%deflection_size(s%node), work%reaction(k), &
                            work%reaction_error(k), margin, rounding)
         end associate
-        is_wrong = margin < -far_beyond*rounding
+        is_wrong = margin < -fine_width*rounding
     end function is_surely_wrong
 
     !> Bound of the stiffness with which the links beside a node hold it
@@ -144,7 +139,7 @@ contains
         type(workspace_type), intent(in) :: work
         real(qp) :: force
 
-        force = least_share*max(maxval(work%load_size), maxval(abs(work%reaction)))
+        force = least_force_share*max(maxval(work%load_size), maxval(abs(work%reaction)))
     end function least_that_matters
 
 end module gapbeam_ill_scaled_signs

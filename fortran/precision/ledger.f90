@@ -1,9 +1,10 @@
 !> Record of an audit: imbalances of sums that ought to be zero, in roundings of their terms.
 module gapbeam_ledger
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: audit_allows
     implicit none
     private
-    public :: ledger_type, note, words_for, allowed
+    public :: ledger_type, note, words_for
     public :: of_bending, of_equilibrium, of_parts, of_resultants, of_zone_ends, of_contact, of_supports, of_restraints, of_places
     public :: deflections, rotations, moments, forces, beyond, pulls, kinds
 
@@ -15,9 +16,6 @@ module gapbeam_ledger
     !> Of what something can be left over: of each of them the most is kept; beyond: distance past the line at which a state
     !> ends; pulls: force of a support that ought to push
     integer, parameter :: deflections = 1, rotations = 2, moments = 3, forces = 4, beyond = 5, pulls = 6, kinds = 6
-
-    !> Roundings, of all terms of a sum together, that are taken for rounding
-    real(wp), parameter :: allowed = 64.0_wp
 
     !> The notes
     type :: ledger_type
@@ -50,7 +48,7 @@ contains
         if (kind > 0) ledger%excesses(kind) = max(ledger%excesses(kind), excess)
         if (excess <= ledger%excess) return
         ledger%excess = excess
-        if (excess <= allowed) return
+        if (excess <= audit_allows) return
         ledger%wrong = what
         ledger%piece = piece
         ledger%distance = distance

@@ -1,6 +1,7 @@
 !> Distance of a solved beam from the ground, and places where it touches without pressing.
 module gapbeam_ground_distance
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: touching_distance
     use gapbeam_element, only: field_type
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, along
@@ -11,9 +12,6 @@ module gapbeam_ground_distance
     implicit none
     private
     public :: largest_ways, is_shallow
-
-    !> Distances between beam and ground of so many roundings of what they are made of are none
-    real(wp), parameter :: touching = 32*epsilon(1.0_wp)
 
 contains
 
@@ -74,7 +72,7 @@ contains
             associate (most => way(k - assembled%layer_first(solution%piece(i)) + 1, i), &
                        places => touch(:, k - assembled%layer_first(solution%piece(i)) + 1, i))
                 most = max(most, distance)
-                if (abs(distance) > touching*rounding) return
+                if (abs(distance) > touching_distance*rounding) return
                 if (places(1) < 0.0_wp) then
                     places(1) = at
                 else
@@ -121,7 +119,7 @@ contains
         shallow = .true.
         do j = 0, 4
             call distance_at(assembled, solution, i, k, j/4.0_wp, distance, rounding)
-            shallow = shallow .and. abs(distance) <= touching*rounding
+            shallow = shallow .and. abs(distance) <= touching_distance*rounding
         end do
     end function is_shallow
 

@@ -1,6 +1,7 @@
 !> Fields of a solved beam on the ground, and their extremes.
 module gapbeam_ground_query
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: same_extreme
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_fields, only: bending_values
@@ -17,10 +18,6 @@ module gapbeam_ground_query
     public :: ground_values, ground_extremes
     ! For gapbeam_ground_pressure and gapbeam_ground_distance
     public :: stretch_of, share_of, values_in, curved_in, peaks_in
-
-    !> Values that differ by less than this share of them are the same, and the first one of them, from the left, is taken: else
-    !> rounding would choose among those of a symmetric beam
-    real(wp), parameter :: same = 4*epsilon(1.0_wp)
 
 contains
 
@@ -164,12 +161,12 @@ contains
             all_of_them(:) = bending_values(field, assembled%pieces(solution%piece(i)), load%kappa)
             value = all_of_them(k)
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
-            if (value > values(1, k) + same*abs(values(1, k))) then
+            if (value > values(1, k) + same_extreme*abs(values(1, k))) then
                 values(1, k) = value
                 piece(1, k) = solution%piece(i)
                 distance(1, k) = place
             end if
-            if (value < values(2, k) - same*abs(values(2, k))) then
+            if (value < values(2, k) - same_extreme*abs(values(2, k))) then
                 values(2, k) = value
                 piece(2, k) = solution%piece(i)
                 distance(2, k) = place

@@ -6,6 +6,7 @@ module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
     use gapbeam_laws, only: begins_steep, law_displacement, law_bound
+    use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
     use gapbeam_polyline, only: last_breakpoint
@@ -96,7 +97,7 @@ contains
             if (.not. all(abs(places%past) <= huge(1.0_wp))) exit
             if (is_settled()) then
                 call audit_laws(assembled, numbers, places, maxval(size_of), error)
-                if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, rule, state)
+                if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
                 state%solves = solves
                 return
             end if
@@ -207,12 +208,11 @@ contains
     end function let_go
 
     !> No equilibrium where the load is, to the last digit, all that the laws can ever give: no finite displacement carries it
-    subroutine see_capacity(assembled, numbers, places, factor, rule, state)
+    subroutine see_capacity(assembled, numbers, places, factor, state)
         type(assembled_type), intent(in), target :: assembled
         integer, intent(in) :: numbers(:)
         type(place_type), intent(in) :: places(:)
         real(wp), intent(in) :: factor
-        integer, intent(in) :: rule
         !> On the laws
         type(state_type), intent(inout) :: state
         type(state_type) :: other
@@ -238,7 +238,7 @@ contains
                 call put_line(assembled, numbers(j), p%deflection, force*full(j)%way, slope, other%laws)
             end associate
         end do
-        call solve_state(assembled, factor, rule, other, error)
+        call solve_state(assembled, factor, rule_block, other, error)
         if (allocated(error)) return
         if (other%status /= gapbeam_no_equilibrium .or. other%slides) return
         if (let_go(assembled, numbers, full, other%motion)) state = other

@@ -1,6 +1,7 @@
 !> Checks of the laws of foundations that are given by parameters.
 module gapbeam_check_ground_laws
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: cubic_rounding
     use gapbeam_error, only: error_type
     use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law
     use gapbeam_words, only: shown, whole
@@ -13,8 +14,6 @@ module gapbeam_check_ground_laws
     !> Parameters as scenes call them
     character(len=*), parameter :: names(parameters_of_law) = [character(len=13) :: "law.stiffness", "law.limit", "law.slope"], &
                                    names_of_cubic(parameters_of_law) = [character(len=13) :: "law.k1", "law.k2", "law.k3"]
-    !> By so much k2 may be less than what is allowed: decimals are rounded
-    real(wp), parameter :: rounding = 2.0_wp**(-50)
 
 contains
 
@@ -138,7 +137,7 @@ contains
             real(wp) :: k(parameters_of_law)
 
             k = left*(1 - share) + right*share
-            rises = k(2)**2 <= 3*k(1)*k(3)*(1 + rounding)
+            rises = k(2)**2 <= 3*k(1)*k(3)*(1 + cubic_rounding)
         end function rises
 
         !> The stretch in a sentence, if it is not all of the foundation, blanks behind it

@@ -1,6 +1,7 @@
 !> Checks of the laws of supports.
 module gapbeam_check_laws
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: same_slope
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, pair
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
@@ -9,9 +10,6 @@ module gapbeam_check_laws
     implicit none
     private
     public :: check_laws, have_laws
-
-    !> Slopes of points that are rounded may differ by this share and be the same
-    real(wp), parameter :: same_slope = 1e-9_wp
 
 contains
 

@@ -49,6 +49,18 @@ def test_fortran_modules_use_no_other_in_a_circle():
         left -= free
 
 
+def test_sources_that_include_are_compiled_anew_with_what_they_include():
+    """Meson follows no include: fortran/meson.build has both in lists."""
+    build = (TOP / "fortran" / "meson.build").read_text()
+    included, including = (set(re.findall(r"'(\S+)'", re.search(rf"^{name} = [\[f].*?^[\])]", build, re.M | re.S)[0]))
+                           for name in ("included", "including"))  # fmt: skip
+    texts = {path: re.findall(r"^ *include '(\S+)'", path.read_text(), re.M) for path in (TOP / "fortran").rglob("*.[fi]*")}
+    assert included == {name for names in texts.values() for name in names}
+    assert included == {path.relative_to(TOP / "fortran").as_posix() for path in texts if path.suffix == ".inc"}
+    users = [path.relative_to(TOP / "fortran") for path, used in texts.items() if used and path.suffix == ".f90"]
+    assert including == {path.with_suffix("").as_posix() for path in users}
+
+
 def imports(path):
     """Folders of the package that a module imports from."""
     depth = len(path.relative_to(TOP / "python" / "gapbeam").parts)
@@ -190,3 +202,28 @@ def test_every_file_of_the_package_is_installed():
 def test_dir_shows_what_users_use():
     assert gapbeam.solve
     assert dir(gapbeam) == sorted(gapbeam.__all__)
+
+
+THRESHOLDS = ("tolerances", "path_tolerances", "limits")
+"""Files of `fortran/base` in which every threshold and every limit of a count stands."""
+
+
+def test_thresholds_say_who_reads_them():
+    readers = {}
+    for folder in FORTRAN:
+        for path in (TOP / "fortran" / folder).glob("*.[fF]90"):
+            if path.stem.startswith("python"):
+                continue  # what Python reads is named by who reads it there
+            text = re.sub(r"&\n\s*", "", path.read_text())
+            for module, names in re.findall(rf"use gapbeam_({'|'.join(THRESHOLDS)}), only: (.*)", text):
+                for name in names.split(","):
+                    readers.setdefault((module, name.split("=>")[-1].strip()), set()).add(f"{folder}/{path.stem}")
+    told = {}
+    for module in THRESHOLDS:
+        text = (TOP / "fortran" / "base" / f"{module}.f90").read_text()
+        for comment, name in re.findall(r"((?:^ *!> .*\n)+) +\S.*parameter :: (\w+) =", text, re.MULTILINE):
+            words = " ".join(re.findall(r"!> (.*)", comment)).partition(" Read by ")[2]
+            told[module, name] = set(re.findall(r"[a-z_]+/\w+", words))
+        public = " ".join(re.findall(r"public :: (.*)", text)).replace(",", " ").split()
+        assert {(module, name) for name in public} == {one for one in told if one[0] == module}
+    assert told == readers

@@ -213,7 +213,7 @@ def as_columns(scene: dict[str, Any]) -> dict[str, Any]:
 
 def _own(scene: dict[str, Any]) -> Found:
     step = solve(scene).steps[-1]
-    return step.deflection, step.reaction, np.array(step.state) != "open", step.solves
+    return step.deflection, step.reaction, step.closed != 0, step.solves
 
 
 def _prepared(scene: Prepared) -> Found:

@@ -2,6 +2,8 @@
 module lane_beams
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type
+    use gapbeam_search, only: rule_block
     use gapbeam_error, only: error_type
     use gapbeam_scene, only: section_type, span_type, support_type, uniform_load, point_force, point_couple, gapbeam_both, &
         gapbeam_infinity
@@ -10,8 +12,37 @@ module lane_beams
     implicit none
     private
     public :: make_beam, draw_cases, random, bits
+    public :: numbers_of, solutions_of
 
 contains
+
+    !> The numbers of cases, searched for block by block
+    function numbers_of(factors, values, spans) result(numbers)
+        real(wp), intent(in), contiguous, target :: factors(:, :)
+        !> Of no support and no span: those of the beam
+        real(wp), intent(in), contiguous, target :: values(:, :, :), spans(:, :, :)
+        type(case_numbers_type) :: numbers
+
+        numbers%factors => factors
+        if (size(values, 2) > 0) numbers%supports => values
+        if (size(spans, 2) > 0) numbers%spans => spans
+        numbers%rule = rule_block
+    end function numbers_of
+
+    !> Columns for the solutions of cases
+    function solutions_of(closed, w, ml, mr, reaction, solves, status) result(solutions)
+        integer, intent(in), contiguous, target :: closed(:, :), solves(:), status(:)
+        real(wp), intent(in), contiguous, target :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
+        type(case_solutions_type) :: solutions
+
+        solutions%closed => closed
+        solutions%w => w
+        solutions%ml => ml
+        solutions%mr => mr
+        solutions%reaction => reaction
+        solutions%solves => solves
+        solutions%status => status
+    end function solutions_of
 
     !> A beam on supports of all kinds with four loads
     subroutine make_beam(seed, spans, whole, lowered)

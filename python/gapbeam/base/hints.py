@@ -116,10 +116,6 @@ def no_such(noun: str, key: Any, known: Iterable[str], meant: Mapping[str, str] 
         The names that there are.
     meant : mapping of str to str
         The name to give instead, by words of others in lower case.
-
-    Returns
-    -------
-    str
     """
     known = list(known)
     words = f"there is no {noun} {key!r}"

@@ -18,6 +18,7 @@ from ..results.state.step import BOUNDED
 from ..results.views.extreme import KINDS
 from .paths import KeyPath, varies_by_case
 from .prepared import PreparedCases
+from .prepared_combinations import PreparedCombinations
 from .scene_cases import AT_SUPPORTS, ERRORS, LIMIT, SOLVED, FolderCases, SceneCases
 from .tables import Rows
 
@@ -85,10 +86,10 @@ class Job:
         """How the cases are solved: together on a prepared beam where that can be, else one by one."""
         if self.scene is None:
             return FolderCases(self)
-        is_one_state = not self.has_envelopes and self.scene["analysis"]["history"] == [1.0] and LIMIT not in self.want
-        if is_one_state and all(varies_by_case(self.scene, path) for path in self.paths):
+        is_at_once = not self.scene["trains"] and self.scene["analysis"]["history"] == [1.0] and LIMIT not in self.want
+        if is_at_once and all(varies_by_case(self.scene, path) for path in self.paths):
             with suppress(GapbeamError):
-                return PreparedCases(self)
+                return (PreparedCombinations if self.scene["combinations"] else PreparedCases)(self)
         return SceneCases(self)
 
     def __getstate__(self) -> dict[str, Any]:

@@ -22,10 +22,6 @@ def is_held(scene: dict[str, Any]) -> bool:
     ----------
     scene : dict
         As plain data.
-
-    Returns
-    -------
-    bool
     """
     kept = {key: [one for one in scene[key] if one["side"] == "both" and one["law"] is None] for key in ("supports", "foundation")}
     try:

@@ -128,10 +128,6 @@ def varies_by_case(scene: Mapping[str, Any], path: KeyPath) -> bool:
         From `scene_data`.
     path : KeyPath
         Of the number.
-
-    Returns
-    -------
-    bool
     """
     head, *rest = path.parts
     if head == "beam":

@@ -27,7 +27,7 @@ KNOWN = {"input", "reaction", "opening", *BENDING}
 """What follows from the solutions at the nodes, which are not found again for it."""
 
 
-class PreparedCases(SceneCases):
+class OnOneBeam(SceneCases):
     """Rows of a table on one prepared beam; those that it does not solve are scenes of their own, which say why.
 
     What varies by case is 1 or 0 in the prepared scene, so that the digits are those of the table.
@@ -48,9 +48,54 @@ class PreparedCases(SceneCases):
     def __init__(self, job: Job):
         super().__init__(job)
         values = [0.0 if path.parts[0] == "supports" and path.parts[2] != "stiffness" else 1.0 for path in job.paths]
-        scene = with_values(job.scene, job.paths, values)
-        self._solver = prepared_solver(scene)
-        beam = self._solver.beam
+        self._prepared = {**with_values(job.scene, job.paths, values), "combinations": []}
+        self._solver = prepared_solver(self._prepared)
+        self._cases = np.array([load["case"] for load in self._prepared["loads"]], dtype=object)
+        self._base = base_values(self._solver.beam.columns)
+
+    def _take(self, values: np.ndarray) -> tuple[np.ndarray, Varied, np.ndarray]:
+        """Factor of every load, what else varies, and whether the numbers of a case can be taken; of others some that can."""
+        count, columns = values.shape[1], self._solver.beam.columns
+        factors, fine = np.ones((count, len(self._cases))), np.ones(count, dtype=bool)
+        supports = spans = moduli = None
+        given: list[tuple[np.ndarray, np.ndarray, float]] = []
+        with np.errstate(over="ignore", invalid="ignore"):
+            for path, column in zip(self._paths, values, strict=True):
+                head, *rest = path.parts
+                if head == "loads":
+                    factors[:, rest[0]] *= column
+                elif head == "factors":
+                    factors[:, self._cases == rest[0]] *= column[:, None]
+                elif head == "beam":
+                    if spans is None:
+                        spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
+                    which = rest[1] if rest[1:] else slice(0, -1)
+                    fine &= column > 0.0
+                    given.append((spans[:, which, OF_SPANS.index(rest[0])].T, column, 1.0))
+                elif head == "supports":
+                    if supports is None:
+                        supports = np.broadcast_to(self._base, (count, *self._base.shape)).copy()
+                    fine &= column > 0.0 if rest[1] == "stiffness" else np.isfinite(column)
+                    other = 1.0 if rest[1] == "stiffness" else 0.0
+                    given.append((supports[:, rest[0], OF_SUPPORTS.index(rest[1])], column, other))
+                else:
+                    if moduli is None:
+                        moduli = np.full((count, columns.foundation.shape[1]), -1.0)
+                    fine &= np.isfinite(column) & (column > 0.0)
+                    given.append((moduli[:, rest[0]], column, 1.0))
+        fine &= np.isfinite(factors).all(axis=1)
+        factors[~fine] = 0.0
+        for place, column, other in given:
+            place[...] = np.where(fine, column, other)
+        return factors, Varied(supports, spans, moduli), fine
+
+
+class PreparedCases(OnOneBeam):
+    """Rows that are one state each; parameters and errors as of `OnOneBeam`."""
+
+    def __init__(self, job: Job):
+        super().__init__(job)
+        scene, beam = self._prepared, self._solver.beam
         # Shares of the live loads at which a case has to stand before all of them act
         self._before: list[float] = []
         analysis = scene["analysis"]
@@ -58,8 +103,7 @@ class PreparedCases(SceneCases):
             if analysis["follow"] == "events":
                 raise SceneError("analysis.follow", "the beam may lose its hold at any share of the loads")
             self._before = shares_before(scene)
-        self._cases = np.array([load["case"] for load in scene["loads"]], dtype=object)
-        self._base, self._sides = base_values(beam.columns), beam.sides
+        self._sides = beam.sides
         x = self._solver.scene.positions(self._solver.scene.supports)
         self._nodes = np.abs(beam.node_x - x[:, None]).argmin(axis=1)
         # Reactions and openings then follow from what is known of the nodes
@@ -123,39 +167,3 @@ class PreparedCases(SceneCases):
                 settlement, gap, _ = self._base[k] if varied.supports is None else varied.supports[:, k].T
                 away = self._sides[k] * (settlement + self._sides[k] * gap - found.deflection[:, self._nodes[k]])
                 numbers[f"opening.{one}"][solved] = np.where(found.closed[:, k], 0.0, np.maximum(away, 0.0) + 0.0)[solved]
-
-    def _take(self, values: np.ndarray) -> tuple[np.ndarray, Varied, np.ndarray]:
-        """Factor of every load, what else varies, and whether the numbers of a case can be taken; of others some that can."""
-        count, columns = values.shape[1], self._solver.beam.columns
-        factors, fine = np.ones((count, len(self._cases))), np.ones(count, dtype=bool)
-        supports = spans = moduli = None
-        given: list[tuple[np.ndarray, np.ndarray, float]] = []
-        with np.errstate(over="ignore", invalid="ignore"):
-            for path, column in zip(self._paths, values, strict=True):
-                head, *rest = path.parts
-                if head == "loads":
-                    factors[:, rest[0]] *= column
-                elif head == "factors":
-                    factors[:, self._cases == rest[0]] *= column[:, None]
-                elif head == "beam":
-                    if spans is None:
-                        spans = np.broadcast_to(columns.span[[1, 2]].T, (count, columns.span.shape[1], 2)).copy()
-                    which = rest[1] if rest[1:] else slice(0, -1)
-                    fine &= column > 0.0
-                    given.append((spans[:, which, OF_SPANS.index(rest[0])].T, column, 1.0))
-                elif head == "supports":
-                    if supports is None:
-                        supports = np.broadcast_to(self._base, (count, *self._base.shape)).copy()
-                    fine &= column > 0.0 if rest[1] == "stiffness" else np.isfinite(column)
-                    other = 1.0 if rest[1] == "stiffness" else 0.0
-                    given.append((supports[:, rest[0], OF_SUPPORTS.index(rest[1])], column, other))
-                else:
-                    if moduli is None:
-                        moduli = np.full((count, columns.foundation.shape[1]), -1.0)
-                    fine &= np.isfinite(column) & (column > 0.0)
-                    given.append((moduli[:, rest[0]], column, 1.0))
-        fine &= np.isfinite(factors).all(axis=1)
-        factors[~fine] = 0.0
-        for place, column, other in given:
-            place[...] = np.where(fine, column, other)
-        return factors, Varied(supports, spans, moduli), fine

@@ -80,10 +80,6 @@ class SceneCases:
             Of the beam.
         states : int
             Of a case, as of its combinations and trains.
-
-        Returns
-        -------
-        float
         """
         return states * (7e-4 + 6e-6 * nodes + (2e-2 if self._scene["foundation"] else 0.0))
 

@@ -94,16 +94,6 @@ class ManyVerbs(Shown):
         words = self._reasons.get(status)
         return f"{lost:,} of {sum(self._outcomes.values()):,} cases are not solved; {status}" + (f": {words}" if words else "")
 
-    @property
-    def reactions(self) -> Labelled:
-        """Reactions by number and name of the support."""
-        return self._by_support("reaction")
-
-    @property
-    def openings(self) -> Labelled:
-        """Distance still to go until a support acts, the gap included, by number and name of the support."""
-        return self._by_support("opening")
-
     def _by_support(self, quantity: str) -> Labelled:
         names = [name for name in self._there if name.startswith(f"{quantity}.")]
         if not names:

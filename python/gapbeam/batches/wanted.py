@@ -35,10 +35,6 @@ def known_results(scene: Scene, beam: Beam) -> tuple[str, ...]:
         Checked.
     beam : Beam
         Its beam.
-
-    Returns
-    -------
-    tuple of str
     """
     if scene.combinations or scene.trains:
         return ("input", "reaction", "opening", *BENDING)
@@ -128,10 +124,6 @@ def cases_a_chunk(job: Job, scene: Scene, beam: Beam) -> int:
         What is done with a case.
     scene, beam
         As for `job_of`.
-
-    Returns
-    -------
-    int
     """
     states = 1
     if scene.combinations or scene.trains:

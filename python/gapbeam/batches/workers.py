@@ -72,12 +72,7 @@ def work(key: str, packed: bytes, rows: Rows, first: int, kind: str, stop: threa
 
 
 def cores() -> int:
-    """Count the cores that this process may use.
-
-    Returns
-    -------
-    int
-    """
+    """Count the cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

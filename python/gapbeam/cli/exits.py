@@ -17,10 +17,6 @@ def say(status: int, message: str) -> int:
         Given back.
     message : str
         The line.
-
-    Returns
-    -------
-    int
     """
     with suppress(AttributeError, OSError):
         sys.stderr.write(f"gapbeam: {visible(' '.join(message.split()))}\n")

@@ -124,10 +124,6 @@ def beside(arguments: argparse.Namespace) -> str:
     ----------
     arguments : argparse.Namespace
         Of a study.
-
-    Returns
-    -------
-    str
     """
     return os.path.relpath(arguments.plot, Path(arguments.markdown).parent) if getattr(arguments, "plot", None) else ""
 
@@ -141,10 +137,6 @@ def study_outputs(arguments: argparse.Namespace, scene: str | None = None) -> Ou
         Of the study.
     scene : str, optional
         Name of the scene that it reads.
-
-    Returns
-    -------
-    Outputs
     """
     return Outputs({f"--{name}": getattr(arguments, name, None) for name in ("csv", "markdown", "plot")}, scene)
 

@@ -84,21 +84,11 @@ class Columns(Record):
         return np.union1d(self.law_supports[:-1] - 1, np.flatnonzero(self.support_codes[4, :-1]))
 
     def has_varying_laws(self) -> bool:
-        """Whether a law of a foundation by points is not the same everywhere.
-
-        Returns
-        -------
-        bool
-        """
+        """Whether a law of a foundation by points is not the same everywhere."""
         return bool((self.ground_law[2, :-1] > -np.finfo(float).max).any())
 
     def slopes_of_laws(self) -> np.ndarray:
-        """Give the slopes of all pieces of the laws of foundations by points.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Give the slopes of all pieces of the laws of foundations by points."""
         which, (way, force, place) = self.ground_law_foundations[:-1], self.ground_law[:, :-1]
         first = np.append(True, (np.diff(which) != 0) | (np.diff(place) != 0.0))[: len(which)]
         ways, forces = (np.where(first, values, np.diff(values, prepend=0.0)) for values in (way, force))

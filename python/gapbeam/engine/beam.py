@@ -145,10 +145,6 @@ class Beam(Layout):
         ----------
         breakpoints : numpy.ndarray
             As the attribute.
-
-        Returns
-        -------
-        Beam
         """
         if np.array_equal(breakpoints, self.breakpoints):
             return self

@@ -42,10 +42,6 @@ class Block:
         ----------
         shapes : sequence of tuple
             Shapes with types, those of doubles first.
-
-        Returns
-        -------
-        list of numpy.ndarray
         """
         values, at, made = np.asarray(self).view(np.uint8), 0, []
         for shape, kind in shapes:
@@ -64,10 +60,6 @@ def new_block(spare: list[np.ndarray], size: int) -> Block:
         Where memory is kept that nobody uses.
     size : int
         Bytes.
-
-    Returns
-    -------
-    Block
     """
     count = size // 8 + 1
     try:
@@ -87,10 +79,6 @@ def block_of(values: np.ndarray) -> Block:
     ----------
     values : numpy.ndarray
         From `Block.arrays`.
-
-    Returns
-    -------
-    Block
     """
     base = values
     while isinstance(base, np.ndarray):

@@ -24,13 +24,7 @@ NONE = np.zeros((1, 1, 3)).T
 
 
 def split_loads(beam: Beam) -> None:
-    """Condense the loads of a beam one by one, for what follows; on the ground, where they do not add up, nothing follows.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
-    """
+    """Condense the loads of a beam one by one, for what follows; on the ground, where they do not add up, nothing follows."""
     if beam.ground_layers:
         return
     check_status(_engine.gbshar(beam.handle, beam.pieces + beam.columns.load.shape[1]))
@@ -175,10 +169,6 @@ class OneCase:
             By `solve`.
         name : str
             Of `ALWAYS`, `WANTED`, or factors.
-
-        Returns
-        -------
-        numpy.ndarray or numpy.int32
         """
         values = block[self.parts[name]]
         if name == "closed":

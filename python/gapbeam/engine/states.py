@@ -320,12 +320,7 @@ class Solution(Record):
         return values, x
 
     def largest_fields(self) -> np.ndarray:
-        """Largest absolute values of deflection, rotation, moment, shear, in the engine's units.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Largest absolute values of deflection, rotation, moment, shear, in the engine's units."""
         state, beam = self.state, self.state.beam
         if self.ground is not None:
             values, _ = self.extremes()

@@ -81,10 +81,6 @@ def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
         The scene.
     levels : numpy.ndarray
         Deflection at which each begins to act.
-
-    Returns
-    -------
-    list of dict
     """
     rows = zip(scene.supports, labels(scene.supports), scene.positions(scene.supports).tolist(), levels.tolist(), strict=True)
     return [
@@ -104,10 +100,6 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
     ----------
     scene : Scene
         The scene; of a combination with its factors.
-
-    Returns
-    -------
-    list of dict
     """
     nodes, found = scene.span_ends(), []
     for load in scene.loads:
@@ -125,17 +117,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
 
 
 def foundations_data(scene: Scene) -> list[dict[str, Any]]:
-    """Give the foundations as they are drawn.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    list of dict
-    """
+    """Give the foundations as they are drawn."""
     found = []
     for k, one in enumerate(scene.foundation):
         from_, to = fmt.stretch(scene, one)
@@ -150,10 +132,6 @@ def units_data(scene: Scene) -> dict[str, list[Any]]:
     ----------
     scene : Scene
         With its labels.
-
-    Returns
-    -------
-    dict
     """
     names = [one.name for one in QUANTITIES] + ["x", "opening", "reaction", "couple", "set", "uniform", "sag", "resultant"]
     return {name: list(fmt.shown_unit(scene, name)) for name in names}

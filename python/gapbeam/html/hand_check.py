@@ -149,10 +149,6 @@ def leaves(value: float, size: float) -> str:
     ----------
     value, size : float
         Both sums.
-
-    Returns
-    -------
-    str
     """
     if value == 0.0:
         return "exactly 0"

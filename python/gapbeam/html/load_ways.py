@@ -65,10 +65,6 @@ class Way:
         ----------
         one, other : dict
             By `Recorder.columns`.
-
-        Returns
-        -------
-        float
         """
         sizes = {name: self._largest.get(FIELD_OF[name]) or 1.0 for name in one}
         return max(float(np.abs(one[name] - other[name]).max(initial=0.0)) / size for name, size in sizes.items())
@@ -127,10 +123,6 @@ def count_numbers(result: Result) -> int:
     ----------
     result : Result
         Of one load.
-
-    Returns
-    -------
-    int
     """
     numbers = 2 * len(result._beam.places.point_x) + 3 * len(result.scene.supports)
     return numbers * (len(result.steps) if result.path is None else len(result.segments) + 1)
@@ -254,10 +246,6 @@ def of_event(scene: Scene, event: Event | GroundEvent | TrainEvent) -> dict[str,
         The scene.
     event : Event, GroundEvent or TrainEvent
         What happens.
-
-    Returns
-    -------
-    dict
     """
     what = {"foundation": event.foundation} if event.support is None else {"support": event.support}
     return {**what, "x": event.x, "words": event_in_words(scene, event)}

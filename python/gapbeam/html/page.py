@@ -60,10 +60,6 @@ class Source(NamedTuple):
         ----------
         path : str
             Its name.
-
-        Returns
-        -------
-        Source
         """
         return cls(Path(path).name, Path(path).read_bytes())
 

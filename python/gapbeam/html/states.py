@@ -142,10 +142,6 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     ----------
     columns : dict
         By `Recorder.columns`.
-
-    Returns
-    -------
-    dict
     """
     m, left = columns["m"], columns["m_left"]
     if np.abs(m[1:] - left[:-1]).max(initial=0.0) > EQUAL * np.abs(m).max():
@@ -182,9 +178,5 @@ def stands(step: Step) -> bool:
     ----------
     step : Step
         The state.
-
-    Returns
-    -------
-    bool
     """
     return step.solution.status == SOLVED

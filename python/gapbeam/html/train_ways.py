@@ -153,10 +153,6 @@ class TrainWay(Way):
         ----------
         one : Placed
             A solved one.
-
-        Returns
-        -------
-        int
         """
         key = one.position, one.acts.tobytes()
         placed, columns, number = self._known[key]
@@ -276,10 +272,6 @@ def way_of_train(
         Numbers that it may take.
     also : sequence of float
         Positions whose states are given too.
-
-    Returns
-    -------
-    dict
     """
     course, beam = traversal.course, result._beam
     loads = TrainLoads(beam, result._rule, course, traversal.near)

@@ -50,10 +50,6 @@ def left_out(result: Result) -> list[str]:
     ----------
     result : Result
         Of one load.
-
-    Returns
-    -------
-    list of str
     """
     return [LEFT_OUT.get(one, one) for one in result.system.left_out] + list(ALWAYS)
 
@@ -67,10 +63,6 @@ def bounds_in_words(result: Result, step: Step) -> list[str]:
         Of one load.
     step : Step
         One of its states.
-
-    Returns
-    -------
-    list of str
     """
     found, scene = [], result.scene
     largest = {name: float(abs(step.solution.extremes()[0][:, k]).max()) for name, k in result._beam.fields.items()}
@@ -97,10 +89,6 @@ def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
         All that the page moves.
     scene_has_ground : bool
         Whether the beam lies on the ground.
-
-    Returns
-    -------
-    list of str
     """
     kinds = dict.fromkeys(way["over"] for way in collected.ways if "over" in way)
     found = [EXACT[kind] for kind in kinds if kind != "one" or len(collected.ways) == 1]

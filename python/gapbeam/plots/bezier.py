@@ -91,10 +91,6 @@ def cells_of(result: Result, step: int, cells: int) -> Cells:
         Load step.
     cells : int
         In a span, beside all places where something changes.
-
-    Returns
-    -------
-    Cells
     """
     ends = result.fields(step, points=cells)
     left = np.flatnonzero(np.diff(ends.x) > 0.0)

@@ -79,10 +79,6 @@ def draw_tables(scene: "Scene", table: "Columns", title: str) -> Figure:
         As for `draw_table`.
     title : str
         What stands above.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     names = [name for name, *_ in PANELS if f"{name}_max" in table]
     picture = Figure(figsize=(WIDTH, 0.4 + HEIGHT * len(names) * 0.8), dpi=200, layout="constrained")

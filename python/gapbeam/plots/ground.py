@@ -289,10 +289,6 @@ def cells_a_span(scene: Scene, beam: Beam) -> int:
         The scene.
     beam : Beam
         Made of it.
-
-    Returns
-    -------
-    int
     """
     spans = len(scene.beam.spans)
     plain = CELLS if spans <= MANY else CELLS // 2

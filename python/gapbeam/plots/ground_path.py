@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
-from ..results.paths.ground_path import BEGIN
+from ..engine.tolerances import LOAD_BEGIN
 from ..results.state.ground import Contact, joined
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def states_on_ground(result: Result) -> list[list[Step]]:
         # What is new at an event is there at its factor already
         last = np.nextafter(segment.stop, 0.0) if segment.stop < end else end
         parts = max(2, round(MOST_STATES * (segment.stop - segment.start) / end))
-        begin = max(segment.start, BEGIN)
+        begin = max(segment.start, LOAD_BEGIN)
         stretches.append([result.state(float(factor)) for factor in np.linspace(begin, last, parts)])
     return stretches
 
@@ -122,10 +122,6 @@ def note_on_ground(result: Result) -> str:
     ----------
     result : Result
         Of a beam on the ground.
-
-    Returns
-    -------
-    str
     """
     marked = [MARKERS.get(event.event, END) for event in _marked(result)]
     circles = [words for marker, words in NOTES.items() if marker in marked]

@@ -123,10 +123,6 @@ def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> li
         Reaction and deflection of a support, state by state.
     legs : numpy.ndarray of int
         Which factor of the history each state is on the way to, ascending.
-
-    Returns
-    -------
-    list of Cycle
     """
     there = np.unique(legs).tolist()
     found = []

@@ -76,10 +76,6 @@ def source_name(of: object) -> str:
     ----------
     of : Source, Extreme, TrainExtreme or Member
         Any that knows its combination, train and direction.
-
-    Returns
-    -------
-    str
     """
     names = [getattr(of, name, None) for name in ("combination", "train")]
     back = " to the left" if getattr(of, "direction", None) == "left" else ""

@@ -29,10 +29,6 @@ def outcome(result: "Result") -> str:
     ----------
     result : Result
         That is not solved to the end.
-
-    Returns
-    -------
-    str
     """
     begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
     return "\n".join(textwrap.wrap(begin + fmt.sentence(result.reason), 105))
@@ -60,10 +56,6 @@ def axis_label(scene: "Scene", quantity: str, words: str, positive: str | None =
         What it shows, and what is written.
     positive : str, optional
         Where all positive values go, in pictures of upright beams.
-
-    Returns
-    -------
-    str
     """
     if quantity == "motion":
         return f"{words}\nscale arbitrary"

@@ -41,10 +41,6 @@ def picture(figure: Figure, suffix: str) -> bytes:
         What to draw; of thousands of symbols, those that nobody could see are taken out.
     suffix : str
         .png, .pdf or .svg, in capitals or not.
-
-    Returns
-    -------
-    bytes
     """
     for axes in figure.axes:
         for collection in axes.collections:

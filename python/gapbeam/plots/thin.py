@@ -19,10 +19,6 @@ def outline(x: np.ndarray, y: np.ndarray, width: float) -> tuple[np.ndarray, np.
         The curve, from left to right; left as it is where it has few points.
     width : float
         Of the picture (points).
-
-    Returns
-    -------
-    x, y : numpy.ndarray
     """
     if len(x) <= MOST_POINTS:
         return x, y

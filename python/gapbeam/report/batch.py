@@ -57,10 +57,6 @@ def summary_text(summary: "Summary", width: int = 80) -> str:
         From `Batch.summary`.
     width : int
         Characters a line.
-
-    Returns
-    -------
-    str
     """
     from rich.console import Console
 

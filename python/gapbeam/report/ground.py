@@ -180,33 +180,13 @@ def _number(value: float) -> str:
 
 
 def free_span_headings(scene: "Scene") -> list[str]:
-    """Headings of a table of free spans: where, how long, how far above the ground.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    list of str
-    """
+    """Headings of a table of free spans: where, how long, how far above the ground."""
     places = [fmt.stacked(scene, quantity, words) for quantity, words in (("x", "from"), ("x", "to"), ("length", "length"))]
     return [*places, clearance_heading(scene)]
 
 
 def clearance_heading(scene: "Scene") -> str:
-    """Heading of the largest distance between beam and ground.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    str
-    """
+    """Heading of the largest distance between beam and ground."""
     return f"clearance\n{fmt.shown_unit(scene, 'sag')[0]}".rstrip()
 
 

@@ -56,10 +56,6 @@ def data_as_json(data: Any) -> str:
     ----------
     data : object
         Only numbers, strings, lists and dicts.
-
-    Returns
-    -------
-    str
     """
     return "".join(_layout(data, "")) + "\n"
 

@@ -11,11 +11,6 @@ if TYPE_CHECKING:
 def positive_fields(scene: Scene) -> str:
     """Say which fields along the beam are positive; a beam that is drawn upright has its deflections to the right.
 
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
     Returns
     -------
     str

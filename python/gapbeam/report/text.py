@@ -89,10 +89,6 @@ def report_text(result: "Result", width: int = 80, verbose: bool = False) -> str
         Characters a line.
     verbose : bool
         As for `print_report`.
-
-    Returns
-    -------
-    str
     """
     from rich.console import Console
 

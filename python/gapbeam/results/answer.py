@@ -43,10 +43,6 @@ def has_cheap_envelope(result: Result) -> bool:
     ----------
     result : Result
         Of one load or of combinations.
-
-    Returns
-    -------
-    bool
     """
     if not is_followed(result):
         return True
@@ -80,10 +76,6 @@ def holds_values(envelope: Envelope | TrainEnvelope | None) -> bool:
     ----------
     envelope : Envelope, TrainEnvelope or None
         Of a result.
-
-    Returns
-    -------
-    bool
     """
     return envelope is not None and any(one is not None for row in envelope.extremes.values() for one in row.values())
 
@@ -173,10 +165,6 @@ def headline(result: Result) -> str:
     ----------
     result : Result
         Of one load or of combinations.
-
-    Returns
-    -------
-    str
     """
     title = fmt.title(result.scene)
     return f"{title}: {MOVING}" if result._is_neutral else title
@@ -189,10 +177,6 @@ def outcome_in_words(result: Result) -> list[str]:
     ----------
     result : Result
         Of one load or of combinations.
-
-    Returns
-    -------
-    list of str
     """
     lines = []
     if result.combinations:

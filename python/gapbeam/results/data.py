@@ -193,10 +193,6 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
         The state.
     x : list of float
         Places of the supports.
-
-    Returns
-    -------
-    list of dict
     """
     columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
     return [

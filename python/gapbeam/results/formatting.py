@@ -43,10 +43,6 @@ def numbered(items: Sequence) -> list[str]:
     ----------
     items : sequence
         A list of a scene.
-
-    Returns
-    -------
-    list of str
     """
     return [str(k) if text == str(k) else f"{k} {text}" for k, text in enumerate(labels(items))]
 
@@ -245,10 +241,6 @@ def reported(extremes: dict[str, Any]) -> dict[str, Any]:
     ----------
     extremes : dict
         By name of the quantity.
-
-    Returns
-    -------
-    dict
     """
     return {name: row for name, row in extremes.items() if name in REPORTED}
 
@@ -344,10 +336,6 @@ def shown(scene: Scene, quantity: str, value: float, digits: int = DIGITS) -> st
         In the unit of the scene.
     digits : int
         At most.
-
-    Returns
-    -------
-    str
     """
     factor = shown_unit(scene, quantity)[1]
     if abs(value) > HUGE:  # in the smaller unit it may be no double

@@ -44,12 +44,7 @@ class Utilisation(NamedTuple):
         return abs(self.value) / self.limit
 
     def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-        """
+        """As plain data."""
         support = {} if self.support is None else {"support": self.support}
         return {"value": self.value, "limit": self.limit, "ratio": self.ratio, "x": self.x, **support, **self.source}
 

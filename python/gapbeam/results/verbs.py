@@ -39,19 +39,6 @@ class Verbs(Shown, States):
         return ("supports", "fields", *["combinations"] * bool(self.combinations), "events")
 
     @property
-    def reactions(self) -> Labelled:
-        """Reactions at the end of the load, positive upward, by number and name of the support.
-
-        With combinations by combination, then by support; with trains their extremes over all positions, as of `envelope`.
-        """
-        return self._by_support("reaction")
-
-    @property
-    def openings(self) -> Labelled:
-        """Distance still to go until a support acts, the gap included, as `reactions`."""
-        return self._by_support("opening")
-
-    @property
     def states(self) -> Labelled:
         """States of the supports at the end of the load, ``closed``, ``open`` or ``bilateral``, of a law ``branch 1`` and so on.
 

@@ -1,10 +1,11 @@
 """Scenes, read and checked: TOML, JSON or Python."""
 
+from ..engine.tolerances import POSITION_TOLERANCE
 from .analysis import Analysis
 from .edited import replace
 from .limits import Limits
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
-from .places import POSITION_TOLERANCE, same_place
+from .places import same_place
 from .reading import read_scene
 from .schema import scene_schema
 from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units

@@ -166,7 +166,7 @@ def _at_both_ends(items: Sequence[Any], key: str) -> Any:
     """Numbers at the left and at the right end, given as one or as a pair; 0 where there is none, or a table."""
     values = _column(items, key)
     if not isinstance(values, list):
-        return values
+        return 0.0 if values is None else values
     return np.array(list(map(at_both_ends, values)), dtype=float).reshape(-1, 2).T
 
 
@@ -225,7 +225,12 @@ def _groups(items: Sequence[Any]) -> dict[type, Any]:
 
 
 def _column(items: Sequence[Any], key: str) -> Any:
-    return items.column(key) if isinstance(items, Table) else list(map(attrgetter(key), items))
+    """Values of a key; one word, or None, where all rows have that."""
+    if isinstance(items, Table):
+        return items.column(key)
+    values = list(map(attrgetter(key), items))
+    is_one = values and (values[0] is None or isinstance(values[0], str)) and values.count(values[0]) == len(values)
+    return values[0] if is_one else values
 
 
 def _numbers(items: Sequence[Any], key: str) -> np.ndarray:
@@ -258,11 +263,8 @@ def _optional(items: Sequence[Any], key: str) -> Any:
         return NOT_GIVEN
     if not isinstance(values, list):
         return values
-    missing = values.count(None)
-    if missing == len(values):
-        return NOT_GIVEN
     found = np.array(values, dtype=float)
-    if missing:
+    if None in values:
         found[[value is None for value in values]] = NOT_GIVEN
     return found
 
@@ -281,12 +283,9 @@ def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any,
 def _nodes(name: str, values: Any, index: Sequence[int]) -> Any:
     """Nodes, BY_X where there is none; those below 0 less 1, so that none is taken for BY_X."""
     if isinstance(values, list):
-        missing = values.count(None)
-        if missing == len(values):
-            return BY_X
-        if missing:
+        if None in values:
             values = [-0.5 if value is None else value for value in values]  # less 1 and cut off this is BY_X
-        if min(values) < -(2**31):  # msgspec minds only integers that are too large
+        if min(values, default=0) < -(2**31):  # msgspec minds only integers that are too large
             row = next(row for row, value in enumerate(values) if value < -(2**31))
             raise SceneError(f"{name}[{index[row]}].node", f"expected a whole number, got {shown(values[row])}")
     if values is None:

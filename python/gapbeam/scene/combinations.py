@@ -101,10 +101,6 @@ def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
         The scene; left as it is.
     moves : numpy.ndarray
         Further movement of every support.
-
-    Returns
-    -------
-    Scene
     """
     return msgspec.structs.replace(
         scene, supports=[_moved(one, by) for one, by in zip(scene.supports, moves.tolist(), strict=True)]
@@ -120,10 +116,6 @@ def times(load: Any, factor: float) -> Any:
         The load; left as it is.
     factor : float
         By what.
-
-    Returns
-    -------
-    ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad or AxialLoad
     """
     key = next(key for key in VALUES if hasattr(load, key))
     value = getattr(load, key)

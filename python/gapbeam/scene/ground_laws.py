@@ -219,10 +219,6 @@ def varies(law: GroundLaw | None) -> bool:
     ----------
     law : list, law table or None
         Of a foundation.
-
-    Returns
-    -------
-    bool
     """
     return isinstance(law, list) and len(law) > 0 and isinstance(law[0], LawAt)
 
@@ -261,10 +257,6 @@ def is_straight(law: list[LawAt]) -> bool:
     ----------
     law : list of LawAt
         Of a foundation.
-
-    Returns
-    -------
-    bool
     """
     return all([d for d, _ in place.points] == [d for d, _ in law[0].points] for place in law)
 
@@ -324,10 +316,6 @@ def tables_of(foundation: Any) -> list[Any]:
     ----------
     foundation : Foundation
         Of a scene that has been read.
-
-    Returns
-    -------
-    list of table
     """
     if varies(foundation.law):
         return [slopes_of_branch(foundation.law, 1)]

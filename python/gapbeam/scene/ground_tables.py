@@ -22,10 +22,6 @@ def is_table(value: Any) -> bool:
     ----------
     value : float, (float, float) or table
         Of a foundation, as `settled` gives it.
-
-    Returns
-    -------
-    bool
     """
     return isinstance(value, list | np.ndarray)
 
@@ -91,10 +87,6 @@ def least_and_most(value: Any) -> tuple[float, float]:
     ----------
     value : float, (float, float) or table
         As `settled` gives it.
-
-    Returns
-    -------
-    (float, float)
     """
     numbers = np.asarray(value, dtype=float)[:, 1] if is_table(value) else np.atleast_1d(value)
     return float(np.min(numbers)), float(np.max(numbers))

@@ -33,12 +33,7 @@ class Limits(Table, forbid_unknown_fields=True, kw_only=True):
     pressure: Positive | None = None
 
     def given(self) -> dict[str, float]:
-        """Give the limits there are, by quantity.
-
-        Returns
-        -------
-        dict of float
-        """
+        """Give the limits there are, by quantity."""
         return {name: value for name in self.__struct_fields__ if (value := getattr(self, name)) is not None}
 
 

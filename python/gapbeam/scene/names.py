@@ -29,10 +29,6 @@ def names_of(items: Sequence[Any]) -> list[str | None]:
     ----------
     items : sequence
         A list of a scene.
-
-    Returns
-    -------
-    list of (str or None)
     """
     return column_of(items, "name")
 
@@ -62,10 +58,6 @@ def column_of(items: Sequence[Any], key: str) -> list[Any]:
         A list of a scene.
     key : str
         The attribute.
-
-    Returns
-    -------
-    list
     """
     if not isinstance(items, Table):
         return list(map(attrgetter(key), items))

@@ -6,11 +6,7 @@ from typing import Any
 
 import numpy as np
 
-POSITION_TOLERANCE = 64 * float(np.finfo(float).eps)
-"""Positions whose difference is at most this share of the larger one differ by rounding only."""
-
-END_TOLERANCE = 1e-12
-"""A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off."""
+from ..engine.tolerances import POSITION_TOLERANCE
 
 
 def same_place(a: Any, b: Any) -> Any:

@@ -49,10 +49,6 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         What of the entry it is about.
     message : str
         The layer's own words.
-
-    Returns
-    -------
-    SceneError
     """
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
-from typing import Any, get_args, get_type_hints, overload
+from typing import Any, NamedTuple, get_args, get_type_hints, overload
 
 import msgspec
 import numpy as np
@@ -222,13 +222,32 @@ def _table(key: str, columns: dict[str, Any], count: int) -> Table | None:
         struct = LOADS.get(tag) if isinstance(tag, str) else None
     if struct is None:
         return None
-    names = dict(zip(struct.__struct_encode_fields__, struct.__struct_fields__, strict=True))
-    required = {"k"} if struct is Foundation else {field.name for field in msgspec.structs.fields(struct) if field.required}
-    if not rest.keys() <= names.keys() or not required <= {names[name] for name in rest} or rest.keys() & {"law", "profile"}:
+    takes = _takes(struct)
+    if not rest.keys() <= takes.keys() or any(one.is_required and name not in rest for name, one in takes.items()):
         return None
-    hints = _hints(struct)
-    found = {names[name]: _clean(hints[names[name]], name, value) for name, value in rest.items()}
+    found = {takes[name].attribute: _clean(takes[name], value) for name, value in rest.items()}
     return None if any(value is None for value in found.values()) else Table(struct, found, count)
+
+
+class _Takes(NamedTuple):
+    """What a column takes."""
+
+    attribute: str
+    is_required: bool
+    words: frozenset[str]
+    is_pair: bool
+
+
+@cache
+def _takes(struct: type[msgspec.Struct]) -> dict[str, _Takes]:
+    """What columns there may be, by key."""
+    hints, found = get_type_hints(struct), {}
+    for field in msgspec.structs.fields(struct):
+        kind = hints[field.name]
+        words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
+        required = field.name == "k" if struct is Foundation else field.required
+        found[field.encode_name] = _Takes(field.name, required, frozenset(words), kind == tuple[float, float])
+    return {name: one for name, one in found.items() if name not in ("law", "profile")}
 
 
 @cache
@@ -237,33 +256,35 @@ def _defaults(struct: type[msgspec.Struct]) -> dict[str, Any]:
     return dict(zip(reversed(struct.__struct_fields__), reversed(struct.__struct_defaults__), strict=False))
 
 
-@cache
-def _hints(struct: type[msgspec.Struct]) -> dict[str, Any]:
-    """Types of the attributes."""
-    return get_type_hints(struct)
-
-
-def _clean(kind: Any, name: str, value: Any) -> Any:
+def _clean(takes: _Takes, value: Any) -> Any:
     """A column of numbers, whole numbers or words of a choice; None for anything else."""
-    array = np.asanyarray(value)
     many = isinstance(value, np.ndarray)
-    words = {word for part in (kind, *get_args(kind)) for word in get_args(part) if isinstance(word, str)}
-    if np.ma.isMaskedArray(value) or array.ndim != many + (kind == tuple[float, float]):
+    array = value if many else np.asanyarray(value)
+    if np.ma.isMaskedArray(value) or array.ndim != many + takes.is_pair:
         return None
-    if array.dtype.kind == "U" and name in ("name", "case"):
+    name, kind = takes.attribute, array.dtype.kind
+    if kind == "U" and name in ("name", "case"):
         return _own(value)
-    if array.dtype.kind == "U" and words:
-        return _own(value) if set(np.unique(array).tolist()) <= words else None
-    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8 or (words and name != "rotation"):
+    if kind == "U" and takes.words:
+        return _own(value) if _holds(takes.words, array) else None
+    if kind not in "iuf" or array.dtype.itemsize > 8 or (takes.words and name != "rotation"):
         return None
     if array.shape[many:] not in ((), (2,)):
         return None
     if name == "node":
-        if array.dtype.kind == "f" and (array == np.round(array)).all() and (abs(array.astype(float)) < 2**31).all():
+        if kind == "f" and (array == np.round(array)).all() and (abs(array.astype(float)) < 2**31).all():
             value = array = array.astype(np.int64)
         small = array.dtype.kind in "iu" and array.size and array.min() >= -(2**31) and array.max() < 2**31
         return _own(value) if small else None
     return array.astype(float) if array.ndim else float(array)
+
+
+def _holds(words: frozenset[str], array: np.ndarray) -> bool:
+    """Whether all entries are some of the words."""
+    is_one = np.zeros(array.shape, dtype=bool)
+    for word in words:
+        is_one |= array == word
+    return bool(is_one.all())
 
 
 def _own(value: Any) -> Any:

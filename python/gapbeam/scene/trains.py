@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from ..base.errors import SceneError
-from .places import END_TOLERANCE, POSITION_TOLERANCE
+from ..engine.tolerances import END_TOLERANCE, POSITION_TOLERANCE
 from .structs import Scene, Train
 from .wording import choice, number, shown
 
@@ -250,10 +250,6 @@ def nearest(train: Train, end: float) -> float:
         From `joined`.
     end : float
         Length of the beam.
-
-    Returns
-    -------
-    float
     """
     return POSITION_TOLERANCE * (end + max(distance for distance, _ in train.axles))
 

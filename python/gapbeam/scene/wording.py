@@ -216,10 +216,6 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         The data as dicts and lists.
     struct : type
         The msgspec struct that `source` was to become.
-
-    Returns
-    -------
-    SceneError
     """
     text, _, path = str(error).partition(" - at ")
     kind, value, place = inspect.type_info(struct), source, ""

@@ -39,10 +39,6 @@ def answer(result: Any) -> list[str]:
     ----------
     result : Result, Envelope, TrainResult, Cases, Batch or Summary
         Of what.
-
-    Returns
-    -------
-    list of str
     """
     result = _whole(result)
     if isinstance(result, PartVerbs):
@@ -148,10 +144,6 @@ def report(result: Any) -> str:
     ----------
     result : Result, Envelope, TrainResult, Cases, Batch or Summary
         Of what.
-
-    Returns
-    -------
-    str
     """
     from ..report import report_text
     from ..report.batch import summary_text
@@ -178,10 +170,6 @@ def to_json(result: Any, path: str | os.PathLike | None = None, points: int = 20
         File to write as well.
     points : int
         Divisions of each span in the table of fields.
-
-    Returns
-    -------
-    str
     """
     from ..report import data_as_json
     from ..report import to_json as as_json
@@ -254,10 +242,6 @@ def notebook(result: Any) -> str:
     ----------
     result : Result, Envelope, TrainResult, Cases, Batch or Summary
         Of what.
-
-    Returns
-    -------
-    str
     """
     from ..plots.save import picture
 

@@ -118,10 +118,6 @@ def cases_summary(cases: Cases) -> Summary:
     ----------
     cases : Cases
         With an axis of cases.
-
-    Returns
-    -------
-    Summary
     """
     table: dict[str, Any] = {
         f"{name}.{kind}": one.value for name in FIELDS for kind, one in cases.extremes[name].items()

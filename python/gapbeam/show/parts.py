@@ -41,10 +41,6 @@ def part_report(part: PartVerbs) -> str:
     ----------
     part : PartVerbs
         An envelope, or a train.
-
-    Returns
-    -------
-    str
     """
     lines = part_answer(part)
     supports = part.table("supports")

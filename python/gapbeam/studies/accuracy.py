@@ -346,10 +346,6 @@ def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: st
         From `scene_comparisons`.
     options : str
         What the command was given beside the files to write.
-
-    Returns
-    -------
-    str
     """
     comparisons = [replace(one, beam=literal_markdown(one.beam)) for one in comparisons]
     command = " ".join(["gapbeam study accuracy", *options.split(), "--markdown docs/accuracy.md --plot docs/accuracy.svg"])

@@ -89,10 +89,6 @@ def one_span(elements: int) -> MeshedBeam:
     ----------
     elements : int
         Of length 3/16, so that their sum has no rounding error.
-
-    Returns
-    -------
-    MeshedBeam
     """
     held = np.zeros(elements + 1)
     held[[0, -1]] = np.inf
@@ -106,10 +102,6 @@ def many_spans(elements: int) -> MeshedBeam:
     ----------
     elements : int
         At least 4.
-
-    Returns
-    -------
-    MeshedBeam
     """
     spans = elements // 4
     random = np.random.default_rng(SEED)
@@ -126,10 +118,6 @@ def stiffness_jumps(elements: int) -> MeshedBeam:
     ----------
     elements : int
         A third of them in every span, or nearly so.
-
-    Returns
-    -------
-    MeshedBeam
     """
     random = np.random.default_rng(SEED)
     held = np.zeros(elements + 1)
@@ -145,10 +133,6 @@ def soft_and_stiff(elements: int) -> MeshedBeam:
     ----------
     elements : int
         At least 4; a multiple of 4 is taken.
-
-    Returns
-    -------
-    MeshedBeam
     """
     spans = elements // 4
     random = np.random.default_rng(SEED)

@@ -119,10 +119,6 @@ def yardstick(name: str, number: int, refinements: int = 0, precise: bool = Fals
         Whether the residuals are in double-double, or else in plain double with differences first.
     reactions : bool
         Whether reactions are wanted; mixed methods can leave them out where no support is one-sided.
-
-    Returns
-    -------
-    Method
     """
     solve = interruptible(_yardsticks.ysbeam, lambda method, refine, precise, reactions, length, *_: len(length))
 
@@ -143,10 +139,6 @@ def kernel(refinements: int = 0) -> Method:
     ----------
     refinements : int
         Steps of refinement.
-
-    Returns
-    -------
-    Method
     """
     solve = interruptible(_yardsticks.yskern, lambda length, *_: len(length))
 
@@ -172,10 +164,6 @@ def from_scene(name: str, **analysis) -> Method:
         Its name.
     **analysis
         Options of the scene's analysis.
-
-    Returns
-    -------
-    Method
     """
 
     def run(beam: MeshedBeam, repeat: int) -> Answer:
@@ -201,12 +189,7 @@ def from_scene(name: str, **analysis) -> Method:
 
 
 def methods() -> list[Method]:
-    """All of them, those of the engine first.
-
-    Returns
-    -------
-    list of Method
-    """
+    """All of them, those of the engine first."""
     return [
         yardstick(CONDENSED, 4),
         kernel(),

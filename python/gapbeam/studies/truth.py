@@ -200,10 +200,6 @@ def solve_one_span(beam: MeshedBeam) -> Truth:
     ----------
     beam : MeshedBeam
         From `one_span`.
-
-    Returns
-    -------
-    Truth
     """
     n = beam.elements
     with localcontext() as context:

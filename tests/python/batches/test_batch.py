@@ -232,6 +232,32 @@ def test_envelopes_of_combinations_and_trains(tmp_path):
         gapbeam.batch(scene, columns, tmp_path / "out", want=["couple"])
 
 
+def test_combinations_of_all_rows_are_solved_together(tmp_path):
+    combinations = [{"name": "calm", "factors": {"dead": 1.0}}, {"name": "storm", "factors": {"dead": 0.9, "wind": 1.5}}]
+    scene = {**SCENE, "combinations": combinations}
+    columns = {"supports.R-101.gap": [0.0, 0.02, np.nan, 0.01], "factors.wind": [1.0, 2.0, 1.0, 1e308], "beam.EI": 4 * [2e4]}
+    want = ["input", "reaction", "opening", "moment", "moment@3.0", "shear@6.0"]
+    done = gapbeam.batch(scene, columns, tmp_path, want=want)
+    made = job(scene, columns, tuple(want))
+    assert made.cases.is_prepared
+    names = [one.replace("reaction.0", "reaction.R-101").replace("opening.0", "opening.R-101") for one in made.columns]
+    names = [one.replace("reaction.1", "reaction.R 102").replace("opening.1", "opening.R 102") for one in names]
+    found = dict(zip(made.columns, done.read(names).values(), strict=True)) | done.read(["status"])
+    assert found["status"][:2].tolist() == ["solved", "solved"]
+    assert "solved" not in found["status"][2:]
+    assert all(np.isnan(found[name][2:]).all() for name in made.columns if name not in columns)
+    for case in (0, 1):
+        envelope = gapbeam.solve(done.scene_of(case)).envelope()
+        there = gapbeam.solve(done.scene_of(case)).envelope(x=[3.0, 6.0]).fields
+        for kind, curve in (("max", there.largest), ("min", there.smallest)):
+            expected = {f"moment@3.0.{kind}": curve["moment"][0], f"shear@6.0.{kind}": curve["shear"][1]}
+            expected[f"moment.{kind}"] = envelope.extremes["moment"][kind].value
+            expected[f"moment.{kind}_x"] = envelope.extremes["moment"][kind].x
+            for name in ("reaction", "opening"):
+                expected |= {f"{name}.{one}.{kind}": envelope.supports[k][name][kind].value for k, one in enumerate(made.supports)}
+            assert {name: found[name][case] for name in expected} == pytest.approx(expected, rel=1e-13, abs=1e-15)
+
+
 def test_scenes_of_a_folder(tmp_path):
     (tmp_path / "scenes").mkdir()
     for name, text in (("b.toml", TOML), ("a.toml", TOML.replace("q = 5.0", "q = 6.0")), ("c.toml", "nonsense")):

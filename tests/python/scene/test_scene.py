@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from gapbeam.base.errors import SceneError
 from gapbeam.scene import (
-    POSITION_TOLERANCE,
     Analysis,
     AxialLoad,
     Beam,
@@ -258,7 +257,6 @@ def test_span_ends_are_exact(spans):
 
 
 def test_same_place():
-    assert POSITION_TOLERANCE == 64 * 2.0**-52
     assert same_place(6.0, 6.0 * (1 + 63 * 2.0**-52))
     assert not same_place(6.0, 6.0 * (1 + 66 * 2.0**-52))
     assert same_place(0.0, 0.0)

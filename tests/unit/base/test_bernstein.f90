@@ -2,12 +2,14 @@
 program test_bernstein
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_bernstein, only: highest_degree, sample_points, to_coefficients, value_of, halve, first_below, crossing
+    use gapbeam_bernstein, only: highest_degree, sample_points, to_coefficients, value_of, halve, part_of, find_greatest, first_below, &
+        crossing
     use gapbeam_patch, only: patch_type, greatest_on_patch
     implicit none
     integer :: status
 
     call samples_give_the_polynomial_back()
+    call greatest_on_a_part()
     call first_place_below()
     call greatest_of_two_variables()
     call finish(status)
@@ -31,6 +33,28 @@ contains
             call check_close(value_of(right(0:n), 0.5_wp), 0.5_wp**n, "a power on the right part")
         end do
     end subroutine samples_give_the_polynomial_back
+
+    !> Inside, at an end, or everywhere
+    subroutine greatest_on_a_part()
+        real(wp) :: b(0:4), matrix(0:4, 0:4), value, u
+
+        ! 1 - (u - 1/4)**2 (u + 1)**2, with another peak at -1
+        matrix(:, :) = to_coefficients(4)
+        b(:) = sample_points(4)
+        b(:) = matmul(matrix, 1 - (b - 0.25_wp)**2*(b + 1)**2)
+        call find_greatest(b, value, u)
+        call check_close(value, 1.0_wp, "a peak")
+        call check_close(u, 0.25_wp, "where it is")
+        call find_greatest(part_of(b, 0.5_wp, 0.75_wp), value, u)
+        call check_close(value, 1 - 0.0625_wp*2.25_wp, "falling on a part")
+        call check_close(u, 0.0_wp, "from its beginning")
+        call find_greatest(part_of(b, 0.0_wp, 0.125_wp), value, u)
+        call check_close(value, 1 - 0.015625_wp*1.265625_wp, "rising on the first part")
+        call find_greatest(part_of(b, 1.0_wp, 1.0_wp), value, u)
+        call check_close(value, 1 - 0.5625_wp*4, "at a point")
+        call find_greatest([3.0_wp], value, u)
+        call check_close(value, 3.0_wp, "the same everywhere")
+    end subroutine greatest_on_a_part
 
     !> A level that is touched, crossed, or not reached
     subroutine first_place_below()

@@ -6,7 +6,7 @@ program lane_widths
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_null_ptr, c_funptr, c_funloc, c_loc, c_f_pointer
     use testing, only: check, finish
-    use lane_beams, only: make_beam, draw_cases, random, bits
+    use lane_beams, only: make_beam, draw_cases, random, bits, numbers_of, solutions_of
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_units, only: moment_unit
@@ -18,6 +18,7 @@ program lane_widths
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
+    use gapbeam_case_types, only: case_solutions_type, remaining
     use gapbeam_many_cases, only: case_room_type, solve_cases
     implicit none
 
@@ -31,7 +32,7 @@ program lane_widths
     type :: share_type
         type(assembled_type), pointer :: lowered => null()
         type(case_loads_type), pointer :: loads => null()
-        real(wp), pointer :: factors(:, :) => null(), values(:, :, :) => null(), spans(:, :, :) => null()
+        real(wp), pointer, contiguous :: factors(:, :) => null(), values(:, :, :) => null(), spans(:, :, :) => null()
         integer, allocatable :: closed(:, :), solves(:), status(:)
         real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :)
         logical, allocatable :: done(:)
@@ -116,6 +117,7 @@ contains
         type(share_type), target :: together, one, part(threads)
         type(case_room_type) :: room
         type(lane_room_type) :: lane_room
+        type(case_solutions_type) :: solutions
         integer(c_intptr_t) :: thread(threads)
         integer(c_int) :: code
         integer :: bounds(0:threads), i, t, level
@@ -139,8 +141,11 @@ contains
         if (fits_lanes(lowered)) then
             do level = least_level, best_level()
                 call share_cases(lowered, loads, factors, values, own_spans, one)
-                call solve_in_lanes(lowered, loads, factors, values, own_spans, lane_room, one%closed, one%w, one%ml, one%mr, &
-                                    one%reaction, one%solves, one%done, level)
+                lane_room = lane_room_type()
+                lane_room%block%level = level
+                solutions = solutions_of_share(one)
+                call solve_in_lanes(lowered, loads, numbers_of(factors, values, own_spans), remaining(one%done), lane_room, &
+                                    solutions, one%done)
                 do i = 1, cases
                     if (one%done(i)) call count_one(same(together, i, one, i), levels, seen, wrong)
                 end do
@@ -178,7 +183,7 @@ contains
     subroutine share_cases(lowered, loads, factors, values, spans, share)
         type(assembled_type), intent(in), target :: lowered
         type(case_loads_type), intent(in), target :: loads
-        real(wp), intent(in), target :: factors(:, :), values(:, :, :), spans(:, :, :)
+        real(wp), intent(in), contiguous, target :: factors(:, :), values(:, :, :), spans(:, :, :)
         type(share_type), intent(out) :: share
         integer :: n, m, c
 
@@ -199,16 +204,26 @@ contains
         share%ml(:, :) = 0.0_wp
         share%mr(:, :) = 0.0_wp
         share%reaction(:, :) = 0.0_wp
+        share%done(:) = .false.
     end subroutine share_cases
+
+    !> Columns for their solutions
+    function solutions_of_share(share) result(solutions)
+        type(share_type), intent(in), target :: share
+        type(case_solutions_type) :: solutions
+
+        solutions = solutions_of(share%closed, share%w, share%ml, share%mr, share%reaction, share%solves, share%status)
+    end function solutions_of_share
 
     !> Solve them in one call
     subroutine solve_share(share, room)
-        type(share_type), intent(inout) :: share
+        type(share_type), intent(inout), target :: share
         !> Empty, or of earlier cases of the beam
         type(case_room_type), intent(inout) :: room
+        type(case_solutions_type) :: solutions
 
-        call solve_cases(share%lowered, share%loads, share%factors, share%values, share%spans, rule_block, room, share%closed, &
-                         share%w, share%ml, share%mr, share%reaction, share%solves, share%status)
+        solutions = solutions_of_share(share)
+        call solve_cases(share%lowered, share%loads, numbers_of(share%factors, share%values, share%spans), room, solutions)
     end subroutine solve_share
 
     !> The same, for pthread_create

@@ -3,17 +3,16 @@
 program test_lane_audit
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, finish
-    use lane_beams, only: make_beam, draw_cases, random
+    use lane_beams, only: make_beam, draw_cases, random, numbers_of
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type, split_loads
-    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack
-    use gapbeam_cpu_dispatch, only: least_level, best_level, take_columns_at, take_numbers_at, search_pack_at, &
-        finish_pack_at, audit_pack_at
-    use gapbeam_lane_spans, only: span_room_type, prepare_spans, take_spans, make_pack_links
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type
+    use gapbeam_lane_compiled, only: compiled_type
+    use gapbeam_cpu_dispatch, only: least_level, best_level, compiled_at
     use gapbeam_lane_cases, only: fits_lanes
-    use gapbeam_lane_model, only: prepare_lanes, take_supports, take_starts, units_of_supports
+    use gapbeam_lane_blocks, only: block_type, make_block, take_cases
     implicit none
 
     integer, parameter :: beams = 400
@@ -38,6 +37,7 @@ contains
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(lane_beam_type) :: beam
+        type(compiled_type) :: compiled
         type(pack_type) :: pack, broken
         real(wp), allocatable :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer(int64) :: seed
@@ -58,7 +58,8 @@ contains
             call solve(lowered, loads, factors, values, spans, beam, pack, sound)
             if (.not. any(sound)) cycle
             do level = least_level, best_level()
-                call audit_pack_at(level, beam, pack, wrong)
+                compiled = compiled_at(level, size(beam%links, 1) > 1)
+                call compiled%audit_pack(beam, pack, wrong)
                 refused = refused + count(wrong .and. sound)
                 passed = passed + count(sound)
             end do
@@ -72,7 +73,8 @@ contains
                 expected = sound
                 expected(l) = .false.
                 do level = least_level, best_level()
-                    call audit_pack_at(level, beam, broken, wrong)
+                    compiled = compiled_at(level, size(beam%links, 1) > 1)
+                    call compiled%audit_pack(beam, broken, wrong)
                     tried(kind) = tried(kind) + 1
                     if (wrong(l)) found(kind) = found(kind) + 1
                     elsewhere = elsewhere + count(wrong .and. expected)
@@ -93,6 +95,7 @@ contains
         type(case_loads_type) :: loads
         type(error_type), allocatable :: error
         type(lane_beam_type) :: beam
+        type(compiled_type) :: compiled
         type(pack_type) :: pack
         real(wp), allocatable :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer(int64) :: seed
@@ -119,7 +122,8 @@ contains
             end do
             call solve(lowered, loads, factors, values, spans, beam, pack, sound)
             if (.not. any(sound)) cycle
-            call audit_pack_at(best_level(), beam, pack, wrong)
+            compiled = compiled_at(best_level(), size(beam%links, 1) > 1)
+            call compiled%audit_pack(beam, pack, wrong)
             refused = refused + count(wrong .and. sound)
             passed = passed + count(sound)
         end do
@@ -131,40 +135,27 @@ contains
     subroutine solve(lowered, loads, factors, values, spans, beam, pack, sound)
         type(assembled_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
+        real(wp), intent(in), contiguous, target :: factors(:, :), values(:, :, :), spans(:, :, :)
         type(lane_beam_type), intent(out) :: beam
         type(pack_type), intent(out) :: pack
         !> Which of them are solved without doubt
         logical, intent(out) :: sound(lanes)
-        type(span_room_type) :: span_room
-        real(wp) :: turned(lanes, 3*size(values, 2) + 3), factors_of(lanes, size(factors, 1))
-        integer :: closed(size(lowered%beam%supports), lanes), solves(lanes), method(lanes), l, level, numbers(lanes)
-        logical :: made, lost, doubtful(lanes), outside(lanes)
+        type(block_type) :: block
+        integer :: closed(size(lowered%beam%supports), lanes), solves(lanes), method(lanes), l
+        logical :: doubtful(lanes), fits(lanes)
 
-        level = best_level()
-        numbers = [(l, l=1, lanes)]
-        call prepare_lanes(lowered, loads, size(spans, 2) > 0, beam, made)
-        if (size(spans, 2) > 0) call prepare_spans(lowered, loads, span_room, made)
-        call new_pack(beam, pack, made)
-        call take_supports(lowered, beam%place, pack)
-        if (size(values, 2) > 0) then
-            call take_numbers_at(level, beam, units_of_supports(lowered), values, numbers, turned, pack, lost)
-        end if
-        outside(:) = .false.
-        if (size(spans, 2) > 0) then
-            do l = 1, lanes
-                call take_spans(spans(:, :, l), l, span_room, outside(l))
-            end do
-            call make_pack_links(level, span_room, beam, pack)
-        end if
-        call take_columns_at(level, size(factors, 1), lanes, factors, numbers, factors_of)
         closed(:, :) = 1
-        call take_starts(lowered, beam%place, closed, numbers, pack)
-        call search_pack_at(level, beam, factors_of, pack, solves, method)
+        associate (numbers => numbers_of(factors, values, spans))
+            call make_block(lowered, loads, numbers, block)
+            call take_cases(lowered, numbers, closed, [(l, l=1, lanes)], block, fits)
+        end associate
+        beam = block%beam
+        pack = block%pack
+        call block%compiled%search_pack(beam, block%factors, pack, solves, method)
         sound(:) = .false.
         if (any(method /= method(1)) .or. method(1) == 0) return
-        call finish_pack_at(level, beam, method(1), pack, doubtful)
-        sound = .not. (doubtful .or. outside)
+        call block%compiled%finish_pack(beam, method(1), pack, doubtful)
+        sound = fits .and. .not. doubtful
     end subroutine solve
 
     !> Break a number of a lane

@@ -2,7 +2,7 @@
 program test_lanes
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, finish
-    use lane_beams, only: make_beam, draw_cases, random, bits
+    use lane_beams, only: make_beam, draw_cases, random, bits, numbers_of, solutions_of
     use gapbeam_kinds, only: wp
     use gapbeam_quantities, only: bending_count
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_finite
@@ -12,10 +12,11 @@ program test_lanes
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
+    use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     use gapbeam_cpu_dispatch, only: least_level, best_level
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
-    use gapbeam_case_extremes, only: extremes_of_cases
+    use gapbeam_case_extremes, only: case_fields_type, extremes_of_cases
     use gapbeam_case_certificates, only: certify_cases, certificate_numbers
     implicit none
 
@@ -24,8 +25,6 @@ program test_lanes
     integer, parameter :: cases = 20, beams = 240, long_beams = 2
     !> Certificates of longer beams take their time where a case goes alone
     integer, parameter :: most_certified = 12
-    !> Numbers that no case has of its own
-    real(wp), parameter :: no_values(3, 0, cases) = 0.0_wp
     integer :: status
 
     !> What comes out of some cases
@@ -100,11 +99,14 @@ contains
     subroutine solve(lowered, loads, factors, values, spans, level, found)
         type(assembled_type), intent(in) :: lowered
         type(case_loads_type), allocatable, intent(in) :: loads
-        real(wp), intent(in) :: factors(:, :), values(:, :, :), spans(:, :, :)
+        real(wp), intent(in), contiguous, target :: factors(:, :), values(:, :, :), spans(:, :, :)
         integer, intent(in) :: level
-        type(found_type), intent(out) :: found
+        type(found_type), intent(out), target :: found
         type(lane_room_type) :: room
-        integer, allocatable :: status(:)
+        type(case_numbers_type) :: numbers
+        type(case_solutions_type) :: solutions
+        type(case_fields_type) :: fields
+        integer, allocatable, target :: status(:)
         logical, allocatable :: known(:)
         integer :: n, m, c
 
@@ -113,14 +115,17 @@ contains
         c = size(factors, 2)
         ! A row more than there are supports, as in Python
         allocate (found%closed(m + 1, c), found%solves(c), found%w(n, c), found%ml(n, c), found%mr(n, c), &
-                  found%reaction(m + 1, c), found%done(c))
+                  found%reaction(m + 1, c), found%done(c), status(c))
         found%closed(:, :) = 1
         found%w(:, :) = 0.0_wp
         found%ml(:, :) = 0.0_wp
         found%mr(:, :) = 0.0_wp
         found%reaction(:, :) = 0.0_wp
-        call solve_in_lanes(lowered, loads, factors, values, spans, room, found%closed, found%w, found%ml, found%mr, &
-                            found%reaction, found%solves, found%done, level)
+        found%done(:) = .false.
+        numbers = numbers_of(factors, values, spans)
+        solutions = solutions_of(found%closed, found%w, found%ml, found%mr, found%reaction, found%solves, status)
+        room%block%level = level
+        call solve_in_lanes(lowered, loads, numbers, remaining(found%done), room, solutions, found%done)
         if (any(found%closed(m + 1, :) /= 1) .or. any(abs(found%reaction(m + 1, :)) > 0.0_wp)) then
             call check(.false., "what is beyond the supports stays as it was")
         end if
@@ -128,15 +133,20 @@ contains
         found%fields(:, :, :) = 0.0_wp
         found%extremes(:, :, :) = 0.0_wp
         found%places(:, :, :) = 0.0_wp
-        status = merge(gapbeam_solved, gapbeam_not_finite, found%done)
-        call extremes_of_cases(lowered, loads, factors, values, spans, rule_block, found%closed, found%w, found%ml, found%mr, &
-                               spread(.true., 1, bending_count), found%extremes, found%places, [1, size(lowered%pieces)], &
-                               [0.0_wp, piece_length(lowered, size(lowered%pieces))], found%fields, status, level)
+        fields%extremes => found%extremes
+        fields%places => found%places
+        fields%fields => found%fields
+        status(:) = merge(gapbeam_solved, gapbeam_not_finite, found%done)
+        nullify (solutions%reaction)
+        call extremes_of_cases(lowered, loads, numbers, solutions, spread(.true., 1, bending_count), [1, size(lowered%pieces)], &
+                               [0.0_wp, piece_length(lowered, size(lowered%pieces))], fields, level)
         allocate (found%certificate(certificate_numbers, c), known(c))
         found%certificate(:, :) = 0.0_wp
-        if (n <= most_certified) call certify_cases(lowered, loads, factors, values, no_values, no_values(1, :, :), rule_block, &
-                                                    .true., found%closed, found%w, found%ml, found%mr, found%reaction, &
-                                                    found%certificate, known, status, level)
+        solutions%reaction => found%reaction
+        nullify (numbers%spans)
+        if (n <= most_certified) then
+            call certify_cases(lowered, loads, numbers, solutions, found%certificate, known, level)
+        end if
         found%done = found%done .and. status == gapbeam_solved
     end subroutine solve
 

@@ -2,6 +2,7 @@
 program test_segments
     use, intrinsic :: iso_fortran_env, only: int64
     use testing, only: check, finish
+    use lane_beams, only: numbers_of, solutions_of
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_scene, only: span_type, support_type, point_force, point_couple, uniform_load, gapbeam_infinity
@@ -12,7 +13,9 @@ program test_segments
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_search, only: rule_block
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
-    use gapbeam_cpu_dispatch, only: least_level, best_level, audit_segments_at
+    use gapbeam_cpu_dispatch, only: least_level, best_level, compiled_at
+    use gapbeam_lane_compiled, only: compiled_type
+    use gapbeam_case_types, only: case_solutions_type, remaining
     use gapbeam_segment_types, only: segment_room_type
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     implicit none
@@ -117,6 +120,7 @@ contains
         type(found_type) :: found
         type(segments_type) :: segments
         type(segment_room_type) :: broken
+        type(compiled_type) :: compiled
         real(wp), allocatable :: factors(:, :), values(:, :, :)
         integer(int64) :: seed
         integer :: b, i, k, kind, level, missed(kinds), refused, passed
@@ -132,12 +136,12 @@ contains
             call draw_cases(seed, lowered, b, factors, values)
             call make_room(lowered, 1, found)
             segments%made = .false.
-            call solve_in_segments(lowered, loads, factors(:, :1), values(:, :, :1), segments, found%closed, found%w, found%ml, &
-                                   found%mr, found%reaction, found%solves, found%done)
+            call solve_cases(lowered, loads, factors(:, :1), values(:, :, :1), segments, found)
             if (.not. found%done(1)) cycle
             passed = passed + 1
             do level = least_level, best_level()
-                call audit_segments_at(level, segments%beam, segments%room, wrong)
+                compiled = compiled_at(level, .false.)
+                call compiled%audit_long_beam(segments%beam, segments%room, wrong)
                 if (wrong) refused = refused + 1
                 do kind = 1, kinds
                     do i = 1, places
@@ -149,7 +153,7 @@ contains
                         if (kind == 2) broken%w(k) = broken%w(k) - 1e-7_wp*maxval(abs(broken%w))
                         if (kind == 3) broken%m(k) = broken%m(k) + 1e-7_wp*maxval(abs(broken%m))
                         if (kind == 4) broken%closed(k) = 1.0_wp - broken%closed(k)
-                        call audit_segments_at(level, segments%beam, broken, wrong)
+                        call compiled%audit_long_beam(segments%beam, broken, wrong)
                         if (.not. wrong) missed(kind) = missed(kind) + 1
                     end do
                 end do
@@ -182,6 +186,24 @@ contains
     end subroutine make_room
 
     !> Solve cases in segments
+    subroutine solve_cases(lowered, loads, factors, values, segments, found)
+        type(assembled_type), intent(in) :: lowered
+        type(case_loads_type), intent(in) :: loads
+        real(wp), intent(in), contiguous, target :: factors(:, :), values(:, :, :)
+        type(segments_type), intent(inout) :: segments
+        !> By make_room
+        type(found_type), intent(inout), target :: found
+        real(wp), target :: own_spans(2, 0, 0)
+        integer, target :: codes(size(found%solves))
+        type(case_solutions_type) :: solutions
+
+        found%done(:) = .false.
+        solutions = solutions_of(found%closed, found%w, found%ml, found%mr, found%reaction, found%solves, codes)
+        call solve_in_segments(lowered, loads, numbers_of(factors, values, own_spans), remaining(found%done), segments, &
+                               solutions, found%done)
+    end subroutine solve_cases
+
+    !> Solve cases in segments that are made for them
     subroutine solve(lowered, loads, factors, values, level, found)
         type(assembled_type), intent(in) :: lowered
         type(case_loads_type), intent(in) :: loads
@@ -192,8 +214,8 @@ contains
         integer :: beyond
 
         call make_room(lowered, size(factors, 2), found)
-        call solve_in_segments(lowered, loads, factors, values, segments, found%closed, found%w, found%ml, found%mr, &
-                               found%reaction, found%solves, found%done, level)
+        segments%level = level
+        call solve_cases(lowered, loads, factors, values, segments, found)
         beyond = size(lowered%beam%supports) + 1
         if (any(found%closed(beyond, :) /= 1) .or. any(abs(found%reaction(beyond, :)) > 0.0_wp)) then
             call check(.false., "what is beyond the supports stays as it was")

@@ -59,10 +59,6 @@ class Asked(Record):
             Places at which fields are wanted.
         side : {"right", "left"}
             Which value is taken where a field jumps.
-
-        Returns
-        -------
-        Combined
         """
         if x is None and self.states is not None:
             return self.states

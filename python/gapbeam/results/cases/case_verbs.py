@@ -16,6 +16,7 @@ from ...base.hints import no_such
 from ...base.records import read_only
 from ...engine.combinations import Combined, Varied
 from ...scene.names import labels
+from ..envelopes.envelope import AT_SUPPORTS
 from ..envelopes.lifted import Lifted, lifted_in_cases
 from ..envelopes.tables import support_places
 from ..state.arguments import whole
@@ -208,20 +209,10 @@ class CaseVerbs(Shown):
             return self[whole("case", case)].result()
         return result_of_case(*self._about(self._asked, 0))
 
-    @property
-    def reactions(self) -> Labelled:
-        """Reactions by number and name of the support, positive upward: an array with an entry for every case."""
-        if "reaction" in self._names and np.shape(self.reaction)[-1] == len(self.scene.supports):
-            return by_support(self.scene, "reaction", self.reaction.T)
-        return self._by_support("reaction", 0)
-
-    @property
-    def openings(self) -> Labelled:
-        """Distance still to go until a support acts, the gap included, as `reactions`."""
-        return self._by_support("opening", 2)
-
-    def _by_support(self, quantity: str, row: int) -> Labelled:
-        values = self._combined().at_supports[:, row]
+    def _by_support(self, quantity: str) -> Labelled:
+        if quantity == "reaction" and "reaction" in self._names and np.shape(self.reaction)[-1] == len(self.scene.supports):
+            return by_support(self.scene, quantity, self.reaction.T)
+        values = self._combined().at_supports[:, AT_SUPPORTS.index(quantity)]
         return by_support(self.scene, quantity, values.T if self._shape else values[0])
 
     @property

@@ -219,25 +219,7 @@ class CombinedResult(Result):
         return self._chosen(None)
 
     def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
-        """Largest and smallest values of all combinations together, with trains over all their positions.
-
-        Parameters
-        ----------
-        points : int
-            Divisions of every span at which its curves are made, when they are asked for.
-        x : array_like, optional
-            Places of the curves instead; where a field jumps the larger and the smaller side count.
-
-        Returns
-        -------
-        Envelope or TrainEnvelope
-            Of the combinations that are solved, each at its full load.
-
-        Raises
-        ------
-        ValueError
-            No combination is solved, or a place is outside the beam.
-        """
+        """Largest and smallest values of all combinations that are solved, each at its full load, as `Result.envelope`."""
         if self.scene.trains:
             return super().envelope(points, x=x)
         places = places_given(self._beam, x)

@@ -89,10 +89,6 @@ class OneByOne(Pickled):
         ----------
         found : Combined
             From `solve`.
-
-        Returns
-        -------
-        list of int
         """
         return []
 

@@ -114,10 +114,6 @@ class CaseSolver(Pickled):
             Whether it is one case, without an axis of cases.
         out : Cases, optional
             Earlier ones to be filled again.
-
-        Returns
-        -------
-        Cases
         """
         found, states = self._find(factors, closed, varied, want, out)
         again = found if states is None else None
@@ -194,10 +190,6 @@ class CaseSolver(Pickled):
             Of all loads.
         varied : Varied
             Numbers of this one case.
-
-        Returns
-        -------
-        Result
         """
         return result_of_case(self.scene, self.beam, self.rule, factors, varied)
 
@@ -263,10 +255,6 @@ def solver_of(scene: Scene, beam: Beam, rule: str) -> CaseSolver:
     ----------
     scene, beam, rule
         As for `CaseSolver`.
-
-    Returns
-    -------
-    CaseSolver
     """
     kind = OnGround if beam.ground_layers else WithLaws if beam.has_laws else CaseSolver
     return kind(scene, beam, rule)

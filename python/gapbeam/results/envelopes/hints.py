@@ -53,12 +53,7 @@ class Hint:
     at_full_load: float
 
     def to_dict(self) -> dict[str, Any]:
-        """As plain data, what is None left out.
-
-        Returns
-        -------
-        dict
-        """
+        """As plain data, what is None left out."""
         return {key: value for key, value in asdict(self).items() if value is not None}
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+from ..views.extreme import given_of
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -45,15 +47,7 @@ class Lifted(NamedTuple):
     case: int | None = None
     share: float | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        return {key: value for key, value in self._asdict().items() if value is not None}
+    to_dict = given_of
 
 
 def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[Lifted]:

@@ -74,11 +74,6 @@ class SupportRows(list):
 def support_places(scene: Scene) -> dict[str, Any]:
     """Begin a table with a row for every support.
 
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
     Returns
     -------
     dict
@@ -127,10 +122,6 @@ def event_columns(
         Whether events have a position of a train, else a load factor.
     with_combinations : bool
         Whether combinations are named.
-
-    Returns
-    -------
-    dict
     """
     names = {"support": labels(scene.supports), "foundation": labels(scene.foundation)}
     table: dict[str, Any] = {"combination": [name for name, _, _ in rows]} if with_combinations else {}

@@ -52,16 +52,6 @@ class PartVerbs(Shown):
         """Where the largest and smallest values are."""
         return self
 
-    @property
-    def reactions(self) -> Labelled:
-        """Reactions by number and name of the support, each ``{"max": Extreme, "min": Extreme}``."""
-        return self._by_support("reaction")
-
-    @property
-    def openings(self) -> Labelled:
-        """Distance still to go until a support acts, the gap included, as `reactions`."""
-        return self._by_support("opening")
-
     def _by_support(self, quantity: str) -> Labelled:
         return by_support(self.scene, quantity, [row[quantity] for row in self._ranges.supports])
 

@@ -158,10 +158,6 @@ class Arc:
             Forces of the laws there, positive downward deflections resisted.
         tolerance : float
             Share of the largest reaction or deflection that is nothing.
-
-        Returns
-        -------
-        bool
         """
         _, solution, _ = self._solve(point[:-1], force, point[-1])
         return bool(solution.certify()[0][2] <= tolerance)
@@ -240,10 +236,6 @@ class Arc:
             Along the arc.
         way : int
             On which side: -1 before, 1 beyond.
-
-        Returns
-        -------
-        float
         """
         for beside in BESIDE:
             with suppress(LostError):

@@ -13,6 +13,7 @@ from ...base.records import Pickled, read_only
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
 from ...engine.paths import ENDINGS, follow_history
+from ...engine.tolerances import MOST_PATH_SEGMENTS
 from ..state.breakpoints import piece_of, what_happens
 from ..state.energy import bulge, work_of_loads
 from ..state.step import Step
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from ...scene.structs import Scene
     from ..result import Result
 
-MOST_STRETCHES = 20_000
-"""Stretches after which a path is cut off; without a history there are finitely many."""
 BEYOND = 0.1
 """By what share the polylines of smooth laws are followed further, where on the laws the load does not come to its end."""
 CURVE = 25
@@ -177,17 +176,7 @@ class BranchPath(Pickled):
         return float(found)
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
-        """Give the scheme of a segment.
-
-        Parameters
-        ----------
-        segment : BranchSegment
-            One of the segments.
-
-        Returns
-        -------
-        numpy.ndarray of int
-        """
+        """Give the scheme of a segment, as `Path.closed`."""
         return self._history.closed[segment.number].astype(np.int32)
 
     def beam(self, segment: BranchSegment) -> Beam:
@@ -239,19 +228,7 @@ class BranchPath(Pickled):
         return found
 
     def step(self, segment: BranchSegment, factor: float) -> Step:
-        """Give the state on a segment at a load factor.
-
-        Parameters
-        ----------
-        segment : BranchSegment
-            One of the segments.
-        factor : float
-            One of its load factors.
-
-        Returns
-        -------
-        Step
-        """
+        """Give the state on a segment at a load factor, as `Path.step`."""
         return self._step(segment.number, factor)
 
     def begin(self, segment: BranchSegment) -> Step:
@@ -292,18 +269,7 @@ class BranchPath(Pickled):
         return Step(self._beam_at(k), factor, GIVEN, read_only(self._history.closed[k].astype(np.int32)))
 
     def find(self, factor: float) -> BranchSegment | None:
-        """Find the segment that a load factor belongs to.
-
-        Parameters
-        ----------
-        factor : float
-            Load factor.
-
-        Returns
-        -------
-        BranchSegment or None
-            The last one with it, a stable one if there is any; None if the path does not pass it.
-        """
+        """Find the segment that a load factor belongs to, as `Path.find`."""
         there = [s for s in self.segments if min(s.start, s.stop) <= factor <= max(s.start, s.stop)]
         return max(there, key=lambda s: (s.stable, s.number), default=None)
 
@@ -325,12 +291,12 @@ def follow_branches(result: Result) -> BranchPath:
     factors = np.asarray(analysis.history, dtype=float)
     stops = analysis.at_limit == "stop"
     at_limit = "jump" if stops and result._beam.curves else analysis.at_limit
-    history = follow_history(result._beam, factors, at_limit, MOST_STRETCHES)
+    history = follow_history(result._beam, factors, at_limit, MOST_PATH_SEGMENTS)
     curved = CurvedPath(result._beam, history, factors[-1], stops) if result._beam.curves else None
     if curved is not None and curved.unreached == len(factors):
         # The limit load that keeps it from there lies beyond on the polylines
         further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
-        history = follow_history(result._beam, further, at_limit, MOST_STRETCHES)
+        history = follow_history(result._beam, further, at_limit, MOST_PATH_SEGMENTS)
         curved = CurvedPath(result._beam, history, factors[-1], stops)
     if curved is not None and curved.unreached is not None:
         which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"
@@ -341,7 +307,8 @@ def follow_branches(result: Result) -> BranchPath:
     path = BranchPath(result.scene, result._beam, history, perf_counter() - begin, curved)
     if path.ending == "cut off":
         raise EngineError(
-            f"the path has more than {MOST_STRETCHES:,} stretches: shorten the history, or follow it in parts", Status.NOT_CONVERGED
+            f"the path has more than {MOST_PATH_SEGMENTS:,} stretches: shorten the history, or follow it in parts",
+            Status.NOT_CONVERGED,
         )
     if path.ending:
         result._refuse_limit(path)

@@ -36,12 +36,7 @@ class Compression:
     length: float | None
 
     def to_dict(self) -> dict[str, float | None]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-        """
+        """As plain data."""
         ratio = self.ratio if np.isfinite(self.ratio) else None  # JSON has no infinity
         return {"ratio": ratio, "force": self.force, "from": self.from_, "to": self.to, "length": self.length}
 
@@ -56,23 +51,13 @@ class Compression:
         return self.ratio >= REFUSED
 
     def in_words(self) -> str:
-        """Say how large it is.
-
-        Returns
-        -------
-        str
-        """
+        """Say how large it is."""
         what = "P/(2 sqrt(k EI))" if self.length is None else "P L²/(π² EI)"
         length = "" if self.length is None else f", L = {self.length:.6g}"
         return f"{what} = {self.ratio:.4g} from x = {self.from_:.6g} to {self.to:.6g} (P = {self.force:.6g}{length})"
 
     def remark(self) -> str:
-        """Warn of it.
-
-        Returns
-        -------
-        str
-        """
+        """Warn of it."""
         return (
             f"the effect of axial forces on bending is left out, and compression comes near the Euler load: {self.in_words()}; "
             f"moments and deflections may be larger by about {self.ratio / (1.0 - self.ratio):.0%}"
@@ -85,10 +70,6 @@ class Compression:
         ----------
         where : str
             Said before it: at which load factor, or with which train.
-
-        Returns
-        -------
-        SceneError
         """
         return SceneError(
             KEY,

@@ -126,10 +126,6 @@ def refused_cases(
         Numbers that differ from those of the beam.
     sections : sequence of bool
         For every piece whether its EI is that of a section.
-
-    Returns
-    -------
-    numpy.ndarray of bool
     """
     refused, struts = np.zeros(len(factors), dtype=bool), Struts(beam)
     pieces = np.arange(1, beam.pieces + 1, dtype=np.int32)
@@ -150,10 +146,6 @@ def pieces_in_sections(scene: Scene, beam: Beam) -> np.ndarray:
     ----------
     scene, beam
         The scene and its beam.
-
-    Returns
-    -------
-    numpy.ndarray of bool
     """
     x, end = beam.places.point_x, beam.places.end
     middle, found = (x[:-1] + x[1:]) / 2, np.zeros(beam.pieces, dtype=bool)

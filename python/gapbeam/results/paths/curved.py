@@ -300,10 +300,6 @@ class CurvedPath(PolylinePath):
             Number of a stretch of its run.
         factor : float
             The load factor.
-
-        Returns
-        -------
-        Step
         """
         first, last = next(run for run in self.runs if run[0] <= k <= run[1])
         along, direction = self.history.along, self._rough.about[k, 1]

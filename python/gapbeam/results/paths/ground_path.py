@@ -19,9 +19,6 @@ from .path import Segment
 if TYPE_CHECKING:
     from ..result import Result
 
-BEGIN = 2.0**-40
-"""What acts here acts from the beginning: at factor 0 a beam without dead load lies on the ground without any force."""
-
 
 @dataclass(frozen=True, slots=True)
 class GroundEvent:

@@ -12,13 +12,12 @@ from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
 from ...engine.paths import TURNS, factor_on_laws, follow_stretch
+from ...engine.tolerances import CHANGES_AT_A_TIME
 from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.step import Step
 
 if TYPE_CHECKING:
     from ..result import Result
-
-EVENTS_AT_A_TIME = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,7 +229,7 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         return None
     factor, scheme, marginal, stretches = 0.0, solution.closed, solution.undecided, []
     while factor < 1.0:
-        piece = follow_stretch(beam, factor, scheme, marginal, EVENTS_AT_A_TIME)
+        piece = follow_stretch(beam, factor, scheme, marginal, CHANGES_AT_A_TIME)
         stretches.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == NO_EQUILIBRIUM:

@@ -69,10 +69,6 @@ class Struts:
             1 where a support of the engine acts.
         breakpoints : numpy.ndarray, optional
             The laws of supports as they have become; default those of the beam.
-
-        Returns
-        -------
-        list of (int, int, float)
         """
         key = closed.tobytes(), b"" if breakpoints is None else breakpoints.tobytes()
         if key not in self._known:
@@ -197,10 +193,6 @@ def struts_of(beam: Beam) -> Struts:
     ----------
     beam : Beam
         With axial forces.
-
-    Returns
-    -------
-    Struts
     """
     return GroundStruts(beam) if beam.ground_layers else Struts(beam)
 
@@ -237,10 +229,6 @@ def modulus(foundation: Foundation, state: str, pressure: float, between: tuple[
         Ends of the part.
     end : float
         Right end of the beam.
-
-    Returns
-    -------
-    float
     """
     stretch = (foundation.from_, end if foundation.to is None else foundation.to)
 

@@ -141,10 +141,6 @@ def passed_breakpoints(beam: Beam, before: np.ndarray, after: np.ndarray, breakp
         The schemes.
     breakpoints : numpy.ndarray
         As `Beam.breakpoints`, with the first scheme.
-
-    Returns
-    -------
-    list of Breakpoint
     """
     found = []
     for j in np.flatnonzero(before != after).tolist():

@@ -219,10 +219,6 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
         Distances from their left ends, ascending in each.
     beam, ground
         As for `find_runs`.
-
-    Returns
-    -------
-    piece, distance : numpy.ndarray
     """
     of = ground.values[0].astype(piece.dtype) - 1
     inside = np.append(of[1:] == of[:-1], False)

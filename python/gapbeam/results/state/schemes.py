@@ -48,10 +48,6 @@ def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarr
         The beam.
     start : sequence of bool, optional
         As for `solve`; default all closed, laws on their first piece.
-
-    Returns
-    -------
-    numpy.ndarray of int
     """
     closed = np.ones(beam.supports, dtype=np.int32)
     if start is None:

@@ -82,10 +82,6 @@ class SmoothLaws:
             A point of each line, in the scene's units; forces upward.
         slope : numpy.ndarray
             Slopes of the lines.
-
-        Returns
-        -------
-        Beam
         """
         units, breakpoints = beam.units, beam.breakpoints.copy()
         lines = np.array([

@@ -276,7 +276,8 @@ def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
     """
     acting = np.zeros(beam.scene_supports, dtype=np.int64)
     np.add.at(acting, beam.numbers, closed)
-    states = np.where(beam.sides == 0, "bilateral", np.where(acting > 0, "closed", "open")).tolist()
+    names = np.array(["open", "closed", "bilateral"], dtype=object)  # so that all supports share three words
+    states = names[np.where(beam.sides == 0, 2, acting > 0)].tolist()
     for k in beam.laws if beam.has_laws else ():
         piece = piece_of(beam, k, closed, beam.breakpoints).number
         states[k] = f"branch {piece}" if piece else "open"

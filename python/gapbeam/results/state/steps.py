@@ -66,10 +66,6 @@ class Steps(Pickled, Sequence[Step]):
         ----------
         k : int
             Number of the step, from 0.
-
-        Returns
-        -------
-        float
         """
 
     @overload
@@ -270,10 +266,6 @@ class PathSteps(Steps):
         ----------
         k : int
             Number of the step, from 0.
-
-        Returns
-        -------
-        Segment
         """
         return self._at[k][1]
 

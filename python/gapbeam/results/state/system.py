@@ -69,10 +69,6 @@ def system_of(result: Result) -> System:
     ----------
     result : Result
         Of one load.
-
-    Returns
-    -------
-    System
     """
     beam, steps = result._beam, result.steps
     method = steps[-1].solution.method if steps else 0

@@ -84,10 +84,6 @@ def train_data(train: TrainResult, scene: Scene, combination: str | None = None)
         Knows the names of supports and foundations.
     combination : str, optional
         In which it passes.
-
-    Returns
-    -------
-    dict
     """
     return {
         "name": train.name,

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...engine.beam import Beam
+from ...engine.tolerances import END_TOLERANCE, TRAIN_EQUAL
 from ...scene.names import names_of
-from ...scene.places import END_TOLERANCE
 from ..envelopes.envelope import Curves
 from ..envelopes.tables import SupportRows, curves_with_sources
 from ..envelopes.verbs import PartVerbs
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from ..result import Result
     from .traversals import UnstablePositions
 
-EQUAL = 2.0**-40
-"""Share of a value by which ties differ at most."""
 OF_FOUNDATIONS = {"resultant": (("max", "resultant", 0), ("min", "resultant", 1)),
                   "free_span": (("longest", "length", 0), ("deepest", "sag", 0))}  # fmt: skip
 """Values of foundations that have envelopes: their kinds, what is asked of a member, the largest (0) or the smallest (1)."""
@@ -150,10 +148,14 @@ class TrainEnvelope(PartVerbs):
         for number, member in enumerate(self._members):
             found, where = member.curves(places, left)
             for (half, at), (i, sign) in product(halves, enumerate((1.0, -1.0))):
-                better = sign * found[i][:, half] > sign * values[i][:, at]
+                here, known = found[i][:, half], values[i][:, at]
+                better = sign * here > sign * known
                 row, column = np.nonzero(better)
-                values[i][row, at[column]] = found[i][:, half][better]
-                positions[i][row, at[column]] = where[i][:, half][better]
+                values[i][row, at[column]] = here[better]
+                # Of members that tie the first one is named
+                apart = sign * (here[better] - known[better]) > TRAIN_EQUAL * np.abs(here[better])
+                row, column = row[apart], column[apart]
+                positions[i][row, at[column]] = where[i][:, half][row, column]
                 members[i][row, at[column]] = number
         values[np.isinf(values)] = np.nan
         tables = (values, members, positions)
@@ -235,7 +237,7 @@ def _merged(found: list[list[TrainExtreme]], i: int) -> TrainExtreme | None:
         return None
     values = [tie.value for tie in ties]
     best = min(values) if i else max(values)
-    slack = EQUAL * max(abs(value) for value in values)
+    slack = TRAIN_EQUAL * max(abs(value) for value in values)
     first, *others = [tie for tie in ties if abs(tie.value - best) <= slack]
     first.ties = tuple(others)
     return first

@@ -16,11 +16,6 @@ PER_LENGTH = 16
 def places_of_jumps(scene: Scene) -> np.ndarray:
     """Give the places at which the shear jumps without a train.
 
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
     Returns
     -------
     numpy.ndarray
@@ -33,11 +28,6 @@ def places_of_jumps(scene: Scene) -> np.ndarray:
 
 def places_of_kinks(scene: Scene) -> np.ndarray:
     """Give the places at which an axle makes a difference when it passes.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
 
     Returns
     -------

@@ -80,12 +80,7 @@ class TrainExtreme(Extreme):
         return {name: value for name, value in there.items() if name not in ("x", self.quantity) and self._of.is_unique(name)}
 
     def to_dict(self) -> dict[str, Any]:
-        """Where it comes from, all that tie with it, and the concurrent values, as plain data.
-
-        Returns
-        -------
-        dict
-        """
+        """Where it comes from, all that tie with it, and the concurrent values, as plain data."""
         ties = [({"x": tie.x} if tie.support is tie.foundation is None else {}) | tie.source.to_dict() for tie in self.ties]
         span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
         return {**span, **self.source.to_dict(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
@@ -322,11 +317,6 @@ class Standing(Member):
 
 def fields_of(beam: Beam) -> tuple[str, ...]:
     """Give the fields of a beam that have envelopes.
-
-    Parameters
-    ----------
-    beam : Beam
-        The beam.
 
     Returns
     -------

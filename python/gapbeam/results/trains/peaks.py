@@ -11,16 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ...engine.tolerances import MOST_TIES, TRAIN_EQUAL
 from .states import Placed
 from .tops import Straight, Unrolled, highest, nearer, vertex
 
 if TYPE_CHECKING:
     from .sampled_traversal import Limit, Run, SampledTraversal
 
-EQUAL = 2.0**-40
-"""Share of a value by which ties differ at most."""
-MOST_TIES = 16
-"""As many are listed."""
 NEAREST = 7
 """States through which a polynomial goes at most."""
 ALIKE = 1e-9
@@ -82,7 +79,7 @@ def find_peaks(traversal: SampledTraversal, value: Callable[[Placed], float], fu
     for run, table in pairs:
         if np.isnan(table).any():
             continue
-        found += _tops(run, table, best - EQUAL * max(abs(best), scale))
+        found += _tops(run, table, best - TRAIN_EQUAL * max(abs(best), scale))
         table = _with_limits(run, table, beside)
         width = run.states[-1].position - run.states[0].position
         hills = _hills(run, table, most * (min(width / step, 1.0) if step > 0.0 else 0.0), _ruler(traversal, run))
@@ -91,14 +88,14 @@ def find_peaks(traversal: SampledTraversal, value: Callable[[Placed], float], fu
         if reach < best:
             break
         foretold = _foretell(traversal, run, table, k)
-        if foretold is not None and foretold.height + foretold.doubt < best - EQUAL * max(abs(best), scale):
+        if foretold is not None and foretold.height + foretold.doubt < best - TRAIN_EQUAL * max(abs(best), scale):
             continue
         top = _climb(traversal, run, table, k, value, foretold, ALIKE * scale)
         if (id(top.state), "right") in beside or (id(top.state), "left") in beside:
             continue  # it is one of those
         found.append(top)
         best = max(best, top.value)
-    slack = EQUAL * max(abs(best), scale)
+    slack = TRAIN_EQUAL * max(abs(best), scale)
     ties = sorted((one for one in found if one.value >= best - slack), key=lambda one: one.state.position)
     return _apart(ties, traversal)[:MOST_TIES]
 

@@ -148,10 +148,6 @@ class SampledTraversal:
             Whose traversal it is.
         combination : str or None
             Name of the combination.
-
-        Returns
-        -------
-        list of SampledMember
         """
         return [SampledMember(train, self, combination)]
 

@@ -29,8 +29,8 @@ from ...base.errors import EngineError
 from ...base.hints import no_such
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
+from ...engine.tolerances import POSITION_TOLERANCE
 from ...scene.columns import columns, curves
-from ...scene.places import POSITION_TOLERANCE
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ...scene.wording import choice, shown
 from ..state.arguments import finite
@@ -312,15 +312,5 @@ class Trains(Mapping[str, TrainResult]):
             train.traversals  # noqa: B018
 
     def _members(self, combination: str | None = None) -> list[Member]:
-        """What an envelope is made of: every train in every direction.
-
-        Parameters
-        ----------
-        combination : str, optional
-            Name of the combination.
-
-        Returns
-        -------
-        list of Member
-        """
+        """Go through the trains as what an envelope is made of, as `TrainResult._members`."""
         return [member for train in self.values() for member in train._members(combination)]

@@ -21,6 +21,17 @@ SYMBOLS = {"m": "moment", "v": "shear", "q": "shear", "w": "deflection", "n": "a
 """Fields by the symbols of others."""
 
 
+def given_of(row: NamedTuple) -> dict[str, Any]:
+    """As plain data.
+
+    Returns
+    -------
+    dict
+        What is None is left out.
+    """
+    return {key: value for key, value in row._asdict().items() if value is not None}
+
+
 class Source(NamedTuple):
     """Where a value comes from.
 
@@ -51,15 +62,7 @@ class Source(NamedTuple):
     direction: str | None = None
     side: str | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data.
-
-        Returns
-        -------
-        dict
-            What is None is left out.
-        """
-        return {key: value for key, value in self._asdict().items() if value is not None}
+    to_dict = given_of
 
     def __call__(self) -> dict[str, Any]:
         """Give the same as `to_dict`: of a train it was a method."""

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .columns import Columns
+    from .labelled import Labelled
 
 MEANT = {
     "reactionforces": "reactions", "forces": "reactions", "supportreactions": "reactions", "gaps": "openings", "uplift": "lifted",
@@ -108,6 +109,24 @@ the loads push it that way and no support resists
         if not self.ok:
             raise UnsolvedError(self.status, self.reason)
         return self
+
+    @property
+    def reactions(self) -> Labelled:
+        """Reactions, positive upward, by number and name of the support; with combinations by combination, then by support.
+
+        Of a result those at the end of the load; of an envelope, and while trains pass, each ``{"max": Extreme, "min": Extreme}``;
+        of many cases arrays with an entry for every case; of a summary distributions.
+        """
+        return self._by_support("reaction")
+
+    @property
+    def openings(self) -> Labelled:
+        """Distance still to go until a support acts, the gap included, as `reactions`."""
+        return self._by_support("opening")
+
+    def _by_support(self, quantity: str) -> Labelled:
+        """Give a quantity by number and name of the support."""
+        raise NotImplementedError
 
     def table(self, kind: str = "supports") -> Columns:
         """Give a table.

@@ -340,7 +340,7 @@ def test_histories(family):
 
 def test_a_path_that_never_ends_is_cut_off(monkeypatch):
     scene = law_scene(203, "broken")
-    monkeypatch.setattr(gapbeam.results.paths.branches, "MOST_STRETCHES", 500)
+    monkeypatch.setattr(gapbeam.results.paths.branches, "MOST_PATH_SEGMENTS", 500)
     with pytest.raises(EngineError, match="more than 500 stretches"):
         gapbeam.solve(scene)
 

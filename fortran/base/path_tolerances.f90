@@ -1,0 +1,87 @@
+!> Thresholds along paths and under trains, each told once: what it bounds, why this value, who reads it. What is only tuned says
+!> so. Those that decide a state stand in gapbeam_tolerances.
+module gapbeam_path_tolerances
+    use gapbeam_kinds, only: wp, qp
+    implicit none
+    private
+    public :: load_begin, train_slack, train_equal
+    public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
+    public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
+    public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
+
+    !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
+    !> any force; tuned. Read by continuation/ground_path and, through the engine, by gapbeam.plots
+    real(wp), parameter :: load_begin = 2.0_wp**(-40)
+    !> Values under trains that differ by less than this share of the largest may be the same, for they are not refined: half of
+    !> the digits. Read by moving_load/train_bounds, moving_load/train_curves, moving_load/train_envelope,
+    !> moving_load/train_support_bounds
+    real(wp), parameter :: train_slack = 2.0_wp**(-26)
+    !> Values under trains nearer to the largest than this share of the largest absolute value are equal to it; tuned: rounding of
+    !> the influence polynomials stays below 2**-44. Read by moving_load/train_candidates, moving_load/train_curves,
+    !> moving_load/train_envelope, moving_load/train_extremes
+    real(wp), parameter :: train_equal = 2.0_wp**(-40)
+
+    !
+    ! Paths
+    !
+    !> The first factor at which a linear region is looked for is above the given one by this share of the way; tuned. Read by
+    !> continuation/linear_region
+    real(qp), parameter :: first_share_of_way = 2.0_qp**(-40)
+    !> None nearer than this is: rounding of the factor. Read by continuation/linear_region
+    real(qp), parameter :: last_share_of_way = 2.0_qp**(-48)
+    !> What happens within this share of the way is not seen where even quadruple precision cannot tell what falls; tuned. Read by
+    !> continuation/linear_region
+    real(qp), parameter :: unseen_share = 2.0_qp**(-24)
+    !> Weak springs that hold a beam that is free to move, relative to those of the search. Read by continuation/linear_region
+    real(qp), parameter :: weaker_springs = 2.0_qp**(-24)
+    !> Share of the factor by which the contact state beyond an event is looked for; tuned. Read by continuation/path
+    real(wp), parameter :: enter_next_interval = 2.0_wp**(-20)
+    !> Factors in double and quadruple precision that differ by less, relative to the way, are the same; and events that may be off
+    !> by more in doubles are found in quadruple precision. Read by continuation/path, continuation/stretch
+    real(wp), parameter :: agreement = 1e-9_wp
+    !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path
+    real(wp), parameter :: shortest_interval = 2.0_wp**(-30)
+    !> Rounding errors beyond which a value on a path is not near zero; tuned. Read by continuation/path
+    real(wp), parameter :: far_from_zero = 2.0_wp**16
+    !> Rounding errors within which another breakpoint is at zero too; tuned. Read by continuation/region_responses
+    real(qp), parameter :: near_breakpoint = 2.0_qp**10
+    !> Share of the rates beside it below which a rate is none, in quadruple precision. Read by continuation/region_responses
+    real(qp), parameter :: no_rate = 2.0_qp**(-70)
+    !> What happens so near to each other, relative to the factor or the way, happens at the same factor. Read by
+    !> continuation/path, continuation/stretch
+    real(wp), parameter :: same_factor = 1e-15_wp
+    !> Breakpoints and ways that differ by less than this share are the same, in quadruple precision: as position_tolerance. Read
+    !> by continuation/branch, continuation/branch_state
+    real(qp), parameter :: same_breakpoint = 64*epsilon(1.0_qp)
+
+    !
+    ! Trains
+    !
+    !> Share of what is left of an interval of positions at which the contact state beyond a change is looked for first; tuned.
+    !> Read by moving_load/train_path
+    real(wp), parameter :: first_train_share = 2.0_wp**(-20)
+    !> Largest share of an interval that is left out where nothing else leads on; tuned. Read by moving_load/train_path
+    real(wp), parameter :: most_train_share = 2.0_wp**(-24)
+    !> What is a sliver of an interval of positions; tuned. Read by moving_load/train_path
+    real(wp), parameter :: sliver = 2.0_wp**(-16)
+    !> The nearest place at which a contact state is looked for, as a share of what is left of the interval: rounding of its
+    !> polynomials. Read by moving_load/train_margins, moving_load/train_path
+    real(wp), parameter :: least_train_share = 2.0_wp**(-42)
+    !> Values under trains that are the same differ by no more than this share of the largest on the beam: rounding of products of
+    !> influence polynomials. Read by moving_load/train_curves, moving_load/train_extremes
+    real(wp), parameter :: train_rounding = 2.0_wp**(-46)
+    !> Share by which bounds under trains are off at most where they are to be trusted: train_slack is far more. Read by
+    !> moving_load/train_curves, moving_load/train_envelope
+    real(wp), parameter :: most_lost = 2.0_wp**(-34)
+    !> The longest way without a look, as a share of a link; tuned. Read by moving_load/train_bounds
+    real(wp), parameter :: longest_way = 1.0_wp/14
+    !> Values below this share of the largest are not looked at closely; tuned. Read by moving_load/train_bounds
+    real(wp), parameter :: far_below = 0.5_wp
+    !> No polynomial of the degrees of moving_load/train_samples leaves its samples by more than this times what they differ by:
+    !> the Lebesgue constant of the sample points is 2.2 at most. Read by moving_load/train_envelope, moving_load/train_samples
+    real(wp), parameter :: lebesgue = 2.5_wp
+    !> Ties and motions under trains that differ by less, relative to 1 or to themselves, are the same; tuned. Read by
+    !> moving_load/train_ties, moving_load/train_traversal
+    real(wp), parameter :: same_tie = 1e-9_wp
+
+end module gapbeam_path_tolerances

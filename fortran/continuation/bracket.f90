@@ -1,0 +1,219 @@
+!> First change between two points of a path: its own parameter, and states on both sides of it.
+!>
+!> Where the change is to be expected is computed (gapbeam_crossing); states next to that parameter tell whether it is so. What
+!> cannot be computed, and where states end or begin, is found by bisection.
+module gapbeam_bracket
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_zone_margin, only: change_type
+    use gapbeam_path_problem, only: point_type, path_problem_type, crossing_type, copy_point
+    use gapbeam_crossing, only: find_crossing
+    implicit none
+    private
+    public :: bracket_change, make_sure
+
+    !> States as near as this to the parameter of a change tell that it is one; where they do not, which may be so where zones begin
+    !> without length, those so many times farther away; and how often the parameter is computed anew where another change comes first
+    real(wp), parameter :: nearest = 2.0_wp**(-38), wider = 64.0_wp, farthest = 2.0_wp**(-26)
+    integer, parameter :: most_guesses = 8
+    !> Distance of parameters at which it is enough to know that states between them cannot be settled
+    real(wp), parameter :: near = 2.0_wp**(-44)
+    !> Next to an event a state may not be settled, since a zone has next to no length there: parameters on both sides of it that are
+    !> as near as this are neighbours
+    real(wp), parameter :: next_to = 2.0_wp**(-32)
+
+contains
+
+    !> Neighbours around the first change between two points, and the parameters and places of what changes there
+    subroutine bracket_change(problem, earlier, below, above, at, place, misled, error)
+        class(path_problem_type), intent(inout) :: problem
+        !> A point not above the lower one from which on nothing was seen to change
+        class(point_type), intent(in) :: earlier
+        !> The points, not alike in; neighbours, not alike, out
+        class(point_type), allocatable, intent(inout) :: below, above
+        !> Of the changes between neighbours that stand, as they are listed: parameter, and place, below zero if not measured
+        real(wp), allocatable, intent(out) :: at(:), place(:)
+        !> Was one that was only looked at not so
+        logical, intent(out) :: misled
+        !> As for find
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: far_below, far_above
+        type(change_type), allocatable :: changes(:)
+        type(crossing_type) :: crossing
+        integer :: guesses, i
+        logical :: found
+
+        found = .false.
+        misled = .false.
+        do guesses = 1, most_guesses
+            call copy_point(below, far_below)
+            call copy_point(above, far_above)
+            call guess_crossing(problem, below, above, crossing, found)
+            if (.not. found .and. earlier%at < below%at) then
+                ! It may have happened next to the lower one already
+                call guess_crossing(problem, earlier, above, crossing, found)
+                if (found) found = crossing%at > below%at - farthest*problem%size_at(below%at)
+                if (found) call copy_point(earlier, far_below)
+            end if
+            if (.not. found) exit
+            call confirm(problem, crossing, below, above, found, error)
+            if (allocated(error)) return
+            if (found .or. .not. above%stands) exit
+        end do
+        if (.not. found) call bisect(problem, below, above, error)
+        if (allocated(error)) return
+        call make_sure(problem, below, misled, error)
+        if (allocated(error) .or. misled .or. .not. (below%stands .and. above%stands)) return
+        call make_sure(problem, above, misled, error)
+        if (allocated(error) .or. misled) return
+        call problem%list_changes(below, above, changes)
+        allocate (at(size(changes)), place(size(changes)))
+        at(:) = above%at
+        place(:) = -1.0_wp
+        if (.not. found) return
+        at(:) = crossing%at
+        do i = 1, size(changes)
+            if (size(changes) > 1) then
+                call find_crossing(problem, changes(i), far_below, far_above, crossing, found)
+                if (found) call problem%refine(crossing, found)
+                if (.not. found .or. abs(crossing%at - at(i)) > above%at - below%at) cycle
+                at(i) = crossing%at
+            end if
+            if (changes(i)%to > changes(i)%from) place(i) = crossing%place
+        end do
+    end subroutine bracket_change
+
+    !> Find a point for sure that was only looked at
+    subroutine make_sure(problem, point, misled, error)
+        class(path_problem_type), intent(inout) :: problem
+        class(point_type), allocatable, intent(inout) :: point
+        !> Is it not what it looked like
+        logical, intent(out) :: misled
+        !> As for find
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: sure
+
+        misled = .false.
+        if (point%sure) return
+        call problem%find(point%at, sure, error, point)
+        if (allocated(error)) return
+        misled = .not. problem%alike(point, sure)
+        call move_alloc(sure, point)
+    end subroutine make_sure
+
+    !> Where the first change between two points is to be expected
+    subroutine guess_crossing(problem, below, above, first, found)
+        class(path_problem_type), intent(inout) :: problem
+        class(point_type), intent(in) :: below, above
+        type(crossing_type), intent(inout) :: first
+        !> Is anything known of it
+        logical, intent(out) :: found
+        type(change_type), allocatable :: changes(:)
+        type(crossing_type) :: crossing
+        logical :: known
+        integer :: i
+
+        found = .false.
+        if (.not. (below%stands .and. above%stands)) return
+        call problem%list_changes(below, above, changes)
+        do i = 1, size(changes)
+            call find_crossing(problem, changes(i), below, above, crossing, known)
+            if (.not. known) cycle
+            if (found) then
+                if (.not. crossing%at < first%at) cycle
+            end if
+            first%change = crossing%change
+            first%at = crossing%at
+            first%slope = crossing%slope
+            first%one_further = crossing%one_further
+            first%place = crossing%place
+            call move_alloc(crossing%near, first%near)
+            found = .true.
+        end do
+        if (found) call problem%refine(first, found)
+        found = found .and. first%at > below%at .and. first%at < above%at
+    end subroutine guess_crossing
+
+    !> Is a crossing that of the first change between two points: states just below and just above it tell
+    subroutine confirm(problem, crossing, below, above, found, error)
+        class(path_problem_type), intent(inout) :: problem
+        type(crossing_type), intent(in) :: crossing
+        !> As for bracket_change
+        class(point_type), allocatable, intent(inout) :: below, above
+        logical, intent(out) :: found
+        !> As for find
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: between
+        real(wp) :: size, reach
+        logical :: others
+
+        found = .false.
+        size = problem%size_at(crossing%at)
+        reach = nearest*size
+        do while (crossing%at - reach > below%at)
+            call problem%find(crossing%at - reach, between, error, crossing%near)
+            if (allocated(error)) return
+            if (.not. allocated(between%trouble)) then
+                if (problem%alike(below, between)) then
+                    call move_alloc(between, below)
+                    exit
+                end if
+                ! There is another change before, or states do not tell so near to it
+                others = .not. problem%alike(between, above)
+                call move_alloc(between, above)
+                if (others) return
+            end if
+            reach = wider*reach
+            if (reach > farthest*size) return
+        end do
+        reach = nearest*size
+        do while (crossing%at + reach < above%at)
+            call problem%find(crossing%at + reach, between, error, crossing%near)
+            if (allocated(error)) return
+            if (.not. allocated(between%trouble)) then
+                if (.not. problem%alike(below, between)) then
+                    call move_alloc(between, above)
+                    exit
+                end if
+                call move_alloc(between, below)
+            end if
+            reach = wider*reach
+            if (reach > farthest*size) return
+        end do
+        found = above%stands
+    end subroutine confirm
+
+    !> Neighbours around the first change between two points
+    subroutine bisect(problem, below, above, error)
+        class(path_problem_type), intent(inout) :: problem
+        !> As for bracket_change
+        class(point_type), allocatable, intent(inout) :: below, above
+        !> As for find
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: between, standing
+        real(wp) :: middle, width, size
+
+        do
+            if (above%stands) call copy_point(above, standing)
+            width = above%at - below%at
+            middle = below%at + width/2
+            if (middle <= below%at .or. middle >= above%at) exit
+            size = problem%size_at(above%at)
+            if (width <= problem%neighbours*size) exit
+            if (.not. above%stands) then
+                if (allocated(above%trouble) .and. width <= near*size) exit
+                if (width <= problem%neighbours_at_end*size) exit
+            end if
+            call problem%find(middle, between, error, below)
+            if (allocated(error)) return
+            if (problem%alike(below, between)) then
+                call move_alloc(between, below)
+            else
+                call move_alloc(between, above)
+            end if
+        end do
+        if (above%stands .or. .not. allocated(above%trouble) .or. .not. allocated(standing)) return
+        if (standing%at - below%at <= next_to*problem%size_at(standing%at)) call move_alloc(standing, above)
+    end subroutine bisect
+
+end module gapbeam_bracket

@@ -1,0 +1,203 @@
+!> Load path of a beam on the ground: its states (gapbeam_ground_states), and where they end.
+!>
+!> The last factor below which there is equilibrium is where loads begin to do work along the motion that begins there; where laws
+!> are curves, limit analysis knows it.
+module gapbeam_ground_problem
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_kinematics, only: work_of_loads
+    use gapbeam_layers, only: has_limit, has_curves
+    use gapbeam_refined_ground, only: refine_ground
+    use gapbeam_ground_solver, only: limit_on_ground
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_solution, only: state_type
+    use gapbeam_state, only: ground_of, detail_of
+    use gapbeam_ground_states, only: ground_states_type
+    use gapbeam_path_problem, only: point_type
+    use gapbeam_ground_events, only: held_type, new_path
+    implicit none
+    private
+    public :: ground_problem_type, new_ground_problem
+
+    !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
+    !> that, powers of 2
+    integer, parameter :: missing_powers(*) = [-20, -10]
+    !> Next to the limit of laws that are curves states take long: there parameters as near as this are neighbours
+    real(wp), parameter :: near_on_curves = 2.0_wp**(-20)
+    !> So near to the factor at which the loads begin to do work there is equilibrium, and none; that many times farther; and how
+    !> often that factor is computed
+    real(wp), parameter :: next_to_limit = 2.0_wp**(-50), wider = 64.0_wp
+    integer, parameter :: most_guesses = 8
+
+    !> With what it takes to end it
+    type, extends(ground_states_type) :: ground_problem_type
+        !> Does some ground carry no more than so much, and does it come to that on a curve
+        logical :: yields = .false., levels_off = .false.
+    contains
+        procedure :: approach_end
+        procedure :: take_end
+    end type ground_problem_type
+
+contains
+
+    !> Make ready
+    subroutine new_ground_problem(assembled, last, rule, state, problem)
+        type(assembled_type), intent(in), target :: assembled
+        !> The last factor, and the rule
+        real(wp), intent(in) :: last
+        integer, intent(in) :: rule
+        !> With the scheme that every search starts from
+        type(state_type), intent(in) :: state
+        type(ground_problem_type), intent(out) :: problem
+        integer :: k
+
+        problem%assembled => assembled
+        problem%ground = ground_of(assembled)
+        call refine_ground(problem%ground, detail_of(assembled), problem%fine)
+        problem%rule = rule
+        problem%parameter = "load factor"
+        problem%last = last
+        problem%state = state
+        allocate (problem%start(size(state%closed)))
+        problem%start(:) = state%closed
+        do k = 1, size(assembled%layers)
+            associate (layer => assembled%layers(k))
+                if (.not. has_limit(layer, assembled%law_pieces)) cycle
+                problem%yields = .true.
+                problem%levels_off = problem%levels_off .or. has_curves(layer)
+            end associate
+        end do
+        if (problem%levels_off) problem%neighbours_at_end = near_on_curves
+        call new_path(problem%path)
+        problem%path%beyond = last
+    end subroutine new_ground_problem
+
+    !> Nearer to the factor above which there is no equilibrium: by limit analysis where laws are curves, else by the work of the loads
+    subroutine approach_end(problem, below, above, ended, error)
+        class(ground_problem_type), intent(inout) :: problem
+        class(point_type), allocatable, intent(inout) :: below, above
+        logical, intent(out) :: ended
+        type(error_type), allocatable, intent(out) :: error
+
+        ended = .false.
+        if (problem%levels_off) call go_to_limit(problem, below, above, ended, error)
+        if (allocated(error) .or. ended) return
+        if (.not. above%stands) call approach_by_work(problem, below, above, error)
+    end subroutine approach_end
+
+    !> Where laws are curves limit analysis knows the limit load: end the path there, or look next to it for what changes before
+    subroutine go_to_limit(problem, below, above, ended, error)
+        !> As for approach_end
+        class(ground_problem_type), intent(inout) :: problem
+        class(point_type), allocatable, intent(in) :: below
+        class(point_type), allocatable, intent(inout) :: above
+        logical, intent(inout) :: ended
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: point
+        real(wp) :: bears, beyond
+        logical :: found
+        integer :: k
+
+        bears = below%at
+        beyond = above%at
+        call limit_on_ground(problem%ground, detail_of(problem%assembled), bears, beyond, found)
+        if (.not. found) return
+        do k = 1, size(missing_powers)
+            associate (last => bears*(1 - 2.0_wp**missing_powers(k)))
+                if (last <= below%at) return
+                call problem%find(last, point, error, below)
+            end associate
+            if (allocated(error)) return
+            if (point%stands) exit
+        end do
+        if (.not. point%stands) return
+        if (.not. problem%alike(below, point)) then
+            call move_alloc(point, above)
+            return
+        end if
+        problem%path%last = point%at
+        problem%path%beyond = beyond
+        problem%path%at_limit = .true.
+        ended = .true.
+        call problem%find(beyond, point, error)
+    end subroutine go_to_limit
+
+    !> Nearer to where the loads begin to do work along the motion at the upper of two factors
+    subroutine approach_by_work(problem, below, above, error)
+        !> As for approach_end
+        class(ground_problem_type), intent(inout) :: problem
+        class(point_type), allocatable, intent(inout) :: below, above
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: between
+        real(wp) :: guess, reach
+        integer :: guesses
+
+        reach = next_to_limit
+        do guesses = 1, most_guesses
+            if (above%stands) return
+            guess = factor_without_work(problem, above)
+            ! States may end before, where they are told from others
+            if (guess*(1 - reach) >= above%at .and. guess*(1 - wider*reach) < above%at) reach = wider*reach
+            if (.not. (guess*(1 - reach) > below%at .and. guess*(1 - reach) < above%at)) return
+            call problem%find(guess*(1 - reach), between, error, below)
+            if (allocated(error)) return
+            if (problem%alike(below, between)) exit
+            if (allocated(between%trouble)) return
+            call move_alloc(between, above)
+        end do
+        if (.not. allocated(between)) return
+        call move_alloc(between, below)
+        if (guess*(1 + reach) >= above%at) return
+        call problem%find(guess*(1 + reach), between, error)
+        if (allocated(error) .or. between%stands) return
+        call move_alloc(between, above)
+    end subroutine approach_by_work
+
+    !> The load factor at which the loads do no work along the motion at a factor at which they do; below zero if there is none
+    pure function factor_without_work(problem, above) result(guess)
+        type(ground_problem_type), intent(in) :: problem
+        class(point_type), intent(in) :: above
+        real(wp) :: guess, of_dead, of_all, size_of_parts
+
+        guess = -1.0_wp
+        select type (above)
+        type is (held_type)
+            if (.not. allocated(above%motion)) return
+            associate (all_nodes => [0, ubound(above%motion, 1)], beam => problem%ground%beam)
+                call work_of_loads(beam, 0.0_wp, above%motion, all_nodes, of_dead, size_of_parts)
+                call work_of_loads(beam, above%at, above%motion, all_nodes, of_all, size_of_parts)
+            end associate
+            if (abs(of_dead - of_all) > 0.0_wp) guess = above%at*(of_dead/(of_dead - of_all))
+        end select
+    end function factor_without_work
+
+    !> End the path, and find a factor just above at which there is no equilibrium for sure, and how the beam moves there
+    subroutine take_end(problem, below, above, goes_on, error)
+        class(ground_problem_type), intent(inout) :: problem
+        class(point_type), intent(in) :: below, above
+        logical, intent(out) :: goes_on
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: point
+        integer :: power
+
+        goes_on = .false.
+        associate (path => problem%path)
+            path%last = below%at
+            path%beyond = below%at
+            path%at_limit = problem%yields .and. path%last > 0.0_wp
+            if (.not. allocated(above%trouble)) then
+                if (problem%levels_off) path%beyond = above%at
+                call problem%find(above%at, point, error)
+                return
+            end if
+            do power = -50, -9, 4
+                path%beyond = path%last*(1 + 2.0_wp**power)
+                call problem%find(path%beyond, point, error)
+                if (allocated(error)) return
+                if (.not. point%stands .and. .not. allocated(point%trouble)) return
+            end do
+        end associate
+        error = above%trouble
+    end subroutine take_end
+
+end module gapbeam_ground_problem

@@ -1,0 +1,367 @@
+!> The next breakpoint of a path and the region beyond it in double precision, by local updates.
+!>
+!> Where one support alone reaches a breakpoint, the region beyond it is the only way on, and the load goes as that breakpoint moves
+!> away from zero. Lines are updated around it (gapbeam_stretch). Whatever rounding errors leave open (several at once, what does
+!> not move, several that turn back at once, factors that lose digits) is left to quadruple precision (gapbeam_branch).
+module gapbeam_local_step
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_band, only: band_ok, count_unstable_pivots
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, last_breakpoint, break_law, rewrite_law, find_unit
+    use gapbeam_polyline_quad, only: fine_support_type => node_support_type
+    use gapbeam_law_margins, only: is_watched_in
+    use gapbeam_model, only: beam_type
+    use gapbeam_update, only: update_scheme
+    use gapbeam_affine_response, only: response_type, falls, rises, value_at, width_at
+    use gapbeam_queue, only: first_key
+    use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, queue_all, change_supports, next_in_queue, response_in, &
+        unloads_from_here
+    implicit none
+    private
+    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, laws_here, rounded
+    public :: clear_event, clear_arrival, doubtful
+
+    !> What find_next came to
+    integer, parameter :: clear_event = 0, clear_arrival = 1, doubtful = 2
+    !> Share of a load factor by which it may be off, its bound of rounding errors being many times what they are
+    real(wp), parameter :: share_off = 2.0_wp**(-34)
+    !> Growth of rounding errors in elimination, where forces fall, that refinement takes back and the signs allow
+    real(wp), parameter :: most_growth = 2.0_wp**16
+    !> Rounding errors within which factors are not told apart
+    real(wp), parameter :: slack = 64*epsilon(1.0_wp)
+
+    !> Supports that turn back in turn where one support yields
+    integer, parameter :: most_turns = 8
+
+    !> A path in double precision
+    type :: local_type
+        !> May it be tried; are its lines those of the way at hand; steps since quadruple precision had them
+        logical :: usable = .false., current = .false.
+        integer :: steps = 0
+        !> What changed in the last of them
+        integer, allocatable :: changed(:)
+        !> Last breakpoints passed by supports that began to unload in it; their deflections and reactions
+        integer, allocatable :: turned(:)
+        real(wp), allocatable :: turned_at(:), turned_with(:)
+        !> The beam, with the laws as they have become but for those that keep a set and go on loading
+        type(beam_type) :: beam
+        type(stretch_type) :: stretch
+        !> How fast supports move themselves with the factor; slopes of the first pieces
+        real(wp), allocatable :: settling(:), first_slope(:)
+        !> Do forces of some law fall; does a support keep a set
+        logical :: may_fall = .false., any_set = .false.
+    end type local_type
+
+contains
+
+    !> Room for a path in double precision
+    subroutine new_local(beam, keeps_set, settling, local)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports unload parallel to their first piece; how fast they move themselves, shape (size(supports))
+        logical, intent(in) :: keeps_set(:)
+        real(qp), intent(in) :: settling(:)
+        type(local_type), intent(out) :: local
+        integer :: i
+
+        local%usable = .not. allocated(beam%ground)
+        if (.not. local%usable) return
+        local%beam = beam
+        local%settling = real(settling, wp)
+        local%first_slope = beam%supports%stiffness
+        local%any_set = any(keeps_set)
+        local%may_fall = any(beam%supports%breakpoint > 0 .and. min(beam%supports%before, beam%supports%stiffness) < 0.0_wp)
+        do i = 0, size(beam%links)
+            ! What rigid supports that keep a set share, statics cannot tell (gapbeam_branch)
+            associate (there => beam%order(beam%first(i):beam%first(i + 1) - 1))
+                if (count(beam%supports(there)%breakpoint <= 1) <= 1) cycle
+                local%usable = local%usable .and. .not. any(keeps_set(there) .and. beam%supports(there)%stiffness > huge(1.0_wp))
+            end associate
+        end do
+        call new_stretch(beam, local%stretch)
+        local%stretch%share_off = share_off
+        if (local%any_set) local%stretch%keeps_set = keeps_set
+    end subroutine new_local
+
+    !> Solve the lines of a region that is the right one
+    subroutine enter_local(laws, closed, factor, direction, local)
+        !> The laws as they have become, the scheme, and where the load is and goes, 1 or -1
+        type(fine_support_type), intent(in) :: laws(:)
+        logical, intent(in) :: closed(:)
+        real(qp), intent(in) :: factor
+        integer, intent(in) :: direction
+        !> Not current if anything is in doubt
+        type(local_type), intent(inout) :: local
+        integer :: window(2), state
+        real(wp) :: here
+
+        associate (stretch => local%stretch, n => size(local%beam%links))
+            local%beam%supports = rounded(laws, local%beam%supports)
+            local%beam%supports%passed = laws%passed
+            call renew_rates(local, 1, size(closed))
+            stretch%direction = real(direction, wp)
+            stretch%in_doubt = .false.
+            stretch%turns_back = .false.
+            here = direction*real(factor, wp)
+            call start_stretch(local%beam, closed, here, stretch)
+            if (stretch%current .and. any(stretch%dead%nodes%stiffness < 0.0_wp)) then
+                ! Solved with pivoting: with the factor without, corrected, once more
+                call update_scheme(local%beam, closed, [0, n], .true., stretch%dead, window, state)
+                if (state == band_ok) call update_scheme(stretch%incremental, closed, [0, n], .true., stretch%live, window, state)
+                stretch%current = state == band_ok
+                if (stretch%current) call queue_all(local%beam, closed, here, stretch)
+            end if
+        end associate
+        local%steps = 0
+        local%current = is_clear(local, here)
+    end subroutine enter_local
+
+    !> The laws for the rates: moved by the supports' own movement only
+    pure subroutine renew_rates(local, first, last)
+        type(local_type), intent(inout) :: local
+        !> Breakpoints
+        integer, intent(in) :: first, last
+
+        associate (rates => local%stretch%incremental%supports(first:last))
+            rates = local%beam%supports(first:last)
+            rates%contact = local%settling(first:last)
+            rates%force = 0.0_wp
+        end associate
+    end subroutine renew_rates
+
+    !> Is nothing about the lines in doubt, and nothing at zero that would be passed at once
+    pure function is_clear(local, here)
+        type(local_type), intent(in) :: local
+        !> The factor in the direction of the load
+        real(wp), intent(in) :: here
+        logical :: is_clear
+
+        associate (stretch => local%stretch)
+            is_clear = stretch%current .and. .not. (stretch%in_doubt .or. stretch%turns_back)
+            if (is_clear .and. local%may_fall) is_clear = max(stretch%dead%growth, stretch%live%growth) <= most_growth
+            if (is_clear) is_clear = first_key(stretch%queue) > here
+        end associate
+    end function is_clear
+
+    !> The next breakpoint along the lines, or the end of the leg
+    subroutine find_next(local, closed, factor, target, arrives, next, k, found)
+        type(local_type), intent(inout) :: local
+        logical, intent(in) :: closed(:)
+        !> Load factors at hand and at the end of the leg; does the load go there
+        real(wp), intent(in) :: factor, target
+        logical, intent(in) :: arrives
+        !> Load factor of the breakpoint, and its number
+        real(wp), intent(out) :: next
+        integer, intent(out) :: k
+        !> clear_event, clear_arrival or doubtful
+        integer, intent(out) :: found
+        integer, allocatable :: at_zero(:)
+        real(wp) :: here, goal, first, near, limit
+
+        found = doubtful
+        next = factor
+        k = 0
+        associate (stretch => local%stretch)
+            here = stretch%direction*factor
+            goal = huge(goal)
+            if (arrives) goal = stretch%direction*target
+            limit = here + max(1.0_wp, abs(here))
+            if (goal < huge(goal)) limit = goal
+            near = slack*max(abs(here), abs(limit))
+            first = first_key(stretch%queue)
+            if (.not. first < huge(first) .and. .not. goal < huge(goal)) return
+            if (first > goal + near .or. .not. first < huge(first)) then
+                found = clear_arrival
+                return
+            end if
+            at_zero = [integer ::]
+            call next_in_queue(local%beam, closed, here, limit, stretch, at_zero, next)
+            if (stretch%in_doubt .or. size(at_zero) /= 1) return
+            if (next <= here + near .or. next + (next - first) + near >= goal) return
+            k = at_zero(1)
+            next = stretch%direction*next
+            found = clear_event
+        end associate
+    end subroutine find_next
+
+    !> Pass a breakpoint, and those that coincide with it
+    subroutine pass_breakpoint(local, k, breaks, factor, closed, direction)
+        type(local_type), intent(inout) :: local
+        !> The breakpoint; does its support break there
+        integer, intent(in) :: k
+        logical, intent(in) :: breaks
+        real(wp), intent(in) :: factor
+        !> The scheme
+        logical, intent(inout) :: closed(:)
+        !> Where the load goes, 1 or -1; 0 if that is in doubt, or either way as after a break
+        integer, intent(out) :: direction
+        type(response_type) :: response
+        integer :: first, last, j
+
+        direction = 0
+        associate (stretch => local%stretch)
+            first = k
+            last = k
+            if (breaks) then
+                call break_law(local%beam%supports, k)
+                call renew_rates(local, k - local%beam%supports(k)%breakpoint + 1, k)
+            else
+                call find_unit(local%beam%supports, closed, k, first, last)
+            end if
+            local%changed = [(j, j=first, last)]
+            call change_supports(local%beam, local%changed, stretch%direction*factor, closed, stretch)
+            if (.not. stretch%current .or. breaks) return
+            response = response_in(local%beam, closed, k, stretch)
+            if (rises(response)) direction = nint(stretch%direction)
+            if (falls(response)) direction = -nint(stretch%direction)
+        end associate
+    end subroutine pass_breakpoint
+
+    !> Go on in a direction, the region being solved: local%current tells whether all is clear
+    subroutine take_direction(local, closed, factor, direction, breaks)
+        type(local_type), intent(inout) :: local
+        !> The scheme; supports that turn back change in it
+        logical, intent(inout) :: closed(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: direction
+        !> Has a support just broken, so that either direction must be clear
+        logical, intent(in) :: breaks
+        type(response_type) :: response
+        integer :: k
+
+        if (allocated(local%turned)) deallocate (local%turned, local%turned_at, local%turned_with)
+        allocate (local%turned(0), local%turned_at(0), local%turned_with(0))
+        local%current = local%stretch%current
+        if (.not. local%current) return
+        if (breaks) then
+            do k = 1, size(closed)
+                if (.not. is_watched_in(local%beam%supports, closed, k)) cycle
+                response = response_in(local%beam, closed, k, local%stretch)
+                local%current = local%current .and. value_at(response, local%stretch%direction*factor) &
+                    > width_at(response, factor)
+            end do
+            if (.not. local%current) return
+        end if
+        if (direction /= nint(local%stretch%direction)) then
+            local%stretch%direction = real(direction, wp)
+            local%stretch%in_doubt = .false.
+            local%stretch%turns_back = .false.
+            call queue_all(local%beam, closed, direction*factor, local%stretch)
+        end if
+        if (local%stretch%turns_back .and. .not. local%may_fall) call turn_back(local, closed, factor)
+        local%current = is_clear(local, direction*factor)
+        if (local%current) local%steps = local%steps + 1
+    end subroutine take_direction
+
+    !> Let supports that keep a set unload, one after the other, until all others go on. Where no force falls there is one way, and
+    !> what is right for every support is it; two that turn back at once may be mirror images, and are left to quadruple precision
+    subroutine turn_back(local, closed, factor)
+        type(local_type), intent(inout) :: local
+        logical, intent(inout) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(response_type) :: response
+        integer :: k, top, turn, first, last, j
+        real(wp) :: at, with
+
+        associate (stretch => local%stretch, laws => local%beam%supports)
+            do turn = 0, most_turns
+                top = 0
+                do k = 1, size(closed)
+                    if (.not. unloads_from_here(local%beam, closed, k, stretch)) cycle
+                    response = response_in(local%beam, closed, k, stretch)
+                    if (rises(response)) cycle
+                    if (.not. falls(response) .or. top > 0 .or. turn == most_turns) return
+                    top = k
+                end do
+                stretch%turns_back = top > 0
+                if (top == 0) return
+                first = top - laws(top)%breakpoint + 1
+                associate (dead => stretch%dead, live => stretch%live, i => laws(top)%node)
+                    at = dead%answers(i)%deflection + factor*(live%answers(i)%deflection - local%settling(top))
+                    with = dead%reaction(top) + factor*live%reaction(top)
+                end associate
+                call rewrite_law(laws, closed, first, top, local%first_slope(first), at, with)
+                call renew_rates(local, first, top)
+                local%turned = [local%turned, top]
+                local%turned_at = [local%turned_at, at]
+                local%turned_with = [local%turned_with, with]
+                call find_unit(laws, closed, top, first, last)
+                local%changed = [local%changed, (j, j=first, last)]
+                call change_supports(local%beam, [(j, j=first, last)], stretch%direction*factor, closed, stretch)
+                if (.not. stretch%current) return
+            end do
+        end associate
+    end subroutine turn_back
+
+    !> In how many ways the beam gives way by itself
+    pure function local_index(local, closed) result(index)
+        type(local_type), intent(in) :: local
+        logical, intent(in) :: closed(:)
+        integer :: index
+        real(wp) :: slope
+        integer :: k
+        logical :: acts
+
+        index = 0
+        if (.not. local%may_fall) return
+        index = count_unstable_pivots(local%stretch%dead%nodes, local%stretch%dead%pivots)
+        do k = 1, size(closed)
+            if (local%beam%supports(k)%breakpoint == 0) cycle
+            call piece_that_acts(local%beam%supports, closed, k, acts, slope)
+            if (acts .and. slope < -huge(slope)) index = index + 1
+        end do
+    end function local_index
+
+    !> The laws as they are at a load factor, as the scheme before the last step sees them
+    pure function laws_here(local, closed, factor) result(laws)
+        type(local_type), intent(in) :: local
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: factor
+        type(node_support_type), allocatable :: laws(:)
+        logical, allocatable :: before(:)
+        integer :: k, last, top
+
+        laws = local%beam%supports
+        if (local%any_set) then
+            before = closed
+            before(local%changed) = .not. before(local%changed)
+            associate (dead => local%stretch%dead, live => local%stretch%live)
+                k = 1
+                do while (k <= size(laws))
+                    last = last_breakpoint(laws, k)
+                    top = k - 1 + count(before(k:last))
+                    if (local%stretch%keeps_set(k) .and. top > k) then
+                        associate (i => laws(k)%node)
+                            call rewrite_law(laws, before, k, top, local%first_slope(k), dead%answers(i)%deflection &
+                                             + factor*(live%answers(i)%deflection - local%settling(k)), &
+                                             sum(dead%reaction(k:last)) + factor*sum(live%reaction(k:last)))
+                        end associate
+                    end if
+                    k = last + 1
+                end do
+            end associate
+        end if
+        call find_passed(laws)
+    end function laws_here
+
+    !> Laws in double precision
+    pure function rounded(fine, like) result(laws)
+        type(fine_support_type), intent(in) :: fine(:)
+        type(node_support_type), intent(in) :: like(:)
+        type(node_support_type) :: laws(size(fine))
+
+        laws(:) = like
+        laws%stiffness = real(fine%stiffness, wp)
+        laws%before = real(fine%before, wp)
+        laws%contact = real(fine%contact, wp)
+        laws%force = real(fine%force, wp)
+        call find_passed(laws)
+    end function rounded
+
+    !> At which breakpoints both sides are one line
+    pure subroutine find_passed(laws)
+        type(node_support_type), intent(inout) :: laws(:)
+
+        laws%passed = laws%breakpoint > 0 .and. .not. (laws%stiffness < laws%before .or. laws%stiffness > laws%before)
+    end subroutine find_passed
+
+end module gapbeam_local_step

@@ -1,0 +1,28 @@
+"""Thresholds and limits that the engine and Python both read; their reasons stand in fortran/base/tolerances.f90 and limits.f90.
+
+Attributes
+----------
+POSITION_TOLERANCE : float
+    Positions whose difference is at most this share of the larger one differ by rounding only.
+END_TOLERANCE : float
+    A place beyond an end of the beam by at most this share of its length is at that end.
+CUBIC_ROUNDING : float
+    By this share k2 of a cubic law may be less than what is allowed.
+LOAD_BEGIN : float
+    What acts at this share of the load acts from the beginning.
+TRAIN_EQUAL : float
+    Share of the largest value under a train by which ties differ at most.
+MOST_TIES : int
+    As many ties are listed.
+MOST_PATH_SEGMENTS : int
+    Segments after which a path through a history is cut off.
+CHANGES_AT_A_TIME : int
+    Changes of the contact state followed in one call.
+"""
+
+from __future__ import annotations
+
+from .. import _engine
+
+(POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, LOAD_BEGIN, TRAIN_EQUAL, MOST_TIES, MOST_PATH_SEGMENTS,
+ CHANGES_AT_A_TIME) = _engine.gbtole()
