@@ -437,7 +437,7 @@ def test_laws_of_supports_by_name_agree(library, seed):
     rng = np.random.default_rng(seed)
     sides = rng.choice(["both", "below", "above"], size=6).tolist()
     supports = [
-        {"x": 2.0 * k + 1.0, "side": side, "law": NAMED[int(rng.integers(len(NAMED)))], "settlement": float(rng.choice([0.0, 1e-3]))}
+        {"x": 2.0*k + 1, "side": side, "law": NAMED[int(rng.integers(len(NAMED)))], "settlement": float(rng.choice([0.0, 1e-3]))}
         | ({} if side == "both" else {"gap": float(rng.choice([0.0, 0.002]))})
         for k, side in enumerate(sides)
     ]
