@@ -5,10 +5,10 @@
 module gapbeam_law_series
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: same_parameters, tanh_is_one
-    use gapbeam_layers, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, parameters_of_law
+    use gapbeam_laws, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, parameters_of_law
     implicit none
     private
-    public :: curve_type, law_series_type, order, curve_force, curve_slope, begin_series, next_term, force_scale, &
+    public :: curve_type, law_series_type, order, begin_series, next_term, force_scale, &
         slope_scale, longest_step, parameters_of_curve
 
     !> Those of laws, or of a piece of a polyline the displacement and force at which it begins, and how far both go from there
@@ -43,53 +43,6 @@ module gapbeam_law_series
     end type law_series_type
 
 contains
-
-    !> Force per length at a displacement past the contact, 0 or more
-    pure function curve_force(law, p, u) result(force)
-        !> The law, not linear, its parameters, the displacement
-        integer, intent(in) :: law
-        real(wp), intent(in) :: p(:), u
-        real(wp) :: force
-
-        force = 0.0_wp
-        select case (law)
-        case (law_tanh)
-            if (p(2) > 0.0_wp) force = p(2)*tanh(p(1)*u/p(2))
-        case (law_hyperbolic)
-            if (p(2) > 0.0_wp) force = p(1)*u/(1 + p(1)*u/p(2))
-        case (law_cubic)
-            force = u*(p(1) + u*(p(2) + u*p(3)))
-        case (law_polyline)
-            force = p(2) + p(4)*((u - p(1))/p(3))
-        case default
-            force = p(2) + p(3)*u
-            if (p(1) > 0.0_wp) force = force - p(3)*(p(2)/p(1))
-        end select
-    end function curve_force
-
-    !> Its slope there
-    pure function curve_slope(law, p, u) result(slope)
-        !> As for curve_force
-        integer, intent(in) :: law
-        real(wp), intent(in) :: p(:), u
-        real(wp) :: slope, exponential
-
-        slope = 0.0_wp
-        select case (law)
-        case (law_tanh)
-            if (.not. p(2) > 0.0_wp) return
-            exponential = exp(-2*abs(p(1)*u/p(2)))
-            slope = p(1)*(4*exponential/(1 + exponential)**2)
-        case (law_hyperbolic)
-            if (p(2) > 0.0_wp) slope = p(1)/(1 + p(1)*u/p(2))**2
-        case (law_cubic)
-            slope = p(1) + u*(2*p(2) + 3*p(3)*u)
-        case (law_polyline)
-            slope = p(4)/p(3)
-        case default
-            slope = p(3)
-        end select
-    end function curve_slope
 
     !> Begin the series at a place
     pure subroutine begin_series(curve, xi, way, negative, series)

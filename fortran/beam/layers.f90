@@ -1,18 +1,11 @@
 !> Layers of ground under the pieces of a beam, with their laws.
 module gapbeam_layers
     use gapbeam_kinds, only: wp
+    use gapbeam_laws, only: law_by_points, law_polyline, law_plastic, law_hardening, law_hyperbolic, law_tanh, &
+        parameters_of_law
     implicit none
     private
     public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit
-    public :: law_polyline, law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, parameters_of_law
-
-    !> Laws: by points, or none; elastic up to a force (stiffness, limit), of another slope beyond (and slope); curves that tend to
-    !> a force (stiffness, limit); k1 d + k2 d**2 + k3 d**3 (k1, k2, k3)
-    integer, parameter :: law_by_points = 0, law_plastic = 1, law_hardening = 2, law_hyperbolic = 3, law_tanh = 4, law_cubic = 5
-    !> By points whose displacements vary along the piece of the beam, so that slopes are no lines there; nobody gives that
-    integer, parameter :: law_polyline = 6
-    !> Parameters of a law, at most
-    integer, parameter :: parameters_of_law = 3
 
     !> One foundation under one piece of the beam. It pushes back where side*(w - contact) > 0, by its modulus or by a law
     type :: layer_type

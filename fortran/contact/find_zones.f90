@@ -8,7 +8,8 @@ module gapbeam_find_zones
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points, law_cubic, parameters_of_law
+    use gapbeam_laws, only: law_cubic, parameters_of_law
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points
     use gapbeam_ground_laws, only: between, contact_line, line_of_breakpoint, distance_to_breakpoint, &
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type

@@ -8,7 +8,8 @@ module gapbeam_ground
     use gapbeam_band, only: plain
     use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_loaded, decay_lengths
     use gapbeam_curved, only: curved_type, condense_curved
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points, law_hardening
+    use gapbeam_laws, only: law_hardening
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
     use gapbeam_ground_laws, only: between, along, contact_line, slope_of_layer, offset_of_layer, take_curves
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none

@@ -1,9 +1,9 @@
 !> Laws of ground layers at a place: whether they act, by which piece, and with which force.
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_law_series, only: curve_type, curve_force, curve_slope, parameters_of_curve
-    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, has_points, law_polyline, &
-        parameters_of_law
+    use gapbeam_law_series, only: curve_type, parameters_of_curve
+    use gapbeam_laws, only: law_polyline, parameters_of_law, law_force, law_slope
+    use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, has_points
     implicit none
     private
     public :: between, along, contact_line, line_of_breakpoint, distance_to_breakpoint, parameters_at, piece_of_deflection, &
@@ -174,7 +174,7 @@ contains
         push = 0.0_wp
         if (acts == 0) return
         if (is_curve(layer, acts)) then
-            push = layer%side*curve_force(layer%law, curve_at(layer, laws, acts, place, length), &
+            push = layer%side*law_force(layer%law, curve_at(layer, laws, acts, place, length), &
                                           layer%side*(deflection - contact_line(layer, place, length)))
         else
             law = law_piece(layer, laws, acts)
@@ -197,7 +197,7 @@ contains
         slope = 0.0_wp
         if (acts == 0) return
         if (is_curve(layer, acts)) then
-            slope = curve_slope(layer%law, curve_at(layer, laws, acts, place, length), &
+            slope = law_slope(layer%law, curve_at(layer, laws, acts, place, length), &
                                 layer%side*(deflection - contact_line(layer, place, length)))
         else
             slope = slope_of_layer(layer, law_piece(layer, laws, acts), acts, place, length)

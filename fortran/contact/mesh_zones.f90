@@ -2,7 +2,8 @@
 module gapbeam_mesh_zones
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: one_place_on_curves, lone_node_zone
-    use gapbeam_layers, only: pieces_of_law, law_cubic, parameters_of_law
+    use gapbeam_laws, only: law_cubic, parameters_of_law
+    use gapbeam_layers, only: pieces_of_law
     use gapbeam_ground_laws, only: between, distance_to_breakpoint, parameters_at, slope_at
     use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of, steps_of_piece
     use gapbeam_ground_mesh, only: mesh_type, acts_at

@@ -15,14 +15,15 @@ module gapbeam_api
     use gapbeam_check, only: check_loads
     use gapbeam_words, only: shown
     use gapbeam_certificate, only: found_type => certificate_type
-    use gapbeam_state, only: solve_state, certify_state
+    use gapbeam_state, only: certify_state
+    use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_events, only: event_type, follow_events
     use gapbeam_support_values, only: support_values, find_undecided
     use gapbeam_query, only: motion_of_nodes
     use gapbeam_quantities, only: bounded_count, bending
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &
-        require_no_path, require_result, require_size, check_call, bad_argument, make_state, summarise
+        require_no_path, require_no_curves, require_result, require_size, check_call, bad_argument, make_state, summarise
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
@@ -178,7 +179,7 @@ contains
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error)) call make_state(beam, result, error)
-        if (.not. allocated(error)) call solve_state(beam%lowered, factor, options%rule, result%state, error)
+        if (.not. allocated(error)) call solve_on_laws(beam%lowered, factor, options%rule, result%state, error)
         if (.not. allocated(error)) call summarise(result)
         call restore_environment(environment)
     end subroutine solve_beam
@@ -206,6 +207,7 @@ contains
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
             call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))

@@ -18,7 +18,8 @@ module gapbeam_api_cases
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, require_size, check_call
+    use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, &
+        require_no_curves, require_size, check_call
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
@@ -47,6 +48,7 @@ contains
 
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (allocated(error)) return
         associate (lowered => beam%lowered)
             if (allocated(lowered%layers)) then

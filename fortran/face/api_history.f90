@@ -17,7 +17,8 @@ module gapbeam_api_history
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_history_events, only: find_events
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, bad_argument, make_state, summarise
+    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, &
+        require_no_curves, bad_argument, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
@@ -96,6 +97,7 @@ contains
         call hold_environment(environment)
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
+        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
         if (.not. allocated(error)) then
             allocate (history%path, stat=stat)

@@ -5,12 +5,14 @@ module gapbeam_api_objects
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown
     use gapbeam_search, only: rule_block, rule_single
+    use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type, new_state
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
-    public :: require_beam, require_no_ground, require_no_path, require_result, require_size, check_call
+    public :: require_beam, require_no_ground, require_no_path, require_no_curves, require_result, require_size, check_call
     public :: bad_argument, make_state, summarise
 
     !> A prepared beam: opaque
@@ -83,6 +85,17 @@ contains
                              "of a support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
         end if
     end subroutine require_no_path
+
+    !> Refuse a beam with smooth laws of supports, which is solved at load factors
+    subroutine require_no_curves(beam, error)
+        type(prepared_type), intent(in) :: beam
+        type(error_type), allocatable, intent(out) :: error
+
+        if (size(smooth_supports(beam%lowered)) == 0) return
+        call fatal_error(error, gapbeam_bad_input, "the law of a support is a curve: in this version such a beam is solved at "// &
+                         "load factors only, with solve_beam; give the law by points")
+        error%table = of_supports
+    end subroutine require_no_curves
 
     !> Refuse a beam on a foundation, whose way is followed apart
     subroutine require_no_ground(beam, error)

@@ -28,7 +28,7 @@ module gapbeam_api_trains
     use gapbeam_train_curves, only: find_curves
     use gapbeam_quantities, only: quantity_count, bending, bending_count, needs_axial, needs_ground, quantity_names
     use gapbeam_api_quantities, only: require_quantities
-    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size, bad_argument
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_no_curves, require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
@@ -99,6 +99,7 @@ contains
 
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call require_no_more(beam%lowered, error)
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)
         if (allocated(error)) return

@@ -17,7 +17,8 @@ contains
         real(wp), intent(in) :: hinge(:)
         !> From, to, EI, GA, EA
         real(wp), intent(in) :: sect(:, :)
-        !> Side, direction, node, and unloading if there is a fourth row; x, stiffness, gap, settlement, rotation
+        !> Side, direction, node, and unloading if there is a fourth row, law by name if there is a fifth; x, stiffness, gap,
+        !> settlement, rotation, and the parameters of the law
         integer, intent(in) :: isup(:, :)
         real(wp), intent(in) :: sup(:, :)
         !> Points of laws: support, from 1; displacement, force
@@ -67,6 +68,10 @@ contains
                 s%settlement = sup(4, i)
                 s%rotation = sup(5, i)
                 if (size(isup, 1) > 3) s%unloading = isup(4, i)
+                if (size(isup, 1) > 4) then
+                    s%law = isup(5, i)
+                    s%parameter = sup(6:, i)
+                end if
             end associate
         end do
         do i = 1, size(model%law)

@@ -3,7 +3,7 @@ module gapbeam_capi_model
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_ptr, c_null_ptr, c_associated, c_f_pointer, &
         c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
-    use gapbeam_layers, only: parameters_of_law
+    use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, load_type
     implicit none
     private
@@ -39,6 +39,7 @@ module gapbeam_capi_model
         type(c_ptr) :: foundation_law = c_null_ptr, foundation_parameter = c_null_ptr, foundation_parameter_to = c_null_ptr
         integer(c_int) :: table_points = 0
         type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
+        type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr
     end type c_model
     !> Mirrors of what was added to it in version 0.3, and since then
     type, bind(c) :: c_laws
@@ -57,6 +58,7 @@ module gapbeam_capi_model
         type(c_ptr) :: foundation_law, foundation_parameter, foundation_parameter_to
         integer(c_int) :: table_points
         type(c_ptr) :: table_foundation, table_quantity, table_x, table_value
+        type(c_ptr) :: support_law, support_parameter
     end type c_foundations
 
 contains
@@ -117,7 +119,7 @@ contains
         real(c_double), pointer :: reals(:)
         integer(c_int), pointer :: integers(:)
         logical :: with_laws
-        integer :: points, stat
+        integer :: i, points, stat
 
         call check_size(c, error)
         if (allocated(error)) return
@@ -135,7 +137,11 @@ contains
                                                      .or. c_associated(c%support_node), "support_x or support_node is needed", &
                                                      error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
-        if (.not. allocated(error) .and. c%size == now_size()) call foundations_from_c(c, model, error)
+        if (.not. allocated(error) .and. c%size == now_size()) then
+            call check_array("supports", c%supports, c_associated(c%support_law) .eqv. c_associated(c%support_parameter), &
+                             "support_law and support_parameter need each other", error)
+            if (.not. allocated(error)) call foundations_from_c(c, model, error)
+        end if
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
                   stat=stat)
@@ -161,6 +167,14 @@ contains
             if (has_integers(c%support_direction, n, integers)) s%direction = integers
             if (.not. with_laws) return
             if (has_integers(c%support_unloading, n, integers)) s%unloading = integers
+            if (c%size == now_size()) then
+                if (has_integers(c%support_law, n, integers)) s%law = integers
+                if (has_reals(c%support_parameter, n*parameters_of_law, reals)) then
+                    do i = 1, n
+                        s(i)%parameter = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
+                    end do
+                end if
+            end if
         end associate
         if (points == 0) return
         associate (law => model%law, n => c%law_points)

@@ -74,6 +74,31 @@ subroutine ghprlw(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
                  0, none, no_points, 0, none, no_points, none, no_numbers, 0, none, no_points, beam, ientry, info)
 end subroutine ghprlw
 
+! Prepare a beam whose supports may follow laws by name
+subroutine ghprsl(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, islaw, slaw, beam, &
+                  ientry, info)
+    use gapbeam_fortran77_model, only: prepare
+    implicit none
+    ! As for GHPRLW; IUNL is looked at where NLAW is 0 too
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*)
+    ! The law of every support, 0: none or by points, and its parameters: 1 plastic, 3 hyperbolic, 4 tanh, 8 brittle: stiffness,
+    ! limit; 2 hardening: and the slope beyond; 5 cubic: k1, k2, k3; 7 power: d0, limit, exponent
+    integer, intent(in) :: islaw(*)
+    double precision, intent(in) :: slaw(3, *)
+    ! As from GHPREP
+    integer(8), intent(out) :: beam
+    integer, intent(out) :: ientry
+    ! -1 to -14 as from GHPRLW, -12 where ISLAW(IENTRY) is no law or stands beside points too; -16: SLAW(., IENTRY); 14, 15
+    integer, intent(out) :: info
+    double precision :: no_points(2, 1), no_numbers(6, 1)
+    integer :: none(2)
+
+    call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, 0, none, no_numbers, &
+                 0, none, no_points, 0, none, no_points, none, no_numbers, 0, none, no_points, beam, ientry, info, islaw, slaw)
+end subroutine ghprsl
+
 ! Free what a handle stands for, whatever it is
 subroutine ghfree(handle, info)
     use gapbeam_handles, only: free_handle

@@ -1,10 +1,10 @@
-!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW and GHPRFD do
+!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL and GHPRFD do
 module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
-    use gapbeam_layers, only: parameters_of_law
+    use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, gapbeam_table_of_gap
     use gapbeam_input_error, only: of_supports, of_foundations, not_expected
     use gapbeam_check_ground_laws, only: has_parameter
@@ -19,13 +19,17 @@ contains
 
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
-                       found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info)
+                       found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
+                       slaw)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
         integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
         integer(int64), intent(out) :: beam
         integer, intent(out) :: ientry, info
+        !> Laws of supports by name and their parameters, as for GHPRSL
+        integer, intent(in), optional :: islaw(*)
+        real(wp), intent(in), optional :: slaw(parameters_of_law, *)
         !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
         integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
         type(model_type) :: model
@@ -74,7 +78,13 @@ contains
         if (.not. allocated(error)) call foundations_from_arrays(ifound(1:nfound), ground, owners, points, iflaw(1:nflaw), &
                                                                  aflaw(:, 1:nflaw), model, error)
         if (.not. allocated(error)) then
-            if (nlaw > 0) model%supports%unloading = iunl(1:nsup)
+            if (nlaw > 0 .or. present(islaw)) model%supports%unloading = iunl(1:nsup)
+            if (present(islaw)) then
+                do k = 1, nsup
+                    model%supports(k)%law = islaw(k)
+                    model%supports(k)%parameter = slaw(:, k)
+                end do
+            end if
             call new_beam(model, address, error)
         end if
         if (.not. allocated(error)) then
@@ -88,6 +98,7 @@ contains
         select case (error%table)
         case (of_supports)
             if (error%key == "law") info = -12
+            if (index(error%key, "law.") == 1) info = -16
             if (error%key == "unloading") info = -14
         case (of_foundations)
             if (error%key == "law") info = merge(-24, -22, error%reason == not_expected)

@@ -56,7 +56,8 @@ module gapbeam
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
         gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
-        gapbeam_law_cubic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
+        gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle, &
+        gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_events, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &

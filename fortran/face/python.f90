@@ -39,8 +39,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(5, msup), alaw(2, mlaw), aload(4, mload)
-    integer, intent(in) :: isup(4, msup), ilaw(mlaw), iload(3, mload)
+    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(8, msup), alaw(2, mlaw), aload(4, mload)
+    integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(13, mfound), aprof(3, mprof), aflaw(3, mflaw)
@@ -159,7 +159,7 @@ subroutine gbsize(beam, sizes, units)
         sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
-                 merge(1, 0, size(lowered%model%law) > 0), merge(1, 0, lowered%depends_on_path), &
+                 merge(1, 0, size(lowered%law) > 0), merge(1, 0, lowered%depends_on_path), &
                  0]
         if (allocated(lowered%layers)) sizes(12) = size(lowered%layers)
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection]

@@ -2,7 +2,7 @@
 ! state, FIELDS that of its fields at the pieces (gapbeam_state_handle)
 
 ! Find the contact state at one load factor and solve it
-subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, state, status, message)
+subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, counts, state, status, message)
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_beam_handle, only: handle_type, handle_of, report
     use gapbeam_state_handle, only: state_handle_type, solve_and_keep, state_of
@@ -13,6 +13,8 @@ subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, sta
     ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the contact state (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
+    ! 1: on the smooth laws themselves; 0: on the polylines or lines in place of them
+    integer, intent(in) :: onlaws
     ! Scheme: 1 closed, 0 open; start in, contact state out
     integer, intent(inout) :: closed(ns + 1)
     ! 1 where the reaction or the opening is zero, so that the support may be closed or open
@@ -38,7 +40,7 @@ subroutine gbsolv(beam, ns, nm, factor, rule, closed, undec, values, counts, sta
     undec = 0
     values = 0.0d0
     counts = 0
-    call solve_and_keep(handle%lowered, factor, rule, closed(:ns) /= 0, state, error)
+    call solve_and_keep(handle%lowered, factor, rule, onlaws /= 0, closed(:ns) /= 0, state, error)
     call report(error, status, message)
     if (allocated(error)) return
     solved => state_of(state)

@@ -9,6 +9,7 @@ module gapbeam_state_handle
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
+    use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_query, only: find_starts
     use gapbeam_ground_solver, only: ground_solution_type
     implicit none
@@ -32,12 +33,14 @@ module gapbeam_state_handle
 contains
 
     !> Solve at one load factor and keep the state
-    subroutine solve_and_keep(lowered, factor, rule, closed, address, error)
+    subroutine solve_and_keep(lowered, factor, rule, on_laws, closed, address, error)
         !> The beam
         type(assembled_type), intent(in) :: lowered
         !> As for solve_state
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
+        !> On the smooth laws themselves, or on the polylines in place of them
+        logical, intent(in) :: on_laws
         !> Scheme that the search starts from
         logical, intent(in) :: closed(:)
         !> The handle; 0 where an error is found
@@ -56,7 +59,11 @@ contains
         call new_state(lowered, handle%state, error)
         if (.not. allocated(error)) then
             handle%state%closed(:) = closed
-            call solve_state(lowered, factor, rule, handle%state, error)
+            if (on_laws) then
+                call solve_on_laws(lowered, factor, rule, handle%state, error)
+            else
+                call solve_state(lowered, factor, rule, handle%state, error)
+            end if
         end if
         if (allocated(error)) then
             deallocate (handle)

@@ -14,7 +14,7 @@ module gapbeam_ground_solution
         fine_grounded_type => grounded_type, combined_load
     use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
-    use gapbeam_law_series_quad, only: curve_force
+    use gapbeam_laws_quad, only: law_force
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_law_margins_quad, only: find_margins, is_watched_in
     implicit none
@@ -177,9 +177,9 @@ contains
             do k = 1, size(curved%curves)
                 associate (c => curved%curves(k))
                     if (at_left) then
-                        pressure = pressure + c%side*curve_force(c%law, c%parameter_a, c%side*(ends%w_a - c%contact_a))
+                        pressure = pressure + c%side*law_force(c%law, c%parameter_a, c%side*(ends%w_a - c%contact_a))
                     else
-                        pressure = pressure + c%side*curve_force(c%law, c%parameter_b, c%side*(ends%w_b - c%contact_b))
+                        pressure = pressure + c%side*law_force(c%law, c%parameter_b, c%side*(ends%w_b - c%contact_b))
                     end if
                 end associate
             end do

@@ -5,8 +5,8 @@
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points, law_cubic, &
-        parameters_of_law
+    use gapbeam_laws, only: law_cubic, parameters_of_law
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points
     use gapbeam_ground_laws, only: along, distance_to_breakpoint, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_link, only: piece_load_type, combine_loads

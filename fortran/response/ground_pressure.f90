@@ -2,7 +2,8 @@
 module gapbeam_ground_pressure
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_layers, only: layer_type, law_piece, law_by_points
+    use gapbeam_laws, only: law_by_points
+    use gapbeam_layers, only: layer_type, law_piece
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type

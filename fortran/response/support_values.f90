@@ -2,10 +2,12 @@
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both
+    use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_laws, only: past_the_gap
     use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
@@ -32,6 +34,8 @@ contains
         integer, intent(out) :: condition(:)
         integer :: j, k, last
         logical :: has_law
+        real(wp) :: past
+        integer :: way
 
         associate (units => assembled%units, beam => assembled%beam, axial => assembled%axial)
             do k = 1, size(reaction)
@@ -68,6 +72,11 @@ contains
                                               condition(k), opening(k))
                         end if
                         opening(k) = scale(opening(k), units%deflection)
+                        if (is_smooth(s%law)) then
+                            call past_the_gap(s, deflection(k), past, way)
+                            opening(k) = max(0.0_wp, -past)
+                            condition(k) = min(condition(k), gapbeam_branch + 1)
+                        end if
                     else if (s%side /= both) then
                         condition(k) = gapbeam_open
                         if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))

@@ -11,6 +11,7 @@ module gapbeam_assemble
     use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads
+    use gapbeam_support_laws, only: gather_points
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_foundations, only: check_foundations
     use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
@@ -40,14 +41,15 @@ contains
                 return
             end if
             call place_span_ends(model%spans, assembled%ends)
-            call check_laws(model, error)
+            call gather_points(model, assembled%law, error)
+            if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
             allocate (assembled%with_law(size(model%supports)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            assembled%with_law(:) = have_laws(model)
+            assembled%with_law(:) = have_laws(model, assembled%law)
             call check_rest(model, assembled%with_law, assembled%ends, error)
             if (allocated(error)) return
             call check_foundations(model, assembled%ends(n), error)

@@ -3,7 +3,8 @@ module gapbeam_assemble_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_layers, only: layer_type, parameters_of_law, law_cubic, law_polyline
+    use gapbeam_laws, only: parameters_of_law, law_cubic, law_polyline
+    use gapbeam_layers, only: layer_type
     use gapbeam_range, only: is_lost
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter

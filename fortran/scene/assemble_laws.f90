@@ -3,7 +3,7 @@ module gapbeam_assemble_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, whole
-    use gapbeam_scene, only: model_type, support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
+    use gapbeam_scene, only: support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
         gapbeam_elastic
     use gapbeam_model, only: node_support_type
     use gapbeam_law, only: always_closed
@@ -18,16 +18,17 @@ module gapbeam_assemble_laws
 contains
 
     !> First and last point of the law of every support
-    pure subroutine find_laws(model, first, last)
-        type(model_type), intent(in) :: model
+    pure subroutine find_laws(law, first, last)
+        !> Points of all laws
+        type(law_point_type), intent(in) :: law(:)
         !> The last is before the first if there is none, shape (nsupport)
         integer, intent(out) :: first(:), last(:)
         integer :: i
 
         first(:) = 1
         last(:) = 0
-        do i = 1, size(model%law)
-            associate (k => model%law(i)%support)
+        do i = 1, size(law)
+            associate (k => law(i)%support)
                 if (last(k) == 0) first(k) = i
                 last(k) = i
             end associate
@@ -101,9 +102,9 @@ contains
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
-        if (.not. allocated(assembled%model%law)) return
-        if (size(assembled%model%law) == 0) return
-        depends = depends .or. any(assembled%model%supports(assembled%model%law%support)%unloading /= gapbeam_elastic)
+        if (.not. allocated(assembled%law)) return
+        if (size(assembled%law) == 0) return
+        depends = depends .or. any(assembled%model%supports(assembled%law%support)%unloading /= gapbeam_elastic)
         if (depends) return
         ! What yields may let go of a beam that nothing else holds: only its path tells at which load
         associate (s => assembled%beam%supports)

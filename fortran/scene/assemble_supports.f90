@@ -196,13 +196,13 @@ contains
         integer :: k, j, m, n, stat
 
         n = ubound(assembled%node_point, 1)
-        associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%model%law)
+        associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%law)
             allocate (first(size(given)), last(size(given)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
             end if
-            call find_laws(assembled%model, first, last)
+            call find_laws(law, first, last)
             m = 0
             do k = 1, size(given)
                 if (can_carry(given(k))) m = m + count_breakpoints(given(k), law(first(k):last(k)))

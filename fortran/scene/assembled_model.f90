@@ -5,7 +5,7 @@ module gapbeam_assembled_model
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type
-    use gapbeam_scene, only: model_type, load_type, gapbeam_distributed, gapbeam_curvature
+    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
@@ -42,6 +42,8 @@ module gapbeam_assembled_model
         !> What the user gave, and its fingerprint
         type(model_type) :: model
         integer :: fingerprint = 0
+        !> Points of the laws of its supports, those of laws by name too
+        type(law_point_type), allocatable :: law(:)
         !> The engine's units
         type(units_type) :: units
         !> x of the span ends, shape (0:nspan), and the point at each of them
@@ -256,6 +258,7 @@ contains
         do i = 1, size(model%supports)
             associate (s => model%supports(i))
                 call mix(all_bits, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
+                call mix(all_bits, [real(s%law, wp), s%parameter])
             end associate
         end do
         if (allocated(model%law)) then

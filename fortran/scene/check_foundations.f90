@@ -8,7 +8,7 @@ module gapbeam_check_foundations
         gapbeam_table_of_parameter
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, of_foundations, not_expected, bad_law
-    use gapbeam_layers, only: parameters_of_law
+    use gapbeam_laws, only: parameters_of_law
     use gapbeam_check_ground_laws, only: check_law_kind, check_parameter, check_parameters, has_parameter, may_be_negative, &
         key_of_parameter
     use gapbeam_check, only: entry_type, check_stretch, refuse_entry, refuse_number

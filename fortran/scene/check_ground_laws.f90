@@ -3,7 +3,7 @@ module gapbeam_check_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: cubic_rounding
     use gapbeam_error, only: error_type
-    use gapbeam_layers, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law
+    use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_cubic, parameters_of_law
     use gapbeam_words, only: shown, whole
     use gapbeam_input_error, only: not_expected, bad_law
     use gapbeam_check, only: entry_type, refuse_entry

@@ -14,18 +14,21 @@ module gapbeam_check_laws
 contains
 
     !> Which supports have a law
-    pure function have_laws(model) result(have)
+    pure function have_laws(model, law) result(have)
         type(model_type), intent(in) :: model
+        !> Points of all laws
+        type(law_point_type), intent(in) :: law(:)
         logical :: have(size(model%supports))
 
         have(:) = .false.
-        if (allocated(model%law)) have(model%law%support) = .true.
+        have(law%support) = .true.
     end function have_laws
 
     !> All laws
-    subroutine check_laws(model, error)
-        !> With all arrays allocated
+    subroutine check_laws(model, law, error)
+        !> With all arrays allocated, and the points of its laws
         type(model_type), intent(in) :: model
+        type(law_point_type), intent(in) :: law(:)
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: seen(:)
         integer :: i, first
@@ -33,15 +36,15 @@ contains
         allocate (seen(size(model%supports)))
         seen(:) = .false.
         first = 1
-        do i = 1, size(model%law)
-            associate (k => model%law(i)%support)
+        do i = 1, size(law)
+            associate (k => law(i)%support)
                 if (k < 1 .or. k > size(model%supports)) then
                     call refuse(error, of_supports, 1, size(model%supports), bad_law, "law", &
                                 "a point belongs to a support that does not exist")
                     return
                 end if
-                if (i < size(model%law)) then
-                    if (model%law(i + 1)%support == k) cycle
+                if (i < size(law)) then
+                    if (law(i + 1)%support == k) cycle
                 end if
                 if (seen(k)) then
                     call say("its points must stand beside each other")
@@ -55,9 +58,9 @@ contains
                                 "that holds both ways, got "//trim(shown(model%supports(k)%gap))// &
                                 "; put one below and one above at this place instead")
                 else
-                    call check_points(model%law(first:i))
+                    call check_points(law(first:i))
                     if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic) then
-                        call check_unloading(model%law(first:i))
+                        call check_unloading(law(first:i))
                     end if
                 end if
                 if (allocated(error)) return
@@ -91,7 +94,7 @@ contains
         subroutine say(problem)
             character(len=*), intent(in) :: problem
 
-            call refuse(error, of_supports, model%law(i)%support, size(model%supports), bad_law, "law", problem)
+            call refuse(error, of_supports, law(i)%support, size(model%supports), bad_law, "law", problem)
         end subroutine say
 
         !> The points of a law

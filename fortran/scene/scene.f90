@@ -5,9 +5,9 @@
 module gapbeam_scene
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_layers, only: gapbeam_law_by_points => law_by_points, gapbeam_law_plastic => law_plastic, &
+    use gapbeam_laws, only: gapbeam_law_by_points => law_by_points, gapbeam_law_plastic => law_plastic, &
         gapbeam_law_hardening => law_hardening, gapbeam_law_hyperbolic => law_hyperbolic, gapbeam_law_tanh => law_tanh, &
-        gapbeam_law_cubic => law_cubic, parameters_of_law
+        gapbeam_law_cubic => law_cubic, gapbeam_law_power => law_power, gapbeam_law_brittle => law_brittle, parameters_of_law
     implicit none
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
@@ -20,7 +20,7 @@ module gapbeam_scene
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     public :: gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
-              gapbeam_law_cubic
+              gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle
 
     !> Infinity: a rigid support, a rigid beam
     real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
@@ -85,6 +85,11 @@ module gapbeam_scene
         integer :: direction = gapbeam_normal
         !> Of a support with a law: gapbeam_elastic, gapbeam_plastic or gapbeam_broken
         integer :: unloading = gapbeam_elastic
+        !> Instead of a stiffness or a law by points: gapbeam_law_plastic, _brittle, _hyperbolic or _tanh, with stiffness
+        !> (force/length) and limit (force); gapbeam_law_hardening, with stiffness, limit and the slope beyond; gapbeam_law_cubic,
+        !> with k1, k2 and k3 (force/length to force/length**3); gapbeam_law_power, with d0 (length), limit and exponent
+        integer :: law = gapbeam_law_by_points
+        real(wp) :: parameter(parameters_of_law) = 0.0_wp
     end type support_type
 
     !> A point of the law of a support, which has one instead of a stiffness: a polyline from (0, 0) through its points, in which

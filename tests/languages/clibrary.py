@@ -24,6 +24,13 @@ ENDINGS = {0: "", 3: "mechanism", 4: "ended"}
 REAL, INTEGER = c.POINTER(c.c_double), c.POINTER(c.c_int)
 
 
+SUPPORT_LAWS = {
+    None: (0, ()), "plastic": (1, ("stiffness", "limit")), "hardening": (2, ("stiffness", "limit", "slope")),
+    "hyperbolic": (3, ("stiffness", "limit")), "tanh": (4, ("stiffness", "limit")), "cubic": (5, ("k1", "k2", "k3")),
+    "power": (7, ("d0", "limit", "n")), "brittle": (8, ("stiffness", "limit")),
+}  # fmt: skip
+
+
 class Model(c.Structure):
     """gapbeam_model of the header."""
 
@@ -64,6 +71,8 @@ class Model(c.Structure):
         ("table_points", c.c_int),
         *((f"table_{name}", INTEGER) for name in ("foundation", "quantity")),
         *((f"table_{name}", REAL) for name in ("x", "value")),
+        ("support_law", INTEGER),
+        ("support_parameter", REAL),
     )
 
 
@@ -142,7 +151,10 @@ def columns(scene):
         value = next(load[key] for key in ("F", "M", "q", "kappa") if key in load)
         return value if isinstance(value, list) else [value, value]
 
-    law = [(k, *point) for k, support in enumerate(supports) for point in support.get("law", ())]
+    laws = [support.get("law") or () for support in supports]
+    law = [(k, *point) for k, given in enumerate(laws) if not isinstance(given, dict) for point in given]
+    named = [given if isinstance(given, dict) else {"type": None} for given in laws]
+    codes = [SUPPORT_LAWS[given["type"]] for given in named]
     turns = {"free": 0.0, "fixed": math.inf}
     both = np.array([values(load) for load in loads], dtype=float).reshape(len(loads), 2)
     return {
@@ -168,6 +180,11 @@ def columns(scene):
         "law_support": np.array([k for k, *_ in law], dtype=np.int32),
         "law_displacement": np.array([d for _, d, _ in law], dtype=float),
         "law_force": np.array([f for *_, f in law], dtype=float),
+        "support_law": np.array([code for code, _ in codes], dtype=np.int32),
+        "support_parameter": np.array(
+            [([given.get(key, 0.0) for key in keys] + [np.nan] * 3)[:3] for given, (_, keys) in zip(named, codes, strict=True)],
+            dtype=float,
+        ).reshape(-1, 3),
         **ground_columns(scene.get("foundation", ()), end),
     }
 
@@ -448,9 +465,12 @@ class F77Beam:
         model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, *self.loads_of(a)]
         alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
-        prepare = "ghprfd" if len(sides) else "ghprlw" if len(ilaw) else "ghprep"
-        if len(ilaw) or len(sides):
+        named = a["support_law"].any()
+        prepare = "ghprfd" if len(sides) else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
+        if len(ilaw) or len(sides) or named:
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
+        if named:
+            model += [a["support_law"], a["support_parameter"]]
         if len(sides):
             model += [len(sides), sides, np.array([a[f"foundation_{n}"] for n in foundations]).T.copy()]
             for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):

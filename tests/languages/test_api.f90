@@ -10,7 +10,7 @@ program test_api
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
         gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
         gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, gapbeam_limit_jump, &
-        gapbeam_limit_follow, gapbeam_arrived, gapbeam_limit_point, gapbeam_path_ended, gapbeam_mechanism
+        gapbeam_law_tanh, gapbeam_limit_follow, gapbeam_arrived, gapbeam_limit_point, gapbeam_path_ended, gapbeam_mechanism
     implicit none
     integer :: status
 
@@ -24,6 +24,7 @@ program test_api
     call extreme_units()
     call hardening_law()
     call brittle_law()
+    call smooth_law()
     call plastic_law()
     call mechanism_at_limit()
     call combinations()
@@ -411,6 +412,35 @@ contains
         model%supports(2)%gap = -0.01_wp
         call refuse(model, 3, 2, "gap: expected 0 or more")
     end subroutine hardening_law
+
+    !> A law by name that is a curve: its force is the load less what the beam takes, and events are refused
+    subroutine smooth_law()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(event_type), allocatable :: events(:)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3)
+
+        call two_spans(model)
+        model%supports(2) = support_type(node=1, side=gapbeam_below, law=gapbeam_law_tanh, parameter=[900.0_wp, 4.0_wp, 0.0_wp])
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), 4*tanh(900*deflection(2)/4), "the force is that of the curve")
+        call check_close(deflection(2), 5*3*4.0_wp**4/(384*100) - reaction(2)*4.0_wp**3/(48*100), "and of the beam")
+        call check(condition(2) == gapbeam_branch + 1, "a curve is one piece")
+        call follow_load(beam, 1.0_wp, options_type(), events, result, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its events are refused")
+        model%supports(2)%parameter(2) = 0.0_wp
+        call refuse(model, 3, 2, "law.limit: expected a finite number above 0, got 0")
+        model%supports(2)%law = 6
+        call refuse(model, 3, 2, "law: expected 0 to 5, 7 or 8, got 6")
+        model%supports(2)%law = gapbeam_law_tanh
+        model%law = [law_point_type(2, 0.1_wp, 1.0_wp)]
+        call refuse(model, 3, 2, "by name and by points")
+    end subroutine smooth_law
 
     !> A support that breaks: the load stops, the beam falls on to a state beyond, or the path is followed
     subroutine brittle_law()

@@ -421,3 +421,52 @@ def test_load_paths_on_foundations_agree(library):
                 assert_same_state(beam, f77, result, scene, random.Random(seed), bounds_too=False)
         beam.close()
     assert {change for *_, change, _ in found} >= {0, 1, 20, 21, 25}
+
+
+NAMED = [
+    {"type": "tanh", "stiffness": 4e3, "limit": 36.0}, {"type": "hyperbolic", "stiffness": 900.0, "limit": 20.0},
+    {"type": "cubic", "k1": 400.0, "k2": -1e3, "k3": 1e5}, {"type": "power", "d0": 0.01, "limit": 30.0, "n": 0.4},
+    {"type": "power", "d0": 0.01, "limit": 30.0, "n": 2.0}, {"type": "plastic", "stiffness": 4e3, "limit": 6.0},
+    {"type": "hardening", "stiffness": 400.0, "limit": 20.0, "slope": 4e3},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_laws_of_supports_by_name_agree(library, seed):
+    """Curves are met with the same digits, and their beams are refused where the load is followed."""
+    rng = np.random.default_rng(seed)
+    sides = rng.choice(["both", "below", "above"], size=6).tolist()
+    supports = [
+        {"x": 2.0*k + 1, "side": side, "law": NAMED[int(rng.integers(len(NAMED)))], "settlement": float(rng.choice([0.0, 1e-3]))}
+        | ({} if side == "both" else {"gap": float(rng.choice([0.0, 0.002]))})
+        for k, side in enumerate(sides)
+    ]
+    scene = {
+        "beam": {"spans": [6.0, 6.0], "EI": 3e3}, "supports": [{"node": 0}, {"node": 2}, *supports],
+        "loads": [{"type": "uniform", "q": float(rng.uniform(-20, 20)), "from": 0.0, "to": 12.0}],
+    }  # fmt: skip
+    beam, message = library.prepare(scene)
+    assert message == ""
+    f77 = F77Beam(library, scene)
+    assert f77.info_ == 0
+    assert beam.solve(1.0)[0] == f77.solve(1.0) == 0
+    step = gapbeam.solve(scene).steps[-1]
+    for one in (beam, f77):
+        reaction, deflection, opening, *_ = one.at_supports()
+        np.testing.assert_array_equal([reaction, deflection, opening], [step.reaction, step.deflection, step.opening])
+
+
+def test_wrong_laws_of_supports_by_name_are_refused(library):
+    scene = {"beam": {"spans": [6.0], "EI": 3e3}, "supports": [{"node": 0}, {"node": 1, "law": NAMED[0]}], "loads": []}
+    for key, value, words in (
+        ("limit", 0.0, "law.limit: expected a finite number above 0, got 0"),
+        ("stiffness", np.inf, "law.stiffness: expected a finite number above 0"),
+    ):
+        scene["supports"][1]["law"] = NAMED[0] | {key: value}
+        assert words in library.prepare(scene)[1]
+        f77 = F77Beam(library, scene)
+        assert (f77.info_, f77.entry[0]) == (-16, 2)
+    scene["supports"][1]["law"] = NAMED[0]
+    beam, _ = library.prepare(scene)
+    with pytest.raises(AssertionError):
+        beam.follow(1.0)

@@ -27,8 +27,8 @@ class Columns(Record):
     section : numpy.ndarray
         Left and right end, EI, GA, EA of the sections, 5 rows.
     support_codes, support : numpy.ndarray
-        Side, direction, node and way of unloading of the supports, 4 rows of int; x, stiffness, gap, settlement, rotation,
-        5 rows.
+        Side, direction, node, way of unloading and law by its code of the supports, 5 rows of int; x, stiffness, gap, settlement,
+        rotation, parameters of the law, 8 rows.
     law_supports, law : numpy.ndarray
         Points of the laws: number of the support, from 1; displacement and force, 2 rows.
     load_codes, load : numpy.ndarray
@@ -72,6 +72,16 @@ class Columns(Record):
         """
         which = np.flatnonzero(self.table[2, :-1] == quantity)
         return self.table_foundations[which] - 1, self.table[1, which]
+
+    def with_laws(self) -> np.ndarray:
+        """Give the supports that have a law, by points or by its code.
+
+        Returns
+        -------
+        numpy.ndarray of int
+            Their numbers, from 0.
+        """
+        return np.union1d(self.law_supports[:-1] - 1, np.flatnonzero(self.support_codes[4, :-1]))
 
     def has_varying_laws(self) -> bool:
         """Whether a law of a foundation by points is not the same everywhere."""

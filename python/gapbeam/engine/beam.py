@@ -169,7 +169,7 @@ class Beam(Layout):
         same = same and (self._factors is None or np.array_equal(self._factors, other._factors))
         return self is other or (same and (not self.has_laws or np.array_equal(self.breakpoints, other.breakpoints)))
 
-    def solve(self, factor: float, rule: str, closed: np.ndarray) -> Solution:
+    def solve(self, factor: float, rule: str, closed: np.ndarray, on_laws: bool = False) -> Solution:
         """Find the contact state at one load factor.
 
         Parameters
@@ -180,6 +180,8 @@ class Beam(Layout):
             How the contact state is found; GIVEN where it is known.
         closed : numpy.ndarray of int
             Starting scheme, one entry per support; left as it is.
+        on_laws : bool
+            Whether smooth laws are met themselves, or the polylines or lines in place of them.
 
         Returns
         -------
@@ -194,23 +196,23 @@ class Beam(Layout):
         m, scheme = self.supports, extended(closed)
         code = RULES.get(rule, RULE_EXTENDED if self.curves else RULE_GIVEN)
         undecided, values, counts, handle, status, message = _engine.gbsolv(
-            self.handle, self.links, self.scene_supports, factor, code, scheme
+            self.handle, self.links, self.scene_supports, factor, code, on_laws, scheme
         )
         check_status(status, message)
         solves, method, indifferent, came_back, slides, *on_ground = counts.tolist()
         start = read_only(np.array(closed)) if closed.flags.writeable else closed
-        state = State(self, factor, code, start, *on_ground, handle)
+        state = State(self, factor, code, start, *on_ground, on_laws, handle)
         return Solution(
             status, scheme[:m], undecided[:m], values.T[:, :-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
             state,
         )  # fmt: skip
 
-    def solve_again(self, factor: float, code: int, start: np.ndarray) -> _engine.StateHandle:
+    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: bool) -> _engine.StateHandle:
         """Solve a state once more.
 
         Parameters
         ----------
-        factor, code, start
+        factor, code, start, on_laws
             As of `State`.
 
         Returns
@@ -223,7 +225,7 @@ class Beam(Layout):
             Where the first time on another machine it did not.
         """
         *_, handle, status, message = _engine.gbsolv(
-            self.handle, self.links, self.scene_supports, factor, code, extended(start)
+            self.handle, self.links, self.scene_supports, factor, code, on_laws, extended(start)
         )
         check_status(status, message)
         return handle

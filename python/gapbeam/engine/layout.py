@@ -10,6 +10,7 @@ import numpy as np
 from ..base.records import read_only
 from . import calls as _engine
 from .arrays import Columns, Places
+from .laws import CurveValues
 
 
 class Curve(Protocol):
@@ -21,8 +22,8 @@ class Curve(Protocol):
     def scale(self) -> float:
         """Give a displacement that is typical of the law."""
 
-    def displacement(self, force: float) -> float | None:
-        """Give the displacement at a force above 0, where that is what tells the point on the curve; else None."""
+    def values(self, d: float) -> CurveValues:
+        """Give all that the law has at such a displacement."""
 
 
 class Layout:
@@ -77,11 +78,11 @@ class Layout:
     @cached_property
     def laws(self) -> dict[int, tuple[slice, int, int]]:
         """Supports of the scene with a law: its breakpoints, how many are below its middle, piece there, 0 if it is open."""
-        which = np.unique(self.columns.law_supports[:-1]) - 1
+        which = self.columns.with_laws()
         first, last = (np.searchsorted(self.numbers, which, side=side) for side in ("left", "right"))
         breakpoints = last - first
         both, gap = self.sides[which] == 0, self.columns.support[2, which]
-        one_piece = both & (np.bincount(self.columns.law_supports[:-1], minlength=1)[which + 1] == 1) & (gap == 0.0)
+        one_piece = both & (breakpoints == 1)
         middle = np.where(one_piece, 1, np.where(both, breakpoints // 2, 0))
         at_middle = (both & (gap == 0.0)).astype(int)
         rows = zip(map(slice, first.tolist(), last.tolist()), middle.tolist(), at_middle.tolist(), strict=True)

@@ -51,6 +51,34 @@ def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.n
     return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
 
 
+def factor_on_laws(beam: Beam, factor: float, closed: np.ndarray, support: int) -> float:
+    """Load factor at which a support changes its state, on the smooth laws of others.
+
+    Parameters
+    ----------
+    beam : Beam
+        With smooth laws.
+    factor : float
+        The same with their polylines.
+    closed : numpy.ndarray of int
+        The scheme before.
+    support : int
+        Number of the support or breakpoint in the engine.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    EngineError
+        The laws are not met.
+    """
+    found, status, message = _engine.gblawe(beam.handle, extended(closed), support + 1, factor)
+    check_status(status, message)
+    return found
+
+
 def follow_history(beam: Beam, factors: np.ndarray, at_limit: str, most: int) -> History:
     """Put on the dead loads and go through load factors in turn, by the path itself.
 

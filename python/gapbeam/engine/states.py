@@ -40,27 +40,29 @@ class State:
         Where the search for it starts.
     stretches, layers : int
         Of a beam on the ground its stretches, and most layers under one of them; else 0.
+    on_laws : bool
+        Whether it is on the smooth laws themselves.
     handle : StateHandle, optional
         Of the state.
     """
 
     def __init__(
         self, beam: Beam, factor: float, code: int, start: np.ndarray, stretches: int, layers: int,
-        handle: _engine.StateHandle | None = None,
+        on_laws: bool, handle: _engine.StateHandle | None = None,
     ):  # fmt: skip
         self.beam, self.factor, self.code, self.start = beam, factor, code, read_only(start)
-        self.stretches, self.layers = stretches, layers
+        self.stretches, self.layers, self.on_laws = stretches, layers, on_laws
         if handle is not None:
             self.handle = handle
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is solved from."""
-        return type(self), (self.beam, self.factor, self.code, self.start, self.stretches, self.layers)
+        return type(self), (self.beam, self.factor, self.code, self.start, self.stretches, self.layers, self.on_laws)
 
     @cached_property
     def handle(self) -> _engine.StateHandle:
         """Its number in the compiled layer."""
-        return self.beam.solve_again(self.factor, self.code, self.start)
+        return self.beam.solve_again(self.factor, self.code, self.start, self.on_laws)
 
     @cached_property
     def arrays(self) -> dict[str, np.ndarray]:

@@ -7,13 +7,14 @@ from operator import attrgetter
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from ..base.errors import SceneError
 from ..engine.arrays import GAP, MODULUS, Columns
 from ..engine.beam import Curve
 from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
-from .laws import is_smooth, law_points
+from .laws import is_smooth
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from .structs import Scene
 from .table import kind_of
@@ -71,7 +72,7 @@ def columns(scene: Scene) -> Columns:
     hinge[:-1] = beam.hinges
     hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
-    law_supports, law = _laws(scene.supports)
+    law_supports, law = _laws(scene.supports, points_given)
     load_codes, load_values = _loads(scene.loads)
     return Columns(
         span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
@@ -94,8 +95,7 @@ def curves(scene: Scene, taken: Columns) -> tuple[tuple[int, Curve], ...]:
     tuple of (int, Curve)
         Number of the support, and its law.
     """
-    with_law = np.unique(taken.law_supports[:-1]) - 1
-    laws = ((i, scene.supports[i].law) for i in with_law.tolist())
+    laws = ((i, scene.supports[i].law) for i in taken.with_laws().tolist())
     return tuple((i, law) for i, law in laws if is_smooth(law))
 
 
@@ -114,7 +114,7 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
 
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    codes, found = _empty(4, len(items), np.int32), _empty(5, len(items))
+    codes, found = _empty(5, len(items), np.int32), _empty(5 + PARAMETERS, len(items))
     codes[0, :-1] = _words(items, "side", SIDES)
     codes[1, :-1] = _words(items, "direction", DIRECTIONS)
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
@@ -126,7 +126,27 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
         unloading.count("elastic") == len(unloading)
     )
     codes[3, :-1] = 0 if elastic else _words(items, "unloading", UNLOADING)
+    codes[4, :-1], found[5:, :-1] = 0, 0.0
+    laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
+    for i, law in enumerate(laws if laws.count(None) < len(laws) else ()):
+        if isinstance(law, Struct):
+            codes[4, i], found[5:, i] = law.code, law.parameters()
     return codes, found
+
+
+def points_given(law: Any) -> list[tuple[float, float]] | None:
+    """Give the points of a law; None where it is given by its name.
+
+    Parameters
+    ----------
+    law : Law
+        Of a support.
+
+    Returns
+    -------
+    list of (float, float) or None
+    """
+    return None if isinstance(law, Struct) else law
 
 
 def _foundations(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
@@ -160,7 +180,7 @@ def _tables(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _laws(
-    items: Sequence[Any], points_of: Callable[[Any], Sequence[tuple[float, ...]] | None] = law_points, rows: int = 2
+    items: Sequence[Any], points_of: Callable[[Any], Sequence[tuple[float, ...]] | None], rows: int = 2
 ) -> tuple[np.ndarray, np.ndarray]:
     """Points of laws, and the numbers of their supports or foundations, from 1; none of them can be given as columns."""
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))

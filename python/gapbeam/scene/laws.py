@@ -1,27 +1,28 @@
-"""Laws of supports by the numbers that engineers have, as polylines and as curves."""
+"""Laws of supports by the numbers that engineers have; what they are stands in the compiled layer."""
 
 from __future__ import annotations
 
-from math import inf, isfinite, tanh
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import numpy as np
-
-from ..engine.tolerances import CUBIC_ROUNDING
+from ..engine.laws import PARAMETERS, CurveValues, curve_values, points_of_law
 from .table import NotNegative, Positive, Table
-
-PIECES = 96
-"""Pieces of the polyline that a curve is followed with, before it is solved itself."""
 
 
 class _Law(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type"):
     """A law by its parameters."""
 
     smooth: ClassVar[bool] = False
+    code: ClassVar[int]
+    """As in gapbeam_laws."""
+
+    def parameters(self) -> list[float]:
+        """Give the parameters in the engine's order, and 0 for those that it does not have."""
+        found = [float(getattr(self, key)) for key in self.__struct_fields__]
+        return found + [0.0] * (PARAMETERS - len(found))
 
     def points(self) -> list[tuple[float, float]]:
-        """Give the polyline (displacement past the gap, force)."""
-        raise NotImplementedError
+        """Give the polyline (displacement past the gap, force); of a curve the one that it is followed with."""
+        return points_of_law(self.code, self.parameters())
 
 
 class _Elastic(_Law):
@@ -38,30 +39,17 @@ class _Elastic(_Law):
     stiffness: Positive
     limit: Positive
 
-    def points(self) -> list[tuple[float, float]]:
-        """Give the polyline."""
-        d = self.limit / self.stiffness
-        return [(d, self.limit), *self.beyond(d)]
-
-    def beyond(self, d: float) -> list[tuple[float, float]]:
-        """Give the points beyond the limit, which is reached at the displacement `d`."""
-        raise NotImplementedError
-
 
 class PlasticLaw(_Elastic, tag="plastic"):
     """Elastic up to a force that stays."""
 
-    def beyond(self, d: float) -> list[tuple[float, float]]:
-        """Stay."""
-        return [(2 * d or 1.0, self.limit)]
+    code = 1
 
 
 class BrittleLaw(_Elastic, tag="brittle"):
     """Elastic up to a force at which it breaks."""
 
-    def beyond(self, d: float) -> list[tuple[float, float]]:
-        """Drop."""
-        return [(d, 0.0), (2 * d or 1.0, 0.0)]
+    code = 8
 
 
 class HardeningLaw(_Elastic, tag="hardening"):
@@ -73,17 +61,8 @@ class HardeningLaw(_Elastic, tag="hardening"):
         Stiffness beyond (force/length), greater or less than the first one; inf = rigid.
     """
 
+    code = 2
     slope: NotNegative
-
-    def beyond(self, d: float) -> list[tuple[float, float]]:
-        """Go on, so that the slope comes out of it to all digits."""
-        if not self.slope:
-            return [(2 * d or 1.0, self.limit)]
-        if self.slope == inf:
-            return [(d, 2 * self.limit)] if d else []
-        way = max(d, self.limit / self.slope)
-        rise = self.slope * way if way else self.limit
-        return [(d + way, self.limit + rise)]
 
 
 class _Curve(_Law):
@@ -91,29 +70,17 @@ class _Curve(_Law):
 
     smooth: ClassVar[bool] = True
 
+    def values(self, d: float) -> CurveValues:
+        """Give force, slope and work at a displacement, 0 or more, and what the law has everywhere."""
+        return curve_values(self.code, self.parameters(), d)
+
     def scale(self) -> float:
         """Give a displacement that is typical of the law."""
-        raise NotImplementedError
+        return self.values(0.0).scale
 
     def force_and_slope(self, d: float) -> tuple[float, float]:
         """Give force and slope at a displacement, 0 or more."""
-        raise NotImplementedError
-
-    def displacement(self, _: float) -> float | None:
-        """Give the displacement at a force; None, as the curve is followed by displacements."""
-        return None
-
-    def bound(self) -> float:
-        """Give the force that it never exceeds."""
-        return inf
-
-    def points(self) -> list[tuple[float, float]]:
-        """Give a polyline through points of the curve, closer where it bends."""
-        ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
-        points = [(float(d), self.force_and_slope(float(d))[0]) for d in ways]
-        # Where a curve has become flat to the last digit, or leaves the range of doubles, a point less
-        rising = [p for p, q in zip(points, [(0.0, 0.0), *points[:-1]], strict=True) if q[1] < p[1] < inf]
-        return rising or [(self.scale(), self.force_and_slope(self.scale())[0])]
+        return self.values(d)[:2]
 
 
 class CubicLaw(_Curve, tag="cubic"):
@@ -129,33 +96,14 @@ class CubicLaw(_Curve, tag="cubic"):
         Below 0 softening (force/length^2), down to -2*sqrt(k1*k3): the force may fall, but not below 0.
     """
 
+    code = 5
     k1: NotNegative
     k3: NotNegative
     k2: float = 0.0
 
-    def scale(self) -> float:
-        """Give the displacement at which two of the parts are equal."""
-        if self.k1 and self.k3:
-            return self.k1**0.5 / self.k3**0.5
-        return (self.k2 / self.k3 if self.k3 else self.k1 / self.k2 if self.k2 else 1.0) or 1.0
-
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope."""
-        return d * (self.k1 + d * (self.k2 + self.k3 * d)), self.k1 + d * (2 * self.k2 + 3 * self.k3 * d)
-
-    def points(self) -> list[tuple[float, float]]:
-        """Give the polyline; where the law softens with closer points at equal distances."""
-        if self.k2 >= 0.0:
-            return super().points()
-        last = 2.0 * self.scale()  # twice where the force is nearest to 0
-        close = np.linspace(0.0, last, PIECES + 1)
-        ways = self.scale() * np.geomspace(2.0**-20, 2.0**20, PIECES)
-        ways = np.concatenate((ways[ways < 0.9 * close[1]], close[1:], ways[ways > 1.1 * last]))
-        return [(d, max(self.force_and_slope(d)[0], 0.0)) for d in ways.tolist()]
-
-    def least_k2(self) -> float:
-        """Give the least k2 with which the force stays 0 or more."""
-        return -2.0 * self.k1**0.5 * self.k3**0.5 + 0.0
+    def parameters(self) -> list[float]:
+        """Give the parameters in the engine's order."""
+        return [float(self.k1), float(self.k2), float(self.k3)]
 
 
 class _Levelling(_Curve):
@@ -172,31 +120,17 @@ class _Levelling(_Curve):
     stiffness: Positive
     limit: Positive
 
-    def scale(self) -> float:
-        """Give the displacement at which the first stiffness would reach the limit."""
-        return self.limit / self.stiffness
-
-    def bound(self) -> float:
-        """Give the limit."""
-        return self.limit
-
 
 class HyperbolicLaw(_Levelling, tag="hyperbolic"):
     """Force = d/(1/stiffness + d/limit)."""
 
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope."""
-        share = 1.0 / (1.0 + d * self.stiffness / self.limit)
-        return self.stiffness * d * share, self.stiffness * share * share
+    code = 3
 
 
 class TanhLaw(_Levelling, tag="tanh"):
     """Force = limit*tanh(stiffness*d/limit)."""
 
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope."""
-        share = tanh(self.stiffness * d / self.limit)
-        return self.limit * share, self.stiffness * (1.0 - share) * (1.0 + share)
+    code = 4
 
 
 class PowerLaw(_Curve, tag="power"):
@@ -212,67 +146,14 @@ class PowerLaw(_Curve, tag="power"):
         Exponent (no unit).
     """
 
+    code = 7
     d0: Positive
     limit: Positive
     n: Positive
 
-    def scale(self) -> float:
-        """Give d0."""
-        return self.d0
-
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope."""
-        if d == 0.0:
-            return 0.0, inf if self.n < 1.0 else 0.0 if self.n > 1.0 else self.limit / self.d0
-        force = self.limit * _power(d / self.d0, self.n)
-        return force, self.n * force / d
-
-    def displacement(self, force: float) -> float | None:
-        """Give the displacement at a force, where the curve begins steep."""
-        return self.d0 * _power(force / self.limit, 1.0 / self.n) if self.n < 1.0 else None
-
-
-def _power(base: float, exponent: float) -> float:
-    """Raise to a power; infinite beyond the range of doubles."""
-    try:
-        return float(base) ** exponent
-    except OverflowError:
-        return inf
-
 
 LawTable = PlasticLaw | BrittleLaw | HardeningLaw | CubicLaw | HyperbolicLaw | TanhLaw | PowerLaw
 Law = list[tuple[float, float]] | LawTable
-
-
-def wrong_parameter(law: Any) -> tuple[str, float, str] | None:
-    """Find a parameter of a law's table that is out of range.
-
-    Parameters
-    ----------
-    law : Law
-        From a scene.
-
-    Returns
-    -------
-    None or (str, float, str)
-        Key, value, and what was expected.
-    """
-    if isinstance(law, list):
-        return None
-    for key in law.__struct_fields__:
-        value = getattr(law, key)
-        rigid = key == "slope" or (key == "stiffness" and not law.smooth)
-        least = 0.0 if key in ("k1", "k3", "slope") else -inf if key == "k2" else None
-        if not (value > 0.0 or (least is not None and value >= least)) or not (isfinite(value) or rigid):
-            more = "a number" if rigid else "a finite number"
-            return key, value, more + {None: " above 0", 0.0: " of 0 or more", -inf: ""}[least]
-    if isinstance(law, CubicLaw):
-        least = law.least_k2()
-        if law.k2 < least * (1 + CUBIC_ROUNDING):
-            return "k2", law.k2, f"-2*sqrt(k1*k3) = {least:.9g} or more, since a support that pushes cannot pull"
-        if law.k1 == law.k2 == law.k3 == 0.0:
-            return "k1", law.k1, "a number above 0 for k1, k2 or k3"
-    return None
 
 
 def is_smooth(law: Law) -> bool:

@@ -17,7 +17,6 @@ from .combinations import plan_combinations
 from .files import Written, read_file
 from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
 from .ground_tables import is_table, least_and_most, settled
-from .laws import is_smooth, wrong_parameter
 from .limits import check_limits
 from .mistakes import all_mistakes
 from .names import check_names, names_in_errors
@@ -175,12 +174,6 @@ def _check_laws(scene: Scene) -> None:
             continue
         if support.stiffness != float("inf"):
             raise SceneError(f"supports[{i}]", "has both stiffness and law; give one of the two")
-        if wrong := wrong_parameter(law):
-            key, value, expected = wrong
-            raise SceneError(f"supports[{i}].law.{key}", f"expected {expected}, got {number(value)}")
-        if is_smooth(law) and support.unloading != "elastic":
-            problem = f'a smooth law unloads along itself; give a polyline for unloading = "{support.unloading}"'
-            raise SceneError(f"supports[{i}].unloading", problem)
         if isinstance(law, list) and not law:
             raise SceneError(f"supports[{i}].law", "has no point; give (displacement past the gap, force)")
 

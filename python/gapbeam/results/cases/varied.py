@@ -175,14 +175,14 @@ def _are_right(columns: Columns, key: str, values: np.ndarray) -> bool:
 def _staying(columns: Columns) -> tuple[np.ndarray, ...]:
     """Supports that mostly have the scene's own number in all cases, by `OF_SUPPORTS`."""
     side, direction = columns.support_codes[:2, :-1]
-    with_law = np.isin(np.arange(1, len(side) + 1), columns.law_supports[:-1])
+    with_law = np.isin(np.arange(len(side)), columns.with_laws())
     idle = with_law | ~(columns.support[1, :-1] > 0.0)
     return np.zeros(0, int), np.flatnonzero((side == 0) | (direction != 0)), np.flatnonzero(idle)
 
 
 def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) -> list[tuple[np.ndarray, str]]:
     side, direction = columns.support_codes[:2, which]
-    with_law = np.isin(which + 1, columns.law_supports[:-1])
+    with_law = np.isin(which, columns.with_laws())
     if key == "stiffness":
         idle = (side != 0) & ~(columns.support[1, which] > 0.0)
         return [

@@ -11,10 +11,9 @@ import numpy as np
 from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
-from ...engine.paths import TURNS, follow_stretch
+from ...engine.paths import TURNS, factor_on_laws, follow_stretch
 from ...engine.tolerances import CHANGES_AT_A_TIME
 from ..state.breakpoints import EVENTS, piece_of, what_happens
-from ..state.smooth import factor_on_curves
 from ..state.step import Step
 
 if TYPE_CHECKING:
@@ -187,7 +186,7 @@ class Path:
                 if numbers[k] in laws:
                     before = piece_of(beam, numbers[k], closed, beam.breakpoints)
                 if beam.curves and factor > 0.0:
-                    factor = factor_on_curves(beam, factor, closed, k)
+                    factor = factor_on_laws(beam, factor, closed, k)
                 closed[k] ^= 1
                 if numbers[k] in laws:
                     name = what_happens(before, piece_of(beam, numbers[k], closed, beam.breakpoints))

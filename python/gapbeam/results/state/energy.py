@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...engine.beam import Beam, Curve
+from ...engine.beam import Beam
 from ...engine.quantities import FIELDS
 from ...engine.states import Solution
 from ...scene.loads import CurvatureLoad, ForceLoad, MomentLoad
@@ -14,8 +14,6 @@ from .step import Step
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 """Exact for the fields of a piece times a load that is linear there."""
-FINE_POINTS, FINE_WEIGHTS = np.polynomial.legendre.leggauss(16)
-HALVES = 40
 
 
 def work_of_loads(scene: Scene, case: str, beam: Beam, step: Step) -> float:
@@ -78,18 +76,8 @@ def bulge(beam: Beam, start: Solution, stop: Solution) -> float:
     forces = [way * laws.forces_and_slopes(d)[0] for d, way in ((d_start, way_start), (d_stop, way_stop))]
     for i, curve in enumerate(laws.curves):
         chord = (forces[0][i] + forces[1][i]) / 2 * (ends[1][i] - ends[0][i])
-        found += _work(curve, d_stop[i]) - _work(curve, d_start[i]) - chord
+        found += curve.values(max(d_stop[i], 0.0)).work - curve.values(max(d_start[i], 0.0)).work - chord
     return float(found)
-
-
-def _work(curve: Curve, d: float) -> float:
-    """Work up to a displacement past the gap, to all digits: nearer to its beginning in smaller parts."""
-    if d <= 0.0:
-        return 0.0
-    share = (1.0 + FINE_POINTS) / 2
-    ends = d * 0.5 ** np.arange(1, HALVES)
-    forces = [[curve.force_and_slope(float(end * (1.0 + part)))[0] for part in share] for end in ends]
-    return float(ends @ (np.array(forces) @ FINE_WEIGHTS)) / 2
 
 
 def _along(beam: Beam, step: Step, load: object, start: float, stop: float) -> float:

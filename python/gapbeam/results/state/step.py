@@ -22,7 +22,6 @@ from ...engine.units import bound_in_scene, scaled
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
-from .smooth import solve_on_curves, with_openings
 from .state_extremes import extremes_of_state
 
 PLASTIC = 1
@@ -78,13 +77,8 @@ class Step(Pickled):
     @cached_property
     def _solved(self) -> tuple[Solution, float]:
         begin = perf_counter()
-        beam, solution = self._beam, self._beam.solve(self.factor, self._rule, self._start)
-        if beam.curves and solution.status == SOLVED:
-            if not self._settled:
-                beam, solution = solve_on_curves(beam, self.factor, solution, self._rule)
-            if solution.status == SOLVED:
-                solution = with_openings(beam, solution)
-        return solution, perf_counter() - begin
+        on_laws = bool(self._beam.curves) and not self._settled
+        return self._beam.solve(self.factor, self._rule, self._start, on_laws), perf_counter() - begin
 
     @property
     def solution(self) -> Solution:

@@ -15,10 +15,9 @@ import numpy as np
 from ...base.errors import EngineError
 from ...engine.beam import SOLVED, Beam
 from ..state.schemes import starting_scheme
-from ..state.smooth import SmoothLaws, solve_on_curves, with_openings
+from ..state.smooth import SmoothLaws
 
 if TYPE_CHECKING:
-    from ...engine.arrays import Columns
     from ...engine.states import Solution
 
 NEAREST = 4
@@ -39,7 +38,7 @@ class NearTangents:
     """
 
     def __init__(self, beam: Beam, rule: str):
-        self._columns, self._curves, self._rule = _with_two_points(beam), beam.curves, rule
+        self._columns, self._curves, self._rule = beam.columns, beam.curves, rule
         self._known: dict[bytes, tuple[list[float], list[np.ndarray]]] = {}  # by the axles that act: positions, deflections
 
     def keep(self, position: float, acts: np.ndarray, beam: Beam, solution: Solution) -> None:
@@ -86,15 +85,12 @@ class NearTangents:
             return None
         try:
             beam = laws.with_lines(beam, guess, force * way, slope)
-            solution = beam.solve(1.0, self._rule, starting_scheme(beam))
-            if solution.status != SOLVED or solution.indifferent:
-                return None
-            beam, solution = solve_on_curves(beam, 1.0, solution, self._rule)
+            solution = beam.solve(1.0, self._rule, starting_scheme(beam), on_laws=True)
         except EngineError:
             return None
         if solution.status != SOLVED or solution.indifferent:
             return None
-        return beam, with_openings(beam, solution)
+        return beam, solution
 
     def _guess(self, position: float, acts: np.ndarray) -> np.ndarray | None:
         """Deflections at the laws by a polynomial through the states nearest to a position."""
@@ -108,14 +104,3 @@ class NearTangents:
         if np.abs(weights).max() > STEEPEST:
             weights = np.eye(len(x))[np.abs(x - position).argmin()]
         return weights @ np.array(deflections[first : first + NEAREST])
-
-
-def _with_two_points(beam: Beam) -> Columns:
-    """The columns with two points of every smooth law, whose line comes later; with one it would be a spring."""
-    columns = beam.columns
-    which = columns.law_supports
-    smooth = np.isin(which - 1, list(beam.smooth))
-    third = np.append([False, False], which[2:] == which[:-2])
-    keep = ~(smooth & third)
-    keep[-1] = True
-    return replace(columns, law_supports=which[keep], law=np.asfortranarray(columns.law[:, keep]))

@@ -1,0 +1,120 @@
+!> Smooth laws of supports over the deflections of the beam, in the user's units, and lines in place of them in the engine's.
+module gapbeam_smooth_laws
+    use gapbeam_kinds, only: wp
+    use gapbeam_laws, only: is_smooth, law_force, law_slope, law_scale
+    use gapbeam_scene, only: support_type, gapbeam_both
+    use gapbeam_polyline, only: node_support_type, last_breakpoint
+    use gapbeam_units, only: stiffness_unit
+    use gapbeam_assembled_model, only: assembled_type
+    implicit none
+    private
+    public :: smooth_supports, past_the_gap, force_and_slope, spring_of_law, deflection_at, reaction_at, put_line
+
+contains
+
+    !> The supports of a model that have a smooth law, and can carry
+    pure function smooth_supports(assembled) result(numbers)
+        type(assembled_type), intent(in) :: assembled
+        integer, allocatable :: numbers(:)
+        integer :: k
+
+        associate (s => assembled%model%supports)
+            numbers = pack([(k, k=1, size(s))], is_smooth(s%law) .and. assembled%beam_support > 0)
+        end associate
+    end function smooth_supports
+
+    !> Displacement past the gap, negative where a support is open, and which way it goes (1 down)
+    elemental subroutine past_the_gap(support, deflection, past, way)
+        type(support_type), intent(in) :: support
+        !> Of the beam there, down
+        real(wp), intent(in) :: deflection
+        real(wp), intent(out) :: past
+        integer, intent(out) :: way
+
+        way = support%side
+        if (way == gapbeam_both) way = merge(-1, 1, deflection - support%settlement < 0.0_wp)
+        past = way*(deflection - support%settlement) - support%gap
+    end subroutine past_the_gap
+
+    !> Force in the way of a displacement past the gap, and its slope
+    elemental subroutine force_and_slope(support, past, force, slope)
+        type(support_type), intent(in) :: support
+        real(wp), intent(in) :: past
+        real(wp), intent(out) :: force, slope
+
+        force = 0.0_wp
+        slope = 0.0_wp
+        if (past > 0.0_wp) then
+            force = law_force(support%law, support%parameter, past)
+            slope = law_slope(support%law, support%parameter, past)
+        else if (support%side == gapbeam_both .and. .not. abs(support%gap) > 0.0_wp) then
+            slope = law_slope(support%law, support%parameter, 0.0_wp)
+        end if
+    end subroutine force_and_slope
+
+    !> A stiffness about that of a law at a displacement past the gap, not falling; 0 where there is none
+    elemental function spring_of_law(support, past) result(stiffness)
+        type(support_type), intent(in) :: support
+        real(wp), intent(in) :: past
+        real(wp) :: stiffness, force, slope, places(4)
+        integer :: i
+
+        stiffness = 0.0_wp
+        places(1:2) = [past, past/2]
+        places(3) = law_scale(support%law, support%parameter)
+        places(4) = places(3)/2
+        do i = 1, size(places)
+            if (stiffness > 0.0_wp) exit
+            if (.not. places(i) > 0.0_wp) cycle
+            call force_and_slope(support, places(i), force, slope)
+            stiffness = max(slope, force/places(i))
+        end do
+    end function spring_of_law
+
+    !> Deflection of the beam at a support
+    pure function deflection_at(assembled, deflection, support) result(value)
+        type(assembled_type), intent(in) :: assembled
+        !> Of the nodes in the engine's units, shape (0:n); and a support of the model
+        real(wp), intent(in) :: deflection(0:)
+        integer, intent(in) :: support
+        real(wp) :: value
+
+        value = scale(deflection(assembled%beam%supports(assembled%beam_support(support))%node), assembled%units%deflection)
+    end function deflection_at
+
+    !> Reaction of a support, up
+    pure function reaction_at(assembled, reaction, support) result(value)
+        type(assembled_type), intent(in) :: assembled
+        !> Of the beam's supports in the engine's units; and a support of the model
+        real(wp), intent(in) :: reaction(:)
+        integer, intent(in) :: support
+        real(wp) :: value
+
+        associate (first => assembled%beam_support(support))
+            value = scale(sum(reaction(first:last_breakpoint(assembled%beam%supports, first))), assembled%units%force)
+        end associate
+    end function reaction_at
+
+    !> Put a line in place of a law: on both sides of all its breakpoints
+    pure subroutine put_line(assembled, support, deflection, force, slope, lines)
+        type(assembled_type), intent(in) :: assembled
+        !> A support of the model
+        integer, intent(in) :: support
+        !> A point of the line, force up, and the slope
+        real(wp), intent(in) :: deflection, force, slope
+        !> The beam's supports
+        type(node_support_type), intent(inout) :: lines(:)
+        integer :: first, last
+
+        first = assembled%beam_support(support)
+        last = last_breakpoint(lines, first)
+        associate (s => lines(first:last), side => assembled%model%supports(support)%side, units => assembled%units)
+            s%contact = scale(deflection, -units%deflection)
+            s%force = scale(force*merge(1, side, side == gapbeam_both), -units%force)
+            s%stiffness = scale(slope, -stiffness_unit(units))
+            s%before = s(1)%stiffness
+            s%passed = s%breakpoint > 0
+        end associate
+    end subroutine put_line
+
+end module gapbeam_smooth_laws

@@ -1,0 +1,307 @@
+!> States on smooth laws of supports: from the state on a polyline through each curve to the state on the curve itself.
+!>
+!> Each curve is replaced by its tangent where the support is, the beam is solved with that, and so on (Newton). Tangents are
+!> pieces of laws as any others, so each of these solves is an ordinary one; what it converges to is on the curve, to all digits.
+module gapbeam_smooth_state
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
+    use gapbeam_laws, only: begins_steep, law_displacement, law_bound
+    use gapbeam_search, only: rule_block
+    use gapbeam_extended_precision, only: rule_given, rule_extended
+    use gapbeam_input_error, only: named, of_supports
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    use gapbeam_solution, only: state_type
+    use gapbeam_state, only: solve_state
+    implicit none
+    private
+    public :: solve_on_laws, audit_laws, place_type
+
+    !> Tangents that usually do, from a polyline as near as it is some five, and at most
+    integer, parameter :: usual_tangents = 10, most_tangents = 60
+    !> So often a tangent may lead too far; after that the support has opened
+    integer, parameter :: most_shortened = 12
+    !> Relative change of a displacement below which the last tangent was one at the solution; share of a force by which such a
+    !> tangent is beside its curve at most; the same where more tangents bring no more digits
+    real(wp), parameter :: settled = 4*epsilon(1.0_wp), last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
+    !> So many times that a force may be off its curve when all is done
+    real(wp), parameter :: audited = 16
+    !> Share by which laws are taken to give less than all that they can, to see whether anything else holds the beam
+    real(wp), parameter :: less = 1e-9_wp
+
+    !> Where the supports with smooth laws are: in the user's units, one entry each
+    type :: place_type
+        !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
+        real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
+        integer :: way = 0
+        !> Does the force tell the displacement
+        logical :: by_force = .false.
+        !> The displacement, its way and its change a tangent before, and how often it has been shortened
+        real(wp) :: before = huge(1.0_wp), change = 0.0_wp
+        integer :: way_before = 0, shortened = 0
+    end type place_type
+
+contains
+
+    !> Solve at one load factor; without smooth laws as solve_state
+    subroutine solve_on_laws(assembled, factor, rule, state, error)
+        !> As for solve_state
+        type(assembled_type), intent(in), target :: assembled
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> On the laws, with lines in place of them as its laws; no equilibrium where they give all that they can
+        type(state_type), intent(inout) :: state
+        !> As for solve_state; or tangents that do not settle
+        type(error_type), allocatable, intent(out) :: error
+        integer, allocatable :: numbers(:)
+        integer :: how
+
+        numbers = smooth_supports(assembled)
+        how = rule
+        if (size(numbers) > 0) then
+            if (allocated(state%laws)) deallocate (state%laws)
+            ! A scheme that is known holds on the laws, not on what is in their place
+            if (rule == rule_given) how = rule_extended
+        end if
+        call solve_state(assembled, factor, how, state, error)
+        if (size(numbers) == 0 .or. allocated(error) .or. state%status /= gapbeam_solved) return
+        call follow_tangents(assembled, numbers, factor, how, state, error)
+        if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
+    end subroutine solve_on_laws
+
+    !> From a state near the laws to the state on them
+    subroutine follow_tangents(assembled, numbers, factor, rule, state, error)
+        type(assembled_type), intent(in), target :: assembled
+        !> Supports of the model with smooth laws
+        integer, intent(in) :: numbers(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
+        type(place_type), allocatable :: places(:)
+        real(wp), allocatable :: size_of(:)
+        real(wp) :: force, slope
+        integer :: j, tangents, solves
+        logical :: overshot, halved
+
+        allocate (places(size(numbers)), size_of(size(numbers)))
+        solves = state%solves
+        do tangents = 0, most_tangents - 1
+            do j = 1, size(numbers)
+                call find_place(assembled, state, numbers(j), places(j))
+                associate (s => assembled%model%supports(numbers(j)))
+                    size_of(j) = max(abs(places(j)%deflection - s%settlement), abs(s%gap))
+                end associate
+            end do
+            if (.not. all(abs(places%past) <= huge(1.0_wp))) exit
+            if (is_settled()) then
+                call audit_laws(assembled, numbers, places, maxval(size_of), error)
+                if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
+                state%solves = solves
+                return
+            end if
+            if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
+            do j = 1, size(numbers)
+                associate (p => places(j), s => assembled%model%supports(numbers(j)))
+                    ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
+                    overshot = p%before > 0.0_wp .and. p%before < huge(p%before) .and. p%shortened < most_shortened .and. &
+                        (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
+                    if (overshot) then
+                        p%past = p%before/8
+                        p%way = p%way_before
+                        p%shortened = p%shortened + 1
+                    end if
+                    ! About a bend they may go to and fro for ever: then half as far
+                    halved = tangents >= usual_tangents .and. p%past > 0.0_wp .and. p%way == p%way_before .and. &
+                        (p%past - p%before)*p%change < 0.0_wp
+                    force = 0.0_wp
+                    if (tangents > 0) force = p%past - p%before
+                    if (halved) p%past = (p%past + p%before)/2
+                    p%change = force
+                    p%before = p%past
+                    p%way_before = p%way
+                    if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
+                    call force_and_slope(s, p%past, force, slope)
+                    call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, state%laws)
+                end associate
+            end do
+            call solve_state(assembled, factor, rule, state, error)
+            solves = solves + state%solves
+            state%solves = solves
+            if (allocated(error)) return
+            if (state%status == gapbeam_no_equilibrium .and. .not. state%slides) then
+                if (let_go(assembled, numbers, places, state%motion)) return
+            end if
+            if (state%status /= gapbeam_solved) exit
+        end do
+        call fatal_error(error, gapbeam_not_converged, &
+                         "the smooth laws of the supports could not be met: give them as polylines")
+
+    contains
+
+        !> Does another tangent change nothing
+        pure function is_settled() result(it_is)
+            logical :: it_is
+            real(wp) :: f, k
+            integer :: i
+
+            it_is = .false.
+            if (tangents == 0) return
+            if (tangents < usual_tangents) then
+                it_is = all(abs(places%past - places%before) <= settled*size_of)
+            else
+                it_is = all(abs(places%past - places%before) <= rounding*maxval(size_of))
+            end if
+            if (it_is .or. any(places%by_force)) return
+            ! The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
+            do i = 1, size(places)
+                call force_and_slope(assembled%model%supports(numbers(i)), places(i)%past, f, k)
+                if (k > huge(k)) return
+                if (.not. abs(f - places(i)%reached) <= last_digit*(abs(f) + k*size_of(i))) return
+            end do
+            it_is = .true.
+        end function is_settled
+
+    end subroutine follow_tangents
+
+    !> Where a support is in a state
+    pure subroutine find_place(assembled, state, number, place)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> Of the model
+        integer, intent(in) :: number
+        !> What was before stays
+        type(place_type), intent(inout) :: place
+
+        associate (s => assembled%model%supports(number))
+            place%deflection = deflection_at(assembled, state%deflection, number)
+            call past_the_gap(s, place%deflection, place%past, place%way)
+            place%reached = place%way*reaction_at(assembled, state%reaction, number)
+            place%by_force = place%reached > 0.0_wp .and. begins_steep(s%law, s%parameter)
+            if (place%by_force) place%past = law_displacement(s%law, s%parameter, place%reached)
+        end associate
+    end subroutine find_place
+
+    !> Do all laws give as much against a motion as they ever can, so that no other state stops it
+    pure function let_go(assembled, numbers, places, motion) result(they_do)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: numbers(:)
+        type(place_type), intent(in) :: places(:)
+        !> Displacements of the nodes, down, shape (0:n)
+        real(wp), intent(in) :: motion(0:)
+        logical :: they_do
+        real(wp) :: moved, force, slope
+        integer :: j
+
+        they_do = .true.
+        do j = 1, size(numbers)
+            associate (s => assembled%model%supports(numbers(j)), p => places(j))
+                moved = deflection_at(assembled, motion, numbers(j))
+                call force_and_slope(s, p%past, force, slope)
+                they_do = .not. abs(moved) > 0.0_wp &
+                    .or. (p%way*moved > 0.0_wp .and. force >= (1 - settled)*law_bound(s%law, s%parameter)) &
+                    .or. (.not. abs(force) > 0.0_wp .and. s%side*moved < 0.0_wp)
+            end associate
+            if (.not. they_do) return
+        end do
+    end function let_go
+
+    !> No equilibrium where the load is, to the last digit, all that the laws can ever give: no finite displacement carries it
+    subroutine see_capacity(assembled, numbers, places, factor, state)
+        type(assembled_type), intent(in), target :: assembled
+        integer, intent(in) :: numbers(:)
+        type(place_type), intent(in) :: places(:)
+        real(wp), intent(in) :: factor
+        !> On the laws
+        type(state_type), intent(inout) :: state
+        type(state_type) :: other
+        type(error_type), allocatable :: error
+        type(place_type) :: full(size(places))
+        real(wp) :: force, slope, bound
+        integer :: j
+
+        if (.not. any([(is_full(j), j=1, size(places))])) return
+        other = state
+        full = places
+        ! A little less, and level: does anything else hold the beam
+        do j = 1, size(places)
+            associate (s => assembled%model%supports(numbers(j)), p => places(j))
+                call past_the_gap(s, p%deflection, full(j)%past, full(j)%way)
+                call force_and_slope(s, full(j)%past, force, slope)
+                force = full(j)%way*reaction_at(assembled, state%reaction, numbers(j))
+                if (is_full(j)) then
+                    bound = law_bound(s%law, s%parameter)
+                    force = (1 - less)*bound
+                    slope = 0.0_wp
+                end if
+                call put_line(assembled, numbers(j), p%deflection, force*full(j)%way, slope, other%laws)
+            end associate
+        end do
+        call solve_state(assembled, factor, rule_block, other, error)
+        if (allocated(error)) return
+        if (other%status /= gapbeam_no_equilibrium .or. other%slides) return
+        if (let_go(assembled, numbers, full, other%motion)) state = other
+
+    contains
+
+        !> Does a law give all that it can
+        pure function is_full(i)
+            integer, intent(in) :: i
+            logical :: is_full
+
+            associate (s => assembled%model%supports(numbers(i)))
+                is_full = places(i)%reached >= (1 - settled)*law_bound(s%law, s%parameter)
+            end associate
+        end function is_full
+
+    end subroutine see_capacity
+
+    !> Refuse forces that are off their laws by more than rounding
+    subroutine audit_laws(assembled, numbers, places, most, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: numbers(:)
+        type(place_type), intent(in) :: places(:)
+        !> The largest displacement, of which the others are known to rounding
+        real(wp), intent(in) :: most
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: force, slope, off
+        integer :: j
+
+        do j = 1, size(numbers)
+            if (places(j)%by_force) cycle
+            call force_and_slope(assembled%model%supports(numbers(j)), places(j)%past, force, slope)
+            if (slope > huge(slope)) cycle
+            off = abs(force - places(j)%reached)
+            ! What rounding makes of the largest may be at one that only touches
+            if (off <= audited*(rounding*(abs(force) + slope*most) + last_digit*maxval(abs(places%reached)))) cycle
+            call fatal_error(error, gapbeam_not_converged, &
+                             trim(named(of_supports, numbers(j), size(assembled%model%supports)))//": law: the result does "// &
+                             "not stand its own audit: the force is not that of the law at the deflection; give the law as a "// &
+                             "polyline, and report the scene")
+            return
+        end do
+    end subroutine audit_laws
+
+    !> The scheme of the breakpoints in place of laws: open or not, as the laws are
+    pure subroutine open_and_close(assembled, numbers, state)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: numbers(:)
+        type(state_type), intent(inout) :: state
+        real(wp) :: past
+        integer :: first, last, j, way
+
+        if (state%status /= gapbeam_solved) return
+        do j = 1, size(numbers)
+            associate (s => assembled%model%supports(numbers(j)))
+                if (s%side == 0) cycle
+                call past_the_gap(s, deflection_at(assembled, state%deflection, numbers(j)), past, way)
+                first = assembled%beam_support(numbers(j))
+                last = last_breakpoint(assembled%beam%supports, first)
+                if (past > 0.0_wp) state%closed(first) = .true.
+                if (past < 0.0_wp) state%closed(first:last) = .false.
+            end associate
+        end do
+    end subroutine open_and_close
+
+end module gapbeam_smooth_state
