@@ -14,7 +14,7 @@ program test_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_element, only: field_type
-    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch
+    use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, degree_in_position
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link
     use gapbeam_train_curves, only: find_curves
     use gapbeam_train_influence, only: find_influence
@@ -184,7 +184,7 @@ contains
                            [uniform_type(0.25_wp, -3.5_wp, 0.0_wp), uniform_type(0.125_wp, -1.0_wp, 2.0_wp)])
         call pass_train(lowered, track, train, 0.0_wp, 11.5_wp, passage, error)
         call check(.not. allocated(error), "a train passes")
-        call new_samples(lowered, track, train, samples, error)
+        call new_samples(lowered, track, train, degree_in_position(train), samples, error)
         call new_view(lowered, track, train, view, stat)
         worst = 0.0_wp
         do k = 1, passage%number
