@@ -211,16 +211,16 @@ contains
         integer, intent(in) :: law
         real(wp), intent(in) :: p(:)
         real(wp), allocatable :: points(:, :), ways(:)
-        real(wp) :: close, force, before, scale_of_law
+        real(wp) :: spacing, force, before, scale_of_law
         integer :: k, n
 
         scale_of_law = law_scale(law, p)
         ways = [(scale_of_law*2.0_wp**(widest*(2*real(k, wp)/(points_of_curve - 1) - 1)), k=0, points_of_curve - 1)]
         if (law == law_cubic .and. p(2) < 0.0_wp) then
             ! Where it softens at equal distances, up to twice where the force is nearest to 0
-            close = 2*scale_of_law/points_of_curve
-            ways = [pack(ways, ways < 0.9_wp*close), [(k*close, k=1, points_of_curve)], &
-                    pack(ways, ways > 1.1_wp*points_of_curve*close)]
+            spacing = 2*scale_of_law/points_of_curve
+            ways = [pack(ways, ways < 0.9_wp*spacing), [(k*spacing, k=1, points_of_curve)], &
+                    pack(ways, ways > 1.1_wp*points_of_curve*spacing)]
             points = reshape([(ways(k), max(law_force(law, p, ways(k)), 0.0_wp), k=1, size(ways))], [2, size(ways)])
             return
         end if

@@ -13,13 +13,13 @@ module gapbeam_bracket
     public :: bracket_change, make_sure
 
     !> States as near as this to the parameter of a change tell that it is one; where they do not, which may be so where zones begin
-    !> without length, those so many times farther away; and how often the parameter is computed anew where another change comes first
+    !> without length, those so many times farther away; how often the parameter is computed anew where another change comes first
     real(wp), parameter :: nearest = 2.0_wp**(-38), wider = 64.0_wp, farthest = 2.0_wp**(-26)
     integer, parameter :: most_guesses = 8
     !> Distance of parameters at which it is enough to know that states between them cannot be settled
     real(wp), parameter :: near = 2.0_wp**(-44)
-    !> Next to an event a state may not be settled, since a zone has next to no length there: parameters on both sides of it that are
-    !> as near as this are neighbours
+    !> Next to an event a state may not be settled, since a zone has next to no length there: parameters on both sides of it that
+    !> are as near as this are neighbours
     real(wp), parameter :: next_to = 2.0_wp**(-32)
 
 contains

@@ -72,7 +72,7 @@ contains
         problem%path%beyond = last
     end subroutine new_ground_problem
 
-    !> Nearer to the factor above which there is no equilibrium: by limit analysis where laws are curves, else by the work of the loads
+    !> Nearer to the factor above which there is no equilibrium: by limit analysis where laws are curves, else by work of the loads
     subroutine approach_end(problem, below, above, ended, error)
         class(ground_problem_type), intent(inout) :: problem
         class(point_type), allocatable, intent(inout) :: below, above

@@ -78,6 +78,7 @@ module gapbeam_path_problem
         !> The state at a parameter, for sure
         subroutine find_interface(problem, at, point, error, near)
             import :: path_problem_type, point_type, error_type, wp
+            implicit none
             class(path_problem_type), intent(inout) :: problem
             real(wp), intent(in) :: at
             class(point_type), allocatable, intent(out) :: point
@@ -90,6 +91,7 @@ module gapbeam_path_problem
         !> Does nothing change between two
         function alike_interface(problem, before, after) result(alike)
             import :: path_problem_type, point_type
+            implicit none
             class(path_problem_type), intent(in) :: problem
             class(point_type), intent(in) :: before, after
             logical :: alike
@@ -98,6 +100,7 @@ module gapbeam_path_problem
         !> What changes between two that stand
         subroutine list_changes_interface(problem, before, after, changes)
             import :: path_problem_type, point_type, change_type
+            implicit none
             class(path_problem_type), intent(in) :: problem
             class(point_type), intent(in) :: before, after
             type(change_type), allocatable, intent(out) :: changes(:)
@@ -106,6 +109,7 @@ module gapbeam_path_problem
         !> How far a change is away at a parameter
         subroutine measure_interface(problem, change, at, near, point, margin, place, known, other)
             import :: path_problem_type, point_type, change_type, wp
+            implicit none
             class(path_problem_type), intent(inout) :: problem
             type(change_type), intent(in) :: change
             real(wp), intent(in) :: at
@@ -123,6 +127,7 @@ module gapbeam_path_problem
         !> Where to look next, beyond a parameter; not beyond `last`
         pure function next_stop_interface(problem, point) result(next)
             import :: path_problem_type, point_type, wp
+            implicit none
             class(path_problem_type), intent(in) :: problem
             class(point_type), intent(in) :: point
             real(wp) :: next
@@ -131,6 +136,7 @@ module gapbeam_path_problem
         !> Record what changes between two neighbours that stand
         subroutine take_changes_interface(problem, before, after, at, place, error)
             import :: path_problem_type, point_type, error_type, wp
+            implicit none
             class(path_problem_type), intent(inout) :: problem
             class(point_type), intent(in) :: before, after
             !> Of the changes as they are listed: parameter, and place; below zero where that was not measured

@@ -10,7 +10,7 @@ from sabotage.change import TOP, Change, read_changes
 from sabotage.workshop import Workshop
 
 ROOMS = {f"fortran/{path.name}" for path in (TOP / "fortran").iterdir() if list(path.glob("*.[fF]90"))}
-TRIED = ("support.settlement + SIDES[support.side]", "rise = self.slope * way")
+TRIED = ("support.settlement + SIDES[support.side]", "return text if len(text) <= 60")
 
 
 def test_every_change_applies_to_exactly_one_place():
