@@ -19,7 +19,7 @@ contains
         character(len=length) :: text
 
         if (ieee_is_nan(value)) then
-            text = "NaN"
+            text = "nan"
         else if (abs(value) > huge(value)) then
             text = merge("inf ", "-inf", value > 0)
         else if (abs(value) < 1e9_wp .and. abs(value - anint(value)) <= 0.0_wp) then

@@ -6,6 +6,7 @@ module gapbeam_history
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate, no_memory
     use gapbeam_words, only: shown
     use gapbeam_memory, only: for_following_closely
+    use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
@@ -198,6 +199,8 @@ contains
                 end if
             end if
             branch%rounded_places = rounded_places
+            ! On the polylines of smooth laws, equal ones soften all but together: which goes first is told by all digits only
+            if (any(is_smooth(assembled%model%supports%law))) branch%local%usable = .false.
             call refuse_shared(outcome)
             if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, leg, real(from, wp))
             if (outcome /= goes_on) history%ending = mechanism

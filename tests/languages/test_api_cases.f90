@@ -171,7 +171,7 @@ contains
         call refuse(error, gapbeam_bad_input, "case 3, load 2 of 2: factor: expected a finite number", "an infinite factor")
         factors(2, 3) = ieee_value(1.0_wp, ieee_quiet_nan)
         call solve_cases(beam, cases, factors, codes, error)
-        call refuse(error, gapbeam_bad_input, "case 3, load 2 of 2: factor: expected a finite number, got NaN", "no number")
+        call refuse(error, gapbeam_bad_input, "case 3, load 2 of 2: factor: expected a finite number, got nan", "no number")
         factors(2, 3) = 1.0_wp
         values(:, :) = 1.0_wp
         values(4, 2) = 0.0_wp

@@ -468,5 +468,8 @@ def test_wrong_laws_of_supports_by_name_are_refused(library):
         assert (f77.info_, f77.entry[0]) == (-16, 2)
     scene["supports"][1]["law"] = NAMED[0]
     beam, _ = library.prepare(scene)
-    with pytest.raises(AssertionError):
-        beam.follow(1.0)
+    status, words, events = beam.follow(1.0)
+    print(status, words, events)
+    assert status != 0
+    assert "law" in words
+    assert events == []

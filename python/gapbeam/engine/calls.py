@@ -265,6 +265,7 @@ gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
 gbsget = _engine.gbsget
 gblawv = _engine.gblawv
+gbtole = _engine.gbtole
 gblawp = _engine.gblawp
 gbgget = _engine.gbgget
 gbgpte = _engine.gbgpte

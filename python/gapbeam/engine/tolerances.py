@@ -22,7 +22,7 @@ CHANGES_AT_A_TIME : int
 
 from __future__ import annotations
 
-from .. import _engine
+from . import calls as _engine
 
 (POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, LOAD_BEGIN, TRAIN_EQUAL, MOST_TIES, MOST_PATH_SEGMENTS,
  CHANGES_AT_A_TIME) = _engine.gbtole()

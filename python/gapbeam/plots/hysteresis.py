@@ -29,6 +29,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000")
 """Of cycles in turn; of Okabe and Ito, their greys differ."""
 MOST_CYCLES = 12
 """Cycles whose energy is written each; of more the sum."""
+ROUNDING = 1e-12
+"""Share of what goes in and out of a cycle below which what stays in it is rounding."""
 FINE = 200
 """States about along a path that is not kept as segments."""
 
@@ -136,8 +138,9 @@ def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> li
 
 
 def _energy(force: np.ndarray, movement: np.ndarray) -> float:
-    """Sum up reaction times movement; exact where the force is linear from state to state."""
-    return float(((force[1:] + force[:-1]) / 2 * np.diff(movement)).sum())
+    """Sum up reaction times movement; exact where the force is linear from state to state, and 0 where it is but rounding."""
+    parts = (force[1:] + force[:-1]) / 2 * np.diff(movement)
+    return float(parts.sum()) if abs(parts.sum()) > ROUNDING * np.abs(parts).sum() else 0.0
 
 
 def _way(result: Result) -> tuple[list[Step], np.ndarray, list]:

@@ -403,7 +403,7 @@ k = 1.0; side = "below"; profile = [[0.0, 0.1], [6.0, inf]] ->
     foundation[1].profile[1]: expected finite numbers, got [6, inf]
 k = 1.0; law = [[0.01, 5.0]] -> foundation[1]: has both k and law; give one of the two
 law = [] -> foundation[1].law: has no point; give (displacement past the gap, force per length)
-law = [[0.01, nan]] -> foundation[1].law[0]: expected finite numbers, got [0.01, NaN]
+law = [[0.01, nan]] -> foundation[1].law[0]: expected finite numbers, got [0.01, nan]
 law = [[0.0, 5.0]] -> foundation[1].law[0]: ground has no vertical piece, as at [0, 5]; give a steep slope
 law = [[0.01, 5.0], [0.01, 6.0]] ->
     foundation[1].law[1]: ground has no vertical piece, as at [0.01, 6]; give a steep slope

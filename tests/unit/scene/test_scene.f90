@@ -94,7 +94,7 @@ contains
         call check(shown(123456.789_wp) == "123456.789", "a point inside")
         call check(shown(0.00012_wp) == "0.00012", "zeros behind the point")
         call check(shown(-gapbeam_infinity) == "-inf", "infinite")
-        call check(shown(ieee_value(1.0_wp, ieee_quiet_nan)) == "NaN", "no number")
+        call check(shown(ieee_value(1.0_wp, ieee_quiet_nan)) == "nan", "no number")
         call check(whole(-7) == "-7", "an integer")
         call check(named(of_supports, 3, 4) == "support 3 of 4", "an entry")
     end subroutine numbers_as_words
