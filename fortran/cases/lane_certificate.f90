@@ -266,12 +266,6 @@ contains
         found(:, 9) = shear
     end subroutine bound_fields
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_certificate

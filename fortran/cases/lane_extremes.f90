@@ -415,12 +415,6 @@ contains
         least_at = merge(s, c, x < a)
     end subroutine consider
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_extremes

@@ -340,12 +340,6 @@ contains
         high = z
     end subroutine add
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_fields

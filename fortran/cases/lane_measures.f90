@@ -77,12 +77,6 @@ contains
         most = larger(most, size_of_off)
     end subroutine raise
 
-    !> The larger of two
-    elemental function larger(a, b) result(c)
-        real(wp), intent(in) :: a, b
-        real(wp) :: c
-
-        c = merge(a, b, a > b)
-    end function larger
+    include 'cases/larger.inc'
 
 end module gapbeam_lane_measures
