@@ -16,10 +16,13 @@ module gapbeam_limits
     public :: last_if_tied, most_edge_nodes, most_stiffer, most_motion_steps, most_at_once, short_beam_links, most_looks
     public :: looks_without_progress, most_idle_segments, most_train_changes, most_of_each, most_halves, bound_trials
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
-    public :: most_stiffness_unit, most_load_terms, least_segment_links, least_alone_links, most_segment_solves
+    public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
-    public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch
+    public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents
 
+    !> Tangents in place of smooth laws of supports, at most; some five do. Read by continuation/smooth_events,
+    !> response/smooth_state
+    integer, parameter :: most_tangents = 60
     !> Segments after which a path through a history is cut off: without a history there are finitely many, with one a beam may
     !> flip to and fro without end. Read by face/api_history and, through the engine, by gapbeam.results.paths
     integer, parameter :: most_path_segments = 20000
@@ -197,9 +200,6 @@ module gapbeam_limits
     integer, parameter :: most_load_terms = 100000
     !> Links of a beam that is cut into segments: shorter segments feel each other too much; tuned. Read by cases/segment_cases
     integer, parameter :: least_segment_links = 200
-    !> From so many links on several cases are solved faster one by one in segments: 64 cases of 1,000 spans took 47 us each side
-    !> by side, 71 to 107 us in segments; tuned. Read by cases/many_cases, cases/segment_cases
-    integer, parameter :: least_alone_links = 700
     !> Solves in segments; tuned. Read by cases/segment_search
     integer, parameter :: most_segment_solves = 50
     !> Solves in segments without progress; tuned. Read by cases/segment_search

@@ -7,7 +7,7 @@ module gapbeam_tolerances
     implicit none
     private
     public :: sign_width, worst_digits, worst_correction, rounding_unit, extreme_margin, proximal_ratio, splitter
-    public :: position_tolerance, end_tolerance, cubic_rounding, most_unit_power
+    public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power
     public :: narrowest_interval, narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left
     public :: root_piece_length, same_parameters, tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution
     public :: no_decay_length, shortest_step, most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change
@@ -54,9 +54,12 @@ module gapbeam_tolerances
     !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off.
     !> Read by response/query, scene/check and, through the engine, by gapbeam.scene.trains
     real(wp), parameter :: end_tolerance = 1.0e-12_wp
-    !> By this share k2 of a cubic law may be less than what is allowed: decimals are rounded. Read by scene/check_ground_laws and,
-    !> through the engine, by gapbeam.scene.laws
+    !> By this share k2 of a cubic law may be less than what is allowed: decimals are rounded. Read by scene/check_ground_laws,
+    !> scene/support_laws
     real(wp), parameter :: cubic_rounding = 2.0_wp**(-50)
+    !> Relative change of a displacement on a smooth law, or of the load factor of an event there, below which another tangent
+    !> changes nothing. Read by continuation/smooth_events, response/smooth_state
+    real(wp), parameter :: settled_on_laws = 4*epsilon(1.0_wp)
 
     !> Powers of two of the units of a case up to which its numbers stay doubles: their range is 2**1023. Read by
     !> cases/case_extremes, cases/lane_cases, cases/segment_cases

@@ -1,7 +1,7 @@
 !> Certificates of many solved cases of a beam, eight side by side where lanes hold them.
 !> Where something is in doubt, or lanes do not hold them (gapbeam_lane_certificate), one by one (gapbeam_certificate).
 module gapbeam_case_certificates
-    use gapbeam_kinds, only: wp, qp
+    use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: cut_load_error
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_converged, gapbeam_stopped

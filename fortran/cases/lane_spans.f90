@@ -9,7 +9,7 @@ module gapbeam_lane_spans
     use gapbeam_units, only: turning_unit, rotation_unit
     use gapbeam_assembled_model, only: assembled_type, in_bending, in_shear
     use gapbeam_cases, only: case_loads_type
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, lane_spans_type
+    use gapbeam_lane_types, only: lanes, lane_pieces_type, lane_spans_type
     use gapbeam_lane_pieces, only: prepare_pieces
     implicit none
     private

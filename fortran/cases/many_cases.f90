@@ -14,7 +14,7 @@ module gapbeam_many_cases
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     use gapbeam_single_cases, only: single_room_type, solve_one_by_one
-    use gapbeam_limits, only: least_cases, least_alone_links
+    use gapbeam_limits, only: least_cases
     implicit none
     private
     public :: case_room_type, solve_cases

@@ -3,7 +3,7 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: least_segment_links, least_alone_links
+    use gapbeam_limits, only: least_segment_links
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain

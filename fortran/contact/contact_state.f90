@@ -6,7 +6,7 @@
 !> gone from the final answer. If the reference runs away along a free motion that no support can stop and along
 !> which the loads do work, there is no equilibrium: that motion is the proof (Farkas' lemma).
 module gapbeam_contact_state
-    use gapbeam_kinds, only: wp, dp
+    use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_moves
     use gapbeam_tolerances, only: sign_width, proximal_ratio, least_spring_force, at_rest_share, no_speed
     use gapbeam_require, only: checked, require

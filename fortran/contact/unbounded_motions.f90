@@ -1,6 +1,6 @@
 !> Free motions of a beam along which the loads do work, unbounded if no support stops them.
 module gapbeam_unbounded_motions
-    use gapbeam_kinds, only: wp, dp
+    use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: no_work, clearly_more
     use gapbeam_band, only: hinge, restrained
     use gapbeam_law, only: below, above

@@ -18,7 +18,7 @@ module gapbeam_local_step
     implicit none
     private
     public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, laws_here, rounded
-    public :: clear_event, clear_arrival, doubtful
+    public :: clear_arrival, doubtful
 
     !> What find_next came to
     integer, parameter :: clear_event = 0, clear_arrival = 1, doubtful = 2

@@ -1,19 +1,17 @@
 !> Load factors of events on smooth laws: where another support passes the end of its piece.
 module gapbeam_smooth_events
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_error, only: error_type, gapbeam_solved
+    use gapbeam_limits, only: most_tangents
+    use gapbeam_tolerances, only: settled_on_laws
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_smooth_state, only: solve_on_laws
+    use gapbeam_smooth_state, only: solve_on_laws, refuse_laws
     implicit none
     private
     public :: find_on_laws
-
-    integer, parameter :: most_tangents = 60
-    !> Relative change of a load factor below which it is found
-    real(wp), parameter :: settled = 4*epsilon(1.0_wp)
 
 contains
 
@@ -40,8 +38,7 @@ contains
             call solve_on_laws(assembled, factor, rule_given, here, error)
             if (allocated(error)) return
             if (here%status /= gapbeam_solved) then
-                call fatal_error(error, gapbeam_not_converged, &
-                                 "the smooth laws of the supports could not be met: give them as polylines")
+                call refuse_laws(error)
                 return
             end if
             there = here
@@ -54,7 +51,7 @@ contains
             if (.not. abs(then - now) > 0.0_wp) return
             change = step*now/(then - now)
             factor = factor - change
-            if (abs(change) <= settled*abs(factor)) return
+            if (abs(change) <= settled_on_laws*abs(factor)) return
         end do
 
     contains

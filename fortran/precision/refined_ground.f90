@@ -1,6 +1,6 @@
 !> The ground under a beam and its zones in quadruple precision
 module gapbeam_refined_ground
-    use gapbeam_kinds, only: wp, qp
+    use gapbeam_kinds, only: qp
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type
     use gapbeam_ground, only: ground_type, zones_type

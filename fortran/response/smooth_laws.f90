@@ -1,14 +1,14 @@
 !> Smooth laws of supports over the deflections of the beam, in the user's units, and lines in place of them in the engine's.
 module gapbeam_smooth_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_laws, only: is_smooth, law_force, law_slope, law_scale
+    use gapbeam_laws, only: is_smooth, law_force, law_slope
     use gapbeam_scene, only: support_type, gapbeam_both
     use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_units, only: stiffness_unit
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: smooth_supports, past_the_gap, force_and_slope, spring_of_law, deflection_at, reaction_at, put_line
+    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
 
 contains
 
@@ -51,25 +51,6 @@ contains
             slope = law_slope(support%law, support%parameter, 0.0_wp)
         end if
     end subroutine force_and_slope
-
-    !> A stiffness about that of a law at a displacement past the gap, not falling; 0 where there is none
-    elemental function spring_of_law(support, past) result(stiffness)
-        type(support_type), intent(in) :: support
-        real(wp), intent(in) :: past
-        real(wp) :: stiffness, force, slope, places(4)
-        integer :: i
-
-        stiffness = 0.0_wp
-        places(1:2) = [past, past/2]
-        places(3) = law_scale(support%law, support%parameter)
-        places(4) = places(3)/2
-        do i = 1, size(places)
-            if (stiffness > 0.0_wp) exit
-            if (.not. places(i) > 0.0_wp) cycle
-            call force_and_slope(support, places(i), force, slope)
-            stiffness = max(slope, force/places(i))
-        end do
-    end function spring_of_law
 
     !> Deflection of the beam at a support
     pure function deflection_at(assembled, deflection, support) result(value)

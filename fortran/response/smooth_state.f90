@@ -4,6 +4,8 @@
 !> pieces of laws as any others, so each of these solves is an ordinary one; what it converges to is on the curve, to all digits.
 module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_tangents
+    use gapbeam_tolerances, only: settled_on_laws
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
     use gapbeam_laws, only: begins_steep, law_displacement, law_bound
     use gapbeam_search, only: rule_block
@@ -16,15 +18,15 @@ module gapbeam_smooth_state
     use gapbeam_state, only: solve_state
     implicit none
     private
-    public :: solve_on_laws, audit_laws, place_type
+    public :: solve_on_laws, refuse_laws, audit_laws, place_type
 
-    !> Tangents that usually do, from a polyline as near as it is some five, and at most
-    integer, parameter :: usual_tangents = 10, most_tangents = 60
+    !> Tangents that usually do, from a polyline as near as it is some five
+    integer, parameter :: usual_tangents = 10
     !> So often a tangent may lead too far; after that the support has opened
     integer, parameter :: most_shortened = 12
-    !> Relative change of a displacement below which the last tangent was one at the solution; share of a force by which such a
-    !> tangent is beside its curve at most; the same where more tangents bring no more digits
-    real(wp), parameter :: settled = 4*epsilon(1.0_wp), last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
+    !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
+    !> digits
+    real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
     !> So many times that a force may be off its curve when all is done
     real(wp), parameter :: audited = 16
     !> Share by which laws are taken to give less than all that they can, to see whether anything else holds the beam
@@ -57,7 +59,7 @@ contains
         integer, allocatable :: numbers(:)
         integer :: how
 
-        numbers = smooth_supports(assembled)
+        allocate (numbers, source=smooth_supports(assembled))
         how = rule
         if (size(numbers) > 0) then
             if (allocated(state%laws)) deallocate (state%laws)
@@ -135,8 +137,7 @@ contains
             end if
             if (state%status /= gapbeam_solved) exit
         end do
-        call fatal_error(error, gapbeam_not_converged, &
-                         "the smooth laws of the supports could not be met: give them as polylines")
+        call refuse_laws(error)
 
     contains
 
@@ -149,7 +150,7 @@ contains
             it_is = .false.
             if (tangents == 0) return
             if (tangents < usual_tangents) then
-                it_is = all(abs(places%past - places%before) <= settled*size_of)
+                it_is = all(abs(places%past - places%before) <= settled_on_laws*size_of)
             else
                 it_is = all(abs(places%past - places%before) <= rounding*maxval(size_of))
             end if
@@ -164,6 +165,13 @@ contains
         end function is_settled
 
     end subroutine follow_tangents
+
+    !> Refuse laws that tangents do not settle on
+    subroutine refuse_laws(error)
+        type(error_type), allocatable, intent(out) :: error
+
+        call fatal_error(error, gapbeam_not_converged, "the smooth laws of the supports could not be met: give them as polylines")
+    end subroutine refuse_laws
 
     !> Where a support is in a state
     pure subroutine find_place(assembled, state, number, place)
@@ -200,7 +208,7 @@ contains
                 moved = deflection_at(assembled, motion, numbers(j))
                 call force_and_slope(s, p%past, force, slope)
                 they_do = .not. abs(moved) > 0.0_wp &
-                    .or. (p%way*moved > 0.0_wp .and. force >= (1 - settled)*law_bound(s%law, s%parameter)) &
+                    .or. (p%way*moved > 0.0_wp .and. force >= (1 - settled_on_laws)*law_bound(s%law, s%parameter)) &
                     .or. (.not. abs(force) > 0.0_wp .and. s%side*moved < 0.0_wp)
             end associate
             if (.not. they_do) return
@@ -251,7 +259,7 @@ contains
             logical :: is_full
 
             associate (s => assembled%model%supports(numbers(i)))
-                is_full = places(i)%reached >= (1 - settled)*law_bound(s%law, s%parameter)
+                is_full = places(i)%reached >= (1 - settled_on_laws)*law_bound(s%law, s%parameter)
             end associate
         end function is_full
 

@@ -1,6 +1,7 @@
 !> Laws of supports by name: checked, and as points.
 module gapbeam_support_laws
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: cubic_rounding
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown, whole
     use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, law_power, &
@@ -11,10 +12,13 @@ module gapbeam_support_laws
     private
     public :: gather_points
 
-    !> By so much k2 may be less than what is allowed: decimals are rounded
-    real(wp), parameter :: rounding = 2.0_wp**(-50)
     !> Least value of a parameter: above 0, 0, or any
     integer, parameter :: above_zero = 1, not_negative = 2, any_sign = 3
+
+    !> The points of a law by name
+    type :: made_type
+        real(wp), allocatable :: points(:, :)
+    end type made_type
 
 contains
 
@@ -25,7 +29,7 @@ contains
         type(law_point_type), allocatable, intent(out) :: points(:)
         !> A law that is impossible, or no memory
         type(error_type), allocatable, intent(out) :: error
-        real(wp), allocatable :: made(:, :)
+        type(made_type) :: made(size(model%supports))
         integer :: i, k, n, stat
 
         n = size(model%law)
@@ -33,7 +37,8 @@ contains
             if (model%supports(k)%law == law_by_points) cycle
             call check_law(model, k, error)
             if (allocated(error)) return
-            n = n + size(law_points(model%supports(k)%law, model%supports(k)%parameter), 2)
+            made(k)%points = law_points(model%supports(k)%law, model%supports(k)%parameter)
+            n = n + size(made(k)%points, 2)
         end do
         allocate (points(n), stat=stat)
         if (stat /= 0) then
@@ -43,12 +48,11 @@ contains
         n = size(model%law)
         points(:n) = model%law
         do k = 1, size(model%supports)
-            if (model%supports(k)%law == law_by_points) cycle
-            made = law_points(model%supports(k)%law, model%supports(k)%parameter)
-            do i = 1, size(made, 2)
-                points(n + i) = law_point_type(k, made(1, i), made(2, i))
+            if (.not. allocated(made(k)%points)) cycle
+            do i = 1, size(made(k)%points, 2)
+                points(n + i) = law_point_type(k, made(k)%points(1, i), made(k)%points(2, i))
             end do
-            n = n + size(made, 2)
+            n = n + size(made(k)%points, 2)
         end do
     end subroutine gather_points
 
@@ -75,7 +79,7 @@ contains
             if (allocated(error)) return
             if (s%law == law_cubic) then
                 least = -2*sqrt(s%parameter(1))*sqrt(s%parameter(3)) + 0.0_wp
-                if (s%parameter(2) < least*(1 + rounding)) then
+                if (s%parameter(2) < least*(1 + cubic_rounding)) then
                     call say("law.k2", "expected -2*sqrt(k1*k3) = "//trim(shown(least))//" or more, since a support that "// &
                              "pushes cannot pull, got "//trim(shown(s%parameter(2))))
                 else if (.not. any(abs(s%parameter) > 0.0_wp)) then

@@ -21,15 +21,12 @@ class CurveValues(NamedTuple):
         Force, its slope, and the work up to there.
     scale : float
         A displacement that is typical of the law.
-    bound : float
-        The force that it never exceeds.
     """
 
     force: float
     slope: float
     work: float
     scale: float
-    bound: float
 
 
 def curve_values(code: int, parameters: list[float], d: float) -> CurveValues:

@@ -6,8 +6,6 @@ POSITION_TOLERANCE : float
     Positions whose difference is at most this share of the larger one differ by rounding only.
 END_TOLERANCE : float
     A place beyond an end of the beam by at most this share of its length is at that end.
-CUBIC_ROUNDING : float
-    By this share k2 of a cubic law may be less than what is allowed.
 LOAD_BEGIN : float
     What acts at this share of the load acts from the beginning.
 TRAIN_EQUAL : float
@@ -24,5 +22,5 @@ from __future__ import annotations
 
 from . import calls as _engine
 
-(POSITION_TOLERANCE, END_TOLERANCE, CUBIC_ROUNDING, LOAD_BEGIN, TRAIN_EQUAL, MOST_TIES, MOST_PATH_SEGMENTS,
+(POSITION_TOLERANCE, END_TOLERANCE, LOAD_BEGIN, TRAIN_EQUAL, MOST_TIES, MOST_PATH_SEGMENTS,
  CHANGES_AT_A_TIME) = _engine.gbtole()

@@ -12,7 +12,8 @@ from msgspec import Struct
 from ..base.errors import SceneError
 from ..engine.arrays import GAP, MODULUS, Columns
 from ..engine.beam import Curve
-from .ground_laws import PARAMETERS, ground_parameters, parameter_tables, points_with_places
+from ..engine.laws import PARAMETERS
+from .ground_laws import ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
 from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad

@@ -8,12 +8,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..engine.arrays import PARAMETER
+from ..engine.laws import PARAMETERS
 from .ground_tables import Along, AlongSigned, at_both_ends, is_table
 from .laws import BrittleLaw, HardeningLaw, PlasticLaw
 from .table import Positive, Table
 
-PARAMETERS = 3
-"""Of any law, for the engine."""
 EVERYWHERE = -sys.float_info.max
 """Instead of the place of a law."""
 
