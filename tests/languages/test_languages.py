@@ -469,7 +469,6 @@ def test_wrong_laws_of_supports_by_name_are_refused(library):
     scene["supports"][1]["law"] = NAMED[0]
     beam, _ = library.prepare(scene)
     status, words, events = beam.follow(1.0)
-    print(status, words, events)
     assert status != 0
     assert "law" in words
     assert events == []

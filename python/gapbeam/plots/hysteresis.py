@@ -140,7 +140,8 @@ def find_cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> li
 def _energy(force: np.ndarray, movement: np.ndarray) -> float:
     """Sum up reaction times movement; exact where the force is linear from state to state, and 0 where it is but rounding."""
     parts = (force[1:] + force[:-1]) / 2 * np.diff(movement)
-    return float(parts.sum()) if abs(parts.sum()) > ROUNDING * np.abs(parts).sum() else 0.0
+    energy = float(parts.sum())
+    return energy if abs(energy) > ROUNDING * np.abs(parts).sum() else 0.0
 
 
 def _way(result: Result) -> tuple[list[Step], np.ndarray, list]:
