@@ -29,11 +29,16 @@ contains
         type(law_point_type), allocatable, intent(out) :: points(:)
         !> A law that is impossible, or no memory
         type(error_type), allocatable, intent(out) :: error
-        type(made_type) :: made(size(model%supports))
+        type(made_type), allocatable :: made(:)
         integer :: i, k, n, stat
 
+        allocate (made(merge(size(model%supports), 0, any(model%supports%law /= law_by_points))), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         n = size(model%law)
-        do k = 1, size(model%supports)
+        do k = 1, size(made)
             if (model%supports(k)%law == law_by_points) cycle
             call check_law(model, k, error)
             if (allocated(error)) return
@@ -47,7 +52,7 @@ contains
         end if
         n = size(model%law)
         points(:n) = model%law
-        do k = 1, size(model%supports)
+        do k = 1, size(made)
             if (.not. allocated(made(k)%points)) cycle
             do i = 1, size(made(k)%points, 2)
                 points(n + i) = law_point_type(k, made(k)%points(1, i), made(k)%points(2, i))
