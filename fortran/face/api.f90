@@ -5,7 +5,7 @@
 !> by all but prepare_model and replace_loads, so that many threads may share one; a result belongs to one thread at a time.
 module gapbeam_api
     use gapbeam_kinds, only: wp
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, load_type, gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type, copy_model
@@ -55,7 +55,6 @@ contains
             call assemble_model(beam%lowered, error)
         end if
         if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
-        call restore_environment(environment)
     end subroutine prepare_model
 
     !> Take other loads instead of those of the model; quick where only values differ and no place does. The number of nodes
@@ -95,7 +94,6 @@ contains
                 call move_alloc(other, beam%lowered)
             end if
         end if
-        call restore_environment(environment)
     end subroutine replace_loads
 
     !> Take other values of the loads; the old ones stay where numbers leave the range of double precision
@@ -181,7 +179,6 @@ contains
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) call solve_on_laws(beam%lowered, factor, options%rule, result%state, error)
         if (.not. allocated(error)) call summarise(result)
-        call restore_environment(environment)
     end subroutine solve_beam
 
     !> Follow the load from factor 0 upwards: every change of the contact state at its exact load factor; not of beams that
@@ -225,7 +222,6 @@ contains
                 call no_memory(error)
             end if
         end if
-        call restore_environment(environment)
     end subroutine follow_load
 
     !> Values at the supports, in the order of the model; shapes (count_supports(beam))
@@ -255,7 +251,6 @@ contains
         if (allocated(error)) return
         call hold_environment(environment)
         call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
-        call restore_environment(environment)
     end subroutine get_supports
 
     !> Exact fields anywhere along the beam
@@ -310,7 +305,6 @@ contains
         if (allocated(error)) return
         call hold_environment(environment)
         call motion_of_nodes(beam%lowered, result%state, x, motion)
-        call restore_environment(environment)
     end subroutine get_motion
 
     !> How good a result is, and which supports its digits cannot decide
@@ -344,7 +338,6 @@ contains
                                                              quantity_unit(units, bending(:bounded_count))))
             end associate
         end if
-        call restore_environment(environment)
     end subroutine get_certificate
 
 end module gapbeam_api

@@ -3,7 +3,7 @@ module gapbeam_api_cases
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: case_batch
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_stopped
     use gapbeam_watch, only: end_if_stopped
@@ -14,24 +14,15 @@ module gapbeam_api_cases
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
-    use gapbeam_cases, only: case_loads_type, split_loads
+    use gapbeam_cases, only: split_loads
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
-    use gapbeam_many_cases, only: case_room_type, solve_in_room => solve_cases
+    use gapbeam_many_cases, only: solve_in_room => solve_cases
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, options_type, require_beam, require_no_path, &
-        require_no_curves, require_size, check_call
+    use gapbeam_api_objects, only: prepared_type, options_type, cases_type, require_beam, require_no_path, require_no_curves, &
+        require_size, check_call
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
-
-    !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
-    type :: cases_type
-        integer :: fingerprint = 0, nodes = 0, supports = 0
-        type(case_loads_type), allocatable :: loads
-        type(case_room_type) :: room
-        integer, allocatable :: start(:), closed(:, :), solves(:)
-        real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :), values(:, :, :)
-    end type cases_type
 
 contains
 
@@ -68,7 +59,6 @@ contains
             call hold_environment(environment)
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)
-            call restore_environment(environment)
             if (allocated(error)) return
             cases%fingerprint = lowered%fingerprint
             cases%nodes = n
@@ -171,7 +161,6 @@ contains
             if (present(reaction)) call give_reactions(beam%lowered, codes(:n), cases%reaction(:, :n), reaction(:, first:last))
             if (present(condition)) call give_conditions(beam%lowered, codes(:n), cases%closed(:, :n), condition(:, first:last))
         end do
-        call restore_environment(environment)
     end subroutine solve_cases
 
     !> Places of the nodes, and the node of every support

@@ -2,7 +2,7 @@
 module gapbeam_api_combinations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown, whole
     use gapbeam_check, only: check_loads
@@ -62,7 +62,6 @@ contains
         end associate
         if (.not. allocated(error)) call combine(beam%lowered, factors, moves, made, error)
         if (.not. allocated(error)) call move_alloc(made%assembled, combined%lowered)
-        call restore_environment(environment)
     end subroutine combine_loads
 
     !> Refuse what is no finite number

@@ -3,7 +3,7 @@
 !> there is no contact and no free span, and the pressure is 0
 module gapbeam_api_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_query, only: find_pieces
@@ -62,7 +62,6 @@ contains
                 call no_memory(error)
             end if
         end if
-        call restore_environment(environment)
 
     contains
 
@@ -98,7 +97,6 @@ contains
             allocate (zones(0), stat=stat)
             if (stat /= 0) call no_memory(error)
         end if
-        call restore_environment(environment)
     end subroutine get_contact
 
     !> Stretches in which the beam does not touch a one-sided foundation that is there
@@ -122,7 +120,6 @@ contains
             allocate (spans(0), stat=stat)
             if (stat /= 0) call no_memory(error)
         end if
-        call restore_environment(environment)
     end subroutine get_free_spans
 
     !> Pressure of the ground anywhere along the beam
@@ -158,7 +155,6 @@ contains
                 pressure(:) = 0.0_wp
             end if
         end if
-        call restore_environment(environment)
     end subroutine get_pressure
 
     !> Exact extremes of the pressure of the ground
@@ -179,7 +175,6 @@ contains
         if (.not. allocated(result%state%ground)) return
         call hold_environment(environment)
         call extremes_of_pressure(beam%lowered, result%state%ground, value, x, error)
-        call restore_environment(environment)
     end subroutine get_pressure_extremes
 
 end module gapbeam_api_ground

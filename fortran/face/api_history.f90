@@ -4,76 +4,25 @@ module gapbeam_api_history
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_path_segments
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
     use gapbeam_extended_precision, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_state, only: solve_state, name_range
-    use gapbeam_events, only: event_type
-    use gapbeam_history, only: path_type => history_type, found_type => stretch_type, follow_path_through => follow_history, &
+    use gapbeam_history, only: found_type => stretch_type, follow_path_through => follow_history, &
         gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_history_events, only: find_events
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, &
-        require_no_curves, bad_argument, make_state, summarise
+    use gapbeam_api_objects, only: prepared_type, result_type, history_type, stretch_type, limit_type, require_beam, &
+        require_no_ground, require_no_curves, bad_argument, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
     public :: gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow
     public :: gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
-
-    !> A stretch of a path on which all supports stay on their piece
-    type :: stretch_type
-        !> Number of the load factor that is gone to, from 1; 0 while the dead loads are put on, with settlements and lacks of fit,
-        !> their factor from 0 to 1
-        integer :: leg
-        !> Load factors at its ends
-        real(wp) :: from, to
-        !> Does the load rise (1), fall (-1), or does the beam turn at constant load until something holds it (0)
-        integer :: direction
-        !> Would the beam stay there under this load
-        logical :: stable
-        !> In how many independent ways the beam gives way by itself; ways on there were at its beginning
-        integer :: index, ways
-        !> Is it passed in a jump, or beyond the limit at which the load stops
-        logical :: skipped
-    end type stretch_type
-
-    !> Where the load cannot go on
-    type :: limit_type
-        !> Load factor
-        real(wp) :: factor
-        !> gapbeam_limit_point: the load must fall; gapbeam_bifurcation: several ways go on, none of them stable;
-        !> gapbeam_mechanism: none does
-        integer :: kind
-        !> As in stretch_type; last stretch before it, 0 if none; stretch on which the beam lands: the next stable state on
-        !> the path at this load factor, 0 if none; dynamics may lead elsewhere
-        integer :: leg, stretch, landing
-    end type limit_type
-
-    !> The loading history
-    type :: history_type
-        !> Its stretches in their order
-        type(stretch_type), allocatable :: stretches(:)
-        !> What happens to the supports, but while the dead loads are put on
-        type(event_type), allocatable :: events(:)
-        !> Where the load could not go on
-        type(limit_type), allocatable :: limits(:)
-        !> gapbeam_arrived at the last factor, gapbeam_mechanism, or gapbeam_path_ended: at a limit, or there is no further event,
-        !> however far the path is followed
-        integer :: ending = gapbeam_arrived
-        !> Linear solves, in quadruple precision
-        integer :: solves = 0
-        !> Places of the nodes and how they move, down, largest 1, where the path ends in a free motion of rigid parts; else not
-        !> allocated
-        real(wp), allocatable :: x(:), motion(:)
-        !> Opaque
-        type(path_type), allocatable :: path
-        integer :: fingerprint = 0
-    end type history_type
 
 contains
 
@@ -116,7 +65,6 @@ contains
                 if (stat /= 0) call no_memory(error)
             end if
         end if
-        call restore_environment(environment)
     end subroutine follow_history
 
     !> The state at a load factor on a path, for the procedures of gapbeam_api
@@ -156,7 +104,6 @@ contains
             end associate
         end if
         if (.not. allocated(error)) call summarise(result)
-        call restore_environment(environment)
     end subroutine solve_on_path
 
     !> Are the laws on a stretch not those of the beam any more

@@ -1,17 +1,26 @@
-!> The objects that users of the Fortran interface hold: a prepared beam, its results, how good they are; and what its procedures
-!> refuse before anything is done with them
+!> The objects that users of the Fortran interface hold: a prepared beam, its results, how good they are, loading histories, cases
+!> and trains; and what its procedures refuse before anything is done with them
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, &
+        gapbeam_not_prepared
     use gapbeam_words, only: shown
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type, new_state
+    use gapbeam_events, only: event_type
+    use gapbeam_history, only: path_type => history_type, gapbeam_arrived => no_limit
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_many_cases, only: case_room_type
+    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train_traversal, only: traversal_type
+    use gapbeam_train_events, only: train_event_type
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
+    public :: history_type, stretch_type, limit_type, cases_type, passing_type, train_gap_type
     public :: require_beam, require_no_ground, require_no_path, require_no_curves, require_result, require_size, check_call
     public :: bad_argument, make_state, summarise
 
@@ -58,6 +67,88 @@ module gapbeam_api_objects
         !> Largest errors of deflection, rotation, moment and shear anywhere along the beam
         real(wp) :: field_bound(4) = 0.0_wp
     end type certificate_type
+
+    !> A stretch of a path on which all supports stay on their piece
+    type :: stretch_type
+        !> Number of the load factor that is gone to, from 1; 0 while the dead loads are put on, with settlements and lacks of fit,
+        !> their factor from 0 to 1
+        integer :: leg
+        !> Load factors at its ends
+        real(wp) :: from, to
+        !> Does the load rise (1), fall (-1), or does the beam turn at constant load until something holds it (0)
+        integer :: direction
+        !> Would the beam stay there under this load
+        logical :: stable
+        !> In how many independent ways the beam gives way by itself; ways on there were at its beginning
+        integer :: index, ways
+        !> Is it passed in a jump, or beyond the limit at which the load stops
+        logical :: skipped
+    end type stretch_type
+
+    !> Where the load cannot go on
+    type :: limit_type
+        !> Load factor
+        real(wp) :: factor
+        !> gapbeam_limit_point: the load must fall; gapbeam_bifurcation: several ways go on, none of them stable;
+        !> gapbeam_mechanism: none does
+        integer :: kind
+        !> As in stretch_type; last stretch before it, 0 if none; stretch on which the beam lands: the next stable state on
+        !> the path at this load factor, 0 if none; dynamics may lead elsewhere
+        integer :: leg, stretch, landing
+    end type limit_type
+
+    !> The loading history
+    type :: history_type
+        !> Its stretches in their order
+        type(stretch_type), allocatable :: stretches(:)
+        !> What happens to the supports, but while the dead loads are put on
+        type(event_type), allocatable :: events(:)
+        !> Where the load could not go on
+        type(limit_type), allocatable :: limits(:)
+        !> gapbeam_arrived at the last factor, gapbeam_mechanism, or gapbeam_path_ended: at a limit, or there is no further event,
+        !> however far the path is followed
+        integer :: ending = gapbeam_arrived
+        !> Linear solves, in quadruple precision
+        integer :: solves = 0
+        !> Places of the nodes and how they move, down, largest 1, where the path ends in a free motion of rigid parts; else not
+        !> allocated
+        real(wp), allocatable :: x(:), motion(:)
+        !> Opaque
+        type(path_type), allocatable :: path
+        integer :: fingerprint = 0
+    end type history_type
+
+    !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
+    type :: cases_type
+        integer :: fingerprint = 0, nodes = 0, supports = 0
+        type(case_loads_type), allocatable :: loads
+        type(case_room_type) :: room
+        integer, allocatable :: start(:), closed(:, :), solves(:)
+        real(wp), allocatable :: w(:, :), ml(:, :), mr(:, :), reaction(:, :), values(:, :, :)
+    end type cases_type
+
+    !> Positions that are not solved
+    type :: train_gap_type
+        real(wp) :: from = 0.0_wp, to = 0.0_wp
+        !> gapbeam_no_equilibrium, gapbeam_moves_freely where the beam can move without work of the loads, gapbeam_indeterminate or
+        !> gapbeam_not_converged
+        integer :: reason = gapbeam_no_equilibrium
+    end type train_gap_type
+
+    !> A train on its way over a beam
+    type :: passing_type
+        !> Changes of the contact state, in the order in which they happen
+        type(train_event_type), allocatable :: events(:)
+        !> In the order in which they are met
+        type(train_gap_type), allocatable :: gaps(:)
+        !> Linear solves
+        integer :: solves = 0
+        !> Opaque
+        integer :: fingerprint = 0
+        type(train_type) :: train
+        type(track_type) :: track
+        type(traversal_type) :: passage
+    end type passing_type
 
 contains
 

@@ -5,7 +5,7 @@
 !> Numbers stay from version to version, and new quantities get new ones, so that no call has to change
 module gapbeam_api_quantities
     use gapbeam_kinds, only: wp
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
+    use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_words, only: whole
     use gapbeam_quantities, only: quantity_count, gapbeam_of_deflection => of_deflection, gapbeam_of_rotation => of_rotation, &
@@ -52,7 +52,6 @@ contains
         if (present(from_left)) left = from_left
         call hold_environment(environment)
         call fields_at_places(beam%lowered, result%state, quantities, x, left, values, error)
-        call restore_environment(environment)
     end subroutine get_quantities
 
     !> Exact extremes along the beam
@@ -73,7 +72,6 @@ contains
         if (allocated(error)) return
         call hold_environment(environment)
         call extremes_of_fields(beam%lowered, result%state, quantities, value, x, error)
-        call restore_environment(environment)
     end subroutine get_quantity_extremes
 
     !> Refuse numbers that are none of a quantity

@@ -12,14 +12,13 @@
 module gapbeam_api_trains
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
-    use gapbeam_environment, only: environment_type, hold_environment, restore_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_environment, only: environment_type, hold_environment
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_query, only: find_pieces
-    use gapbeam_train, only: train_type, uniform_type, track_type, new_track
+    use gapbeam_train, only: train_type, uniform_type, new_track
     use gapbeam_train_traversal, only: traversal_type, gapbeam_moves_freely => not_unique
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
@@ -28,11 +27,13 @@ module gapbeam_api_trains
     use gapbeam_train_curves, only: find_curves
     use gapbeam_quantities, only: quantity_count, bending, bending_count, needs_axial, needs_ground, quantity_names
     use gapbeam_api_quantities, only: require_quantities
-    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_no_curves, require_size, bad_argument
+    use gapbeam_api_objects, only: prepared_type, passing_type, train_gap_type, require_beam, require_no_path, require_no_curves, &
+        require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
     public :: follow_train, get_train_extremes, get_train_curves, get_train_quantity_extremes, get_train_quantity_curves
+    public :: copy_extremes
 
     !> Fields of get_train_extremes and get_train_curves: the first so many of those of bending
     integer, parameter :: field_count = 4
@@ -49,14 +50,6 @@ module gapbeam_api_trains
         real(wp) :: from = gapbeam_unchanged, to = gapbeam_unchanged
     end type moving_train_type
 
-    !> Positions that are not solved
-    type :: train_gap_type
-        real(wp) :: from = 0.0_wp, to = 0.0_wp
-        !> gapbeam_no_equilibrium, gapbeam_moves_freely where the beam can move without work of the loads, gapbeam_indeterminate or
-        !> gapbeam_not_converged
-        integer :: reason = gapbeam_no_equilibrium
-    end type train_gap_type
-
     !> A largest or smallest value, and where it is; of a support x is 0
     type :: train_extreme_type
         !> Is there one: some position is solved
@@ -67,21 +60,6 @@ module gapbeam_api_trains
         !> How many places and positions have this value; of 16 and more 16
         integer :: ties = 0
     end type train_extreme_type
-
-    !> A train on its way over a beam
-    type :: passing_type
-        private
-        !> Changes of the contact state, in the order in which they happen
-        type(train_event_type), allocatable, public :: events(:)
-        !> In the order in which they are met
-        type(train_gap_type), allocatable, public :: gaps(:)
-        !> Linear solves
-        integer, public :: solves = 0
-        integer :: fingerprint = 0
-        type(train_type) :: train
-        type(track_type) :: track
-        type(traversal_type) :: passage
-    end type passing_type
 
 contains
 
@@ -113,7 +91,6 @@ contains
             passing%solves = passing%passage%solves
             passing%fingerprint = beam%lowered%fingerprint
         end if
-        call restore_environment(environment)
     end subroutine follow_train
 
     !> Largest and smallest values over all positions, exact in place and position
@@ -160,6 +137,18 @@ contains
         end do
     end subroutine get_train_quantity_extremes
 
+    !> Extremes as numbers, for the other interfaces
+    pure subroutine copy_extremes(extremes, numbers)
+        type(train_extreme_type), intent(in) :: extremes(:, :)
+        !> Value, x, position, side, shape (4, 2, m)
+        real(wp), intent(inout) :: numbers(:, :, :)
+
+        numbers(1, :, :) = extremes%value
+        numbers(2, :, :) = extremes%x
+        numbers(3, :, :) = extremes%position
+        numbers(4, :, :) = extremes%side
+    end subroutine copy_extremes
+
     !> Everything that is largest or smallest
     subroutine envelope_of(beam, passing, envelope, error)
         type(prepared_type), intent(in) :: beam
@@ -171,7 +160,6 @@ contains
         call hold_environment(environment)
         passing%track%beam%watch = beam%lowered%beam%watch
         call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
-        call restore_environment(environment)
     end subroutine envelope_of
 
     !> Largest and smallest fields at places of the beam over all positions; where a field jumps, of both sides
@@ -223,7 +211,6 @@ contains
             if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, &
                                                          distance, found(:, :, :, side), found_at(:, :, :, side), error)
         end do
-        call restore_environment(environment)
         if (allocated(error)) return
         do k = 1, size(quantities)
             associate (j => findloc(bending, quantities(k), 1))

@@ -6,9 +6,10 @@ module gapbeam_capi
     use gapbeam_scene, only: model_type
     use gapbeam_events, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, count_supports, &
-        count_nodes, solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+        count_nodes, solve_beam, follow_load, get_supports, get_fields, get_motion, get_certificate
     use gapbeam_handles, only: handle_type, state_tag, find_handle
     use gapbeam_capi_model, only: c_model, model_from_c
+    use gapbeam_capi_quantities, only: c_get_quantity_extremes
     use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
     implicit none
     private
@@ -187,16 +188,8 @@ contains
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2, 6), x(2, 6)
         integer(c_int) :: status
-        type(handle_type), pointer :: prepared, solved
-        type(error_type), allocatable :: error
-        real(c_double) :: values(2, 6), places(2, 6)
 
-        call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call get_extremes(prepared%beam, solved%result, values, places, error)
-        call report(error, status)
-        if (allocated(error)) return
-        if (present(value)) value(:, :) = values
-        if (present(x)) x(:, :) = places
+        status = c_get_quantity_extremes(beam, state, 6, [0, 1, 2, 3, 4, 5], value, x, message_size=0_c_size_t)
     end function c_get_extremes
 
     !> See the header

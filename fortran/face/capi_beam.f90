@@ -4,7 +4,8 @@ module gapbeam_capi_beam
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_scene, only: model_type, load_type
     use gapbeam_api, only: replace_loads, count_supports, count_nodes
-    use gapbeam_handles, only: handle_type, beam_tag, state_tag, find_handle, free_handle, new_beam, new_state
+    use gapbeam_handles, only: handle_type, beam_tag, state_tag, find_handle, free_handle, address_of
+    use gapbeam_new_objects, only: new_beam, new_state
     use gapbeam_capi_model, only: c_model, is_model_size, empty_model, model_from_c, loads_from_c
     use gapbeam_capi_objects, only: get_beam, report
     implicit none
@@ -33,6 +34,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
+        type(handle_type), pointer :: prepared
         type(error_type), allocatable :: error
         type(model_type) :: plain
 
@@ -42,7 +44,8 @@ contains
         else
             call model_from_c(model, plain, error)
         end if
-        if (.not. allocated(error)) call new_beam(plain, beam, error)
+        if (.not. allocated(error)) call new_beam(plain, prepared, error)
+        if (.not. allocated(error)) beam = address_of(prepared)
         call report(error, status, message, message_size)
     end function c_prepare
 
@@ -98,11 +101,13 @@ contains
     function c_new_state(state) result(status) bind(c, name="gapbeam_new_state")
         type(c_ptr), intent(out), optional :: state
         integer(c_int) :: status
+        type(handle_type), pointer :: solved
         type(error_type), allocatable :: error
 
         status = gapbeam_bad_input
         if (.not. present(state)) return
-        call new_state(state, error)
+        call new_state(solved, error)
+        state = address_of(solved)
         call report(error, status)
     end function c_new_state
 

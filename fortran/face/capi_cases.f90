@@ -4,7 +4,8 @@ module gapbeam_capi_cases
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: options_type, count_supports, count_nodes
     use gapbeam_api_cases, only: solve_cases, get_nodes
-    use gapbeam_handles, only: handle_type, cases_tag, find_handle, free_handle, new_cases
+    use gapbeam_handles, only: handle_type, cases_tag, find_handle, free_handle, address_of
+    use gapbeam_new_objects, only: new_cases
     use gapbeam_capi_objects, only: c_options, get_beam, read_options, report
     implicit none
     private
@@ -18,13 +19,14 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(handle_type), pointer :: prepared
+        type(handle_type), pointer :: prepared, room
         type(error_type), allocatable :: error
 
         if (present(cases)) cases = c_null_ptr
         call get_beam(beam, prepared, error)
         if (.not. allocated(error) .and. .not. present(cases)) call fatal_error(error, gapbeam_bad_input, "cases is NULL")
-        if (.not. allocated(error)) call new_cases(prepared%beam, cases, error)
+        if (.not. allocated(error)) call new_cases(prepared%beam, room, error)
+        if (.not. allocated(error)) cases = address_of(room)
         call report(error, status, message, message_size)
     end function c_prepare_cases
 

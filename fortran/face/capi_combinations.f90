@@ -2,7 +2,8 @@
 module gapbeam_capi_combinations
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
-    use gapbeam_handles, only: handle_type, new_combination
+    use gapbeam_handles, only: handle_type, address_of
+    use gapbeam_new_objects, only: new_combination
     use gapbeam_capi_objects, only: get_beam, report
     implicit none
     private
@@ -18,7 +19,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(handle_type), pointer :: handle
+        type(handle_type), pointer :: handle, other
         type(error_type), allocatable :: error
 
         if (present(combined)) combined = c_null_ptr
@@ -30,11 +31,12 @@ contains
             associate (model => handle%beam%lowered%model)
                 if (present(settlements)) then
                     call new_combination(handle%beam, factors(1:size(model%loads)), settlements(1:size(model%supports)), &
-                                         combined, error)
+                                         other, error)
                 else
-                    call new_combination(handle%beam, factors(1:size(model%loads)), address=combined, error=error)
+                    call new_combination(handle%beam, factors(1:size(model%loads)), handle=other, error=error)
                 end if
             end associate
+            combined = address_of(other)
         end if
         call report(error, status, message, message_size)
     end function c_combine_loads

@@ -4,7 +4,8 @@ module gapbeam_capi_history
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_api_history, only: solve_on_path
-    use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, new_history
+    use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, address_of
+    use gapbeam_new_objects, only: new_history
     use gapbeam_capi_objects, only: get_beam, get_both, report
     implicit none
     private
@@ -28,7 +29,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(handle_type), pointer :: prepared
+        type(handle_type), pointer :: prepared, followed
         type(error_type), allocatable :: error
 
         if (present(history)) history = c_null_ptr
@@ -40,7 +41,8 @@ contains
         else if (count < 1 .or. .not. present(factors)) then
             call fatal_error(error, gapbeam_bad_input, "factors: give at least one")
         else
-            call new_history(prepared%beam, factors(1:count), int(at_limit), history, error)
+            call new_history(prepared%beam, factors(1:count), int(at_limit), followed, error)
+            history = address_of(followed)
         end if
         call report(error, status, message, message_size)
     end function c_follow_history

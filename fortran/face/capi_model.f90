@@ -1,7 +1,7 @@
 !> The model of the C interface, pointers to plain arrays, as the library's own
 module gapbeam_capi_model
-    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_ptr, c_null_ptr, c_associated, c_f_pointer, &
-        c_loc, c_sizeof
+    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_intptr_t, c_ptr, c_null_ptr, c_associated, &
+        c_f_pointer, c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, load_type
@@ -41,59 +41,28 @@ module gapbeam_capi_model
         type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr
     end type c_model
-    !> Mirrors of what was added to it in version 0.3, and since then
-    type, bind(c) :: c_laws
-        type(c_ptr) :: support_unloading
-        integer(c_int) :: law_points
-        type(c_ptr) :: law_support, law_displacement, law_force
-    end type c_laws
-    type, bind(c) :: c_foundations
-        integer(c_int) :: foundations
-        type(c_ptr) :: foundation_from, foundation_to, foundation_side, foundation_k, foundation_k_to, foundation_gap, &
-            foundation_gap_to
-        integer(c_int) :: profile_points
-        type(c_ptr) :: profile_foundation, profile_x, profile_gap
-        integer(c_int) :: ground_law_points
-        type(c_ptr) :: ground_law_foundation, ground_law_displacement, ground_law_force
-        type(c_ptr) :: foundation_law, foundation_parameter, foundation_parameter_to
-        integer(c_int) :: table_points
-        type(c_ptr) :: table_foundation, table_quantity, table_x, table_value
-        type(c_ptr) :: support_law, support_parameter
-    end type c_foundations
 
 contains
 
-    !> Is a size that of the structure, now, in version 0.3, without foundations, or in version 0.2, without laws too
-    pure function is_model_size(size) result(is_size)
+    !> Is a size one of the structure
+    function is_model_size(size) result(is_size)
         integer(c_size_t), intent(in) :: size
         logical :: is_size
 
-        is_size = size == now_size() .or. size == size_with_laws() .or. size == size_without_laws()
+        is_size = any(size == sizes_of_model())
     end function is_model_size
 
-    !> Size of the structure
-    pure function now_size() result(size)
-        integer(c_size_t) :: size
-        type(c_model) :: c
+    !> Sizes of the structure now, in version 0.3, without foundations, and in version 0.2, without laws too
+    function sizes_of_model() result(sizes)
+        integer(c_size_t) :: sizes(3)
+        type(c_model), target :: c
+        integer(c_intptr_t) :: begin
 
-        size = c_sizeof(c)
-    end function now_size
-
-    !> Its size in version 0.3
-    pure function size_with_laws() result(size)
-        integer(c_size_t) :: size
-        type(c_foundations) :: foundations
-
-        size = now_size() - c_sizeof(foundations)
-    end function size_with_laws
-
-    !> Its size in version 0.2
-    pure function size_without_laws() result(size)
-        integer(c_size_t) :: size
-        type(c_laws) :: laws
-
-        size = size_with_laws() - c_sizeof(laws)
-    end function size_without_laws
+        begin = transfer(c_loc(c), begin)
+        sizes(1) = c_sizeof(c)
+        sizes(2) = transfer(c_loc(c%foundations), begin) - begin
+        sizes(3) = transfer(c_loc(c%support_unloading), begin) - begin
+    end function sizes_of_model
 
     !> Make a model empty
     subroutine empty_model(c, size)
@@ -102,7 +71,7 @@ contains
         !> One of its sizes
         integer(c_size_t), intent(in) :: size
         integer(c_signed_char), pointer :: bytes(:)
-        integer(c_signed_char) :: empty(now_size())
+        integer(c_signed_char) :: empty(c_sizeof(c))
 
         empty(:) = transfer(c_model(size), empty)
         call c_f_pointer(c_loc(c), bytes, [size])
@@ -118,12 +87,15 @@ contains
         type(error_type), allocatable, intent(out) :: error
         real(c_double), pointer :: reals(:)
         integer(c_int), pointer :: integers(:)
-        logical :: with_laws
+        integer(c_size_t) :: sizes(3)
+        logical :: with_laws, with_all
         integer :: i, points, stat
 
         call check_size(c, error)
         if (allocated(error)) return
-        with_laws = c%size >= size_with_laws()
+        sizes(:) = sizes_of_model()
+        with_laws = c%size >= sizes(2)
+        with_all = c%size == sizes(1)
         points = 0
         if (with_laws) then
             points = c%law_points
@@ -137,7 +109,7 @@ contains
                                                      .or. c_associated(c%support_node), "support_x or support_node is needed", &
                                                      error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
-        if (.not. allocated(error) .and. c%size == now_size()) then
+        if (.not. allocated(error) .and. with_all) then
             call check_array("supports", c%supports, c_associated(c%support_law) .eqv. c_associated(c%support_parameter), &
                              "support_law and support_parameter need each other", error)
             if (.not. allocated(error)) call foundations_from_c(c, model, error)
@@ -167,7 +139,7 @@ contains
             if (has_integers(c%support_direction, n, integers)) s%direction = integers
             if (.not. with_laws) return
             if (has_integers(c%support_unloading, n, integers)) s%unloading = integers
-            if (c%size == now_size()) then
+            if (with_all) then
                 if (has_integers(c%support_law, n, integers)) s%law = integers
                 if (has_reals(c%support_parameter, n*parameters_of_law, reals)) then
                     do i = 1, n

@@ -4,10 +4,10 @@ module gapbeam_capi_objects
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_api, only: options_type
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag, find_handle
+    use gapbeam_handles, only: handle_type, state_tag, beam_tag, passing_tag, find_handle
     implicit none
     private
-    public :: c_options, get_beam, get_both, read_options, check_points, report
+    public :: c_options, get_beam, get_both, get_train, read_options, check_points, report
 
     !> Mirror of the header's structure
     type, bind(c) :: c_options
@@ -39,6 +39,18 @@ contains
             call fatal_error(error, gapbeam_not_prepared, "state is no state: make one with gapbeam_new_state")
         end if
     end subroutine get_both
+
+    !> A beam and a train on its way, refused where one is missing
+    subroutine get_train(beam, passing, prepared, handle, error)
+        type(c_ptr), intent(in) :: beam, passing
+        type(handle_type), pointer, intent(out) :: prepared, handle
+        type(error_type), allocatable, intent(out) :: error
+
+        call find_handle(beam, beam_tag, prepared)
+        call find_handle(passing, passing_tag, handle)
+        if (associated(prepared) .and. associated(handle)) return
+        call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
+    end subroutine get_train
 
     !> Options, or the defaults
     subroutine read_options(options, chosen, error)

@@ -3,12 +3,13 @@ module gapbeam_capi_quantities
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
-    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves
+    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves, &
+        copy_extremes
     use gapbeam_handles, only: handle_type
-    use gapbeam_capi_objects, only: get_both, check_points, report
-    use gapbeam_capi_trains, only: get_train, as_numbers
+    use gapbeam_capi_objects, only: get_both, get_train, check_points, report
     implicit none
     private
+    public :: c_get_quantity_extremes, c_get_train_quantity_curves
 
 contains
 
@@ -74,7 +75,6 @@ contains
         type(handle_type), pointer :: prepared, handle
         type(train_extreme_type) :: found(2, max(quantities, 0))
         type(error_type), allocatable :: error
-        integer :: i, k
 
         call get_train(beam, passing, prepared, handle, error)
         if (.not. allocated(error)) call check_quantities(quantities, present(quantity) .and. present(values), error)
@@ -83,11 +83,7 @@ contains
         end if
         call report(error, status, message, message_size)
         if (allocated(error)) return
-        do k = 1, quantities
-            do i = 1, 2
-                values(:, i, k) = as_numbers(found(i, k))
-            end do
-        end do
+        call copy_extremes(found, values(:, :, 1:quantities))
     end function c_get_train_quantity_extremes
 
     !> See the header

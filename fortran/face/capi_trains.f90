@@ -3,12 +3,13 @@ module gapbeam_capi_trains
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: count_supports
-    use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, get_train_curves
-    use gapbeam_handles, only: handle_type, beam_tag, passing_tag, find_handle, free_handle, new_passing
-    use gapbeam_capi_objects, only: get_beam, check_points, report
+    use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, copy_extremes
+    use gapbeam_handles, only: handle_type, passing_tag, find_handle, free_handle, address_of
+    use gapbeam_new_objects, only: new_passing
+    use gapbeam_capi_objects, only: get_beam, get_train, report
+    use gapbeam_capi_quantities, only: c_get_train_quantity_curves
     implicit none
     private
-    public :: get_train, as_numbers
 
 contains
 
@@ -23,7 +24,7 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(handle_type), pointer :: prepared
+        type(handle_type), pointer :: prepared, passed
         type(moving_train_type) :: train
         type(error_type), allocatable :: error
         integer :: stat
@@ -47,7 +48,8 @@ contains
             train%to_the_left = to_the_left /= 0
             if (present(from)) train%from = from
             if (present(to)) train%to = to
-            call new_passing(prepared%beam, train, passing, error)
+            call new_passing(prepared%beam, train, passed, error)
+            passing = address_of(passed)
         end if
         call report(error, status, message, message_size)
     end function c_follow_train
@@ -122,46 +124,25 @@ contains
         type(train_extreme_type) :: of_fields(2, 4)
         type(train_extreme_type), allocatable :: of_supports(:, :, :)
         type(error_type), allocatable :: error
-        integer :: f, i, k
+        integer :: k, stat
 
-        status = gapbeam_not_prepared
-        call find_handle(beam, beam_tag, prepared)
-        call find_handle(passing, passing_tag, handle)
-        if (.not. (associated(prepared) .and. associated(handle))) return
-        allocate (of_supports(2, 4, count_supports(prepared%beam)))
-        call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
+        call get_train(beam, passing, prepared, handle, error)
+        if (.not. allocated(error)) then
+            allocate (of_supports(2, 4, count_supports(prepared%beam)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
+            end if
+        end if
         call report(error, status)
         if (allocated(error)) return
-        do f = 1, 4
-            do i = 1, 2
-                if (present(fields)) fields(:, i, f) = as_numbers(of_fields(i, f))
-                if (.not. present(supports)) cycle
-                do k = 1, size(of_supports, 3)
-                    supports(:, i, f, k) = as_numbers(of_supports(i, f, k))
-                end do
-            end do
+        if (present(fields)) call copy_extremes(of_fields, fields)
+        if (.not. present(supports)) return
+        do k = 1, size(of_supports, 3)
+            call copy_extremes(of_supports(:, :, k), supports(:, :, :, k))
         end do
     end function c_get_train_extremes
-
-    !> A beam and a train on its way, refused where one is missing
-    subroutine get_train(beam, passing, prepared, handle, error)
-        type(c_ptr), intent(in) :: beam, passing
-        type(handle_type), pointer, intent(out) :: prepared, handle
-        type(error_type), allocatable, intent(out) :: error
-
-        call find_handle(beam, beam_tag, prepared)
-        call find_handle(passing, passing_tag, handle)
-        if (associated(prepared) .and. associated(handle)) return
-        call fatal_error(error, gapbeam_not_prepared, "beam is no prepared beam, or passing no train on its way")
-    end subroutine get_train
-
-    !> Value, x, position, side
-    pure function as_numbers(extreme) result(numbers)
-        type(train_extreme_type), intent(in) :: extreme
-        real(c_double) :: numbers(4)
-
-        numbers = [extreme%value, extreme%x, extreme%position, real(extreme%side, c_double)]
-    end function as_numbers
 
     !> See the header
     function c_get_train_curves(beam, passing, count, x, value, position, message, message_size) result(status) &
@@ -173,17 +154,8 @@ contains
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
-        type(handle_type), pointer :: prepared, handle
-        type(error_type), allocatable :: error
 
-        call get_train(beam, passing, prepared, handle, error)
-        if (.not. allocated(error)) then
-            call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
-        end if
-        if (.not. allocated(error) .and. count > 0) then
-            call get_train_curves(prepared%beam, handle%passing, x(1:count), value(:, :, 1:count), position(:, :, 1:count), error)
-        end if
-        call report(error, status, message, message_size)
+        status = c_get_train_quantity_curves(beam, passing, 4, [0, 1, 2, 3], count, x, value, position, message, message_size)
     end function c_get_train_curves
 
 end module gapbeam_capi_trains

@@ -101,8 +101,7 @@ end subroutine ghprsl
 
 ! Free what a handle stands for, whatever it is
 subroutine ghfree(handle, info)
-    use gapbeam_handles, only: free_handle
-    use gapbeam_fortran77_info, only: address_of
+    use gapbeam_handles, only: free_handle, address_numbered
     implicit none
     ! 0 out
     integer(8), intent(inout) :: handle
@@ -110,7 +109,7 @@ subroutine ghfree(handle, info)
     integer, intent(out) :: info
     logical :: freed
 
-    call free_handle(address_of(handle), freed)
+    call free_handle(address_numbered(handle), freed)
     info = merge(0, -1, freed)
     if (freed) handle = 0
 end subroutine ghfree
@@ -118,12 +117,10 @@ end subroutine ghfree
 ! Take other loads for a prepared beam. States, histories, cases and trains from before belong to the old loads, and are not taken.
 ! Where places of loads change, so may the number of nodes in GHMOTN
 subroutine ghload(beam, nload, iload, aload, info)
-    use gapbeam_error, only: error_type
     use gapbeam_scene, only: load_type
     use gapbeam_api, only: replace_loads
     use gapbeam_arrays, only: loads_from_arrays
-    use gapbeam_handles, only: handle_type, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, find_first, info_of
     implicit none
     ! Left as it is where a load is refused
     integer(8), intent(in) :: beam
@@ -137,8 +134,7 @@ subroutine ghload(beam, nload, iload, aload, info)
     type(load_type), allocatable :: loads(:)
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. nload < 0) info = -2
     if (info /= 0) return
     call loads_from_arrays(iload(:, 1:nload), aload(:, 1:nload), loads, error)
@@ -148,28 +144,24 @@ end subroutine ghload
 
 ! Make a place for results
 subroutine ghstat(state, info)
-    use, intrinsic :: iso_c_binding, only: c_ptr
-    use gapbeam_error, only: error_type
-    use gapbeam_handles, only: new_state
-    use gapbeam_fortran77_info, only: number_of, info_of
+    use gapbeam_new_objects, only: new_state
+    use gapbeam_fortran77_info, only: error_type, handle_type, number_of, info_of
     implicit none
     integer(8), intent(out) :: state
     ! 15
     integer, intent(out) :: info
-    type(c_ptr) :: address
+    type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
 
-    call new_state(address, error)
-    state = number_of(address)
+    call new_state(handle, error)
+    state = number_of(handle)
     info = info_of(error, 1)
 end subroutine ghstat
 
 ! Solve at one load factor
 subroutine ghsolv(beam, factor, rule, start, state, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: options_type, solve_beam
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, state_tag, find_first, find, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! Factor of the live loads
@@ -184,8 +176,7 @@ subroutine ghsolv(beam, factor, rule, start, state, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. start /= 0 .and. start /= 1) info = -4
     call find(state, 5, state_tag, solved, info)
     if (info == 0) then
@@ -200,11 +191,9 @@ end subroutine ghsolv
 
 ! Follow the load from factor 0: every change of the contact state at its exact load factor
 subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
-    use gapbeam_error, only: error_type
     use gapbeam_events, only: event_type
     use gapbeam_api, only: options_type, follow_load
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, state_tag, find_first, find, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! End of the path, above 0
@@ -226,8 +215,7 @@ subroutine ghevnt(beam, factor, rule, maxev, state, nev, evfact, ievent, info)
     type(event_type), allocatable :: events(:)
     integer :: k
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. maxev < 0) info = -4
     call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
@@ -244,8 +232,7 @@ end subroutine ghevnt
 
 ! What a state says in a few numbers
 subroutine ghinfo(state, factor, ninfo, info)
-    use gapbeam_handles, only: handle_type, state_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, state_tag, find_first
     implicit none
     integer(8), intent(in) :: state
     ! Load factor
@@ -257,8 +244,7 @@ subroutine ghinfo(state, factor, ninfo, info)
     integer, intent(out) :: info
     type(handle_type), pointer :: solved
 
-    info = 0
-    call find(state, 1, state_tag, solved, info)
+    call find_first(state, state_tag, solved, info)
     if (info /= 0) return
     associate (r => solved%result)
         if (r%status < 0) info = -1

@@ -2,38 +2,32 @@
 
 ! Make ready for many cases of a beam
 subroutine ghcase(beam, cases, info)
-    use, intrinsic :: iso_c_binding, only: c_ptr
-    use gapbeam_error, only: error_type
-    use gapbeam_handles, only: handle_type, beam_tag, new_cases
-    use gapbeam_fortran77_info, only: find, number_of, info_of
+    use gapbeam_new_objects, only: new_cases
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, find_first, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! For GHMANY; it keeps nothing of the beam, and is of no use after GHLOAD. Threads take one each
     integer(8), intent(out) :: cases
     ! -1, also of a beam that is not taken: on a foundation, or whose state depends on the loading history; 15
     integer, intent(out) :: info
-    type(handle_type), pointer :: prepared
-    type(c_ptr) :: address
+    type(handle_type), pointer :: prepared, room
     type(error_type), allocatable :: error
 
     cases = 0
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info /= 0) return
-    call new_cases(prepared%beam, address, error)
-    cases = number_of(address)
+    call new_cases(prepared%beam, room, error)
+    cases = number_of(room)
     info = info_of(error, 1)
 end subroutine ghcase
 
 ! Solve NCASE cases in one call, eight side by side. In each all loads act, dead or live, every one times a factor of its own. The
 ! digits are those of each case alone
 subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
-    use gapbeam_error, only: error_type
     use gapbeam_input_error, only: of_loads, of_supports
     use gapbeam_api, only: count_supports, count_nodes
-    use gapbeam_handles, only: handle_type, cases_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
     use gapbeam_fortran77_shapes, only: solve_shaped
+    use gapbeam_fortran77_info, only: error_type, handle_type, cases_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, cases
     ! Cases, 0 or more; factor of every load in every case, (NLOAD, NCASE)
@@ -57,9 +51,7 @@ subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react,
     type(handle_type), pointer :: prepared, room
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(cases, 2, cases_tag, room, info)
+    call find_both(beam, cases, cases_tag, prepared, room, info)
     if (info == 0 .and. ncase < 0) info = -3
     if (info == 0 .and. nvary /= 0 .and. nvary /= 1) info = -5
     if (info /= 0) return

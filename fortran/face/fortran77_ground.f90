@@ -50,11 +50,9 @@ end subroutine ghprfd
 ! Follow the load from factor 0: every change of zones of contact and of supports at its load factor, to the last digit. Changes
 ! that undo each other within 1/64 of the way are not seen
 subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: options_type
     use gapbeam_api_ground, only: ground_event_type, follow_ground
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, state_tag, find_first, find, info_of
     implicit none
     ! On foundations
     integer(8), intent(in) :: beam
@@ -78,8 +76,7 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     type(ground_event_type), allocatable :: events(:)
     integer :: k
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. maxev < 0) info = -4
     call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
@@ -96,10 +93,8 @@ end subroutine ghgevt
 
 ! Where foundations act
 subroutine ghcont(beam, state, maxzn, nzone, zone, izone, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: contact_type, get_contact
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Room for zones, 0 or more
@@ -119,9 +114,7 @@ subroutine ghcont(beam, state, maxzn, nzone, zone, izone, info)
     type(error_type), allocatable :: error
     integer :: k
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. maxzn < 0) info = -3
     if (info /= 0) return
     call get_contact(prepared%beam, solved%result, zones, error)
@@ -136,10 +129,8 @@ end subroutine ghcont
 
 ! Where the beam does not touch a one-sided foundation that is there
 subroutine ghfrsp(beam, state, maxfr, nfree, free, ifree, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: free_span_type, get_free_spans
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Room for free spans, 0 or more
@@ -157,9 +148,7 @@ subroutine ghfrsp(beam, state, maxfr, nfree, free, ifree, info)
     type(error_type), allocatable :: error
     integer :: k
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. maxfr < 0) info = -3
     if (info /= 0) return
     call get_free_spans(prepared%beam, solved%result, spans, error)
@@ -174,10 +163,8 @@ end subroutine ghfrsp
 
 ! Pressure of the ground anywhere along the beam
 subroutine ghpres(beam, state, nx, x, left, press, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Places
@@ -192,9 +179,7 @@ subroutine ghpres(beam, state, nx, x, left, press, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
     call get_pressure(prepared%beam, solved%result, x(1:nx), press(1:nx), error, left /= 0)
@@ -203,10 +188,8 @@ end subroutine ghpres
 
 ! Exact extremes of the pressure
 subroutine ghpxtr(beam, state, value, xvalue, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_ground, only: get_pressure_extremes
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Maximum and minimum, and where they are; 0 without foundations
@@ -217,9 +200,7 @@ subroutine ghpxtr(beam, state, value, xvalue, info)
     type(error_type), allocatable :: error
     double precision :: values(2), places(2)
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info /= 0) return
     call get_pressure_extremes(prepared%beam, solved%result, values, places, error)
     info = info_of(error, 2)

@@ -4,10 +4,8 @@
 ! Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, from factor 0, by the exact
 ! path: through every event, past limits of the load, with supports that soften, break or keep a set
 subroutine ghhist(beam, nfact, factor, limit, hist, number, info)
-    use, intrinsic :: iso_c_binding, only: c_ptr
-    use gapbeam_error, only: error_type
-    use gapbeam_handles, only: handle_type, history_tag, beam_tag, new_history, find_handle
-    use gapbeam_fortran77_info, only: find, number_of, info_of
+    use gapbeam_new_objects, only: new_history
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, find_first, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! Load factors, 1 or more
@@ -24,19 +22,16 @@ subroutine ghhist(beam, nfact, factor, limit, hist, number, info)
     ! -1, also of a beam on a foundation; -2, -3, -4; 13 to 15, 18
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, followed
-    type(c_ptr) :: address
     type(error_type), allocatable :: error
 
     hist = 0
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. nfact < 1) info = -2
     if (info /= 0) return
-    call new_history(prepared%beam, factor(1:nfact), limit, address, error)
+    call new_history(prepared%beam, factor(1:nfact), limit, followed, error)
     info = info_of(error, 1, ["factors ", "at_limit"], [3, 4])
     if (info /= 0) return
-    hist = number_of(address)
-    call find_handle(address, history_tag, followed)
+    hist = number_of(followed)
     associate (h => followed%history)
         number = [size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, 0]
         if (allocated(h%motion)) number(6) = size(h%motion)
@@ -45,8 +40,7 @@ end subroutine ghhist
 
 ! What a history is made of
 subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lmfact, ilimit, info)
-    use gapbeam_handles, only: handle_type, history_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, history_tag, find_first
     implicit none
     integer(8), intent(in) :: hist
     ! Room for stretches, events and limits, 0 or more
@@ -69,8 +63,7 @@ subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lm
     type(handle_type), pointer :: followed
     integer :: k
 
-    info = 0
-    call find(hist, 1, history_tag, followed, info)
+    call find_first(hist, history_tag, followed, info)
     if (info == 0 .and. maxst < 0) info = -2
     if (info == 0 .and. maxev < 0) info = -5
     if (info == 0 .and. maxlim < 0) info = -8
@@ -97,8 +90,7 @@ end subroutine ghhget
 
 ! The motion in which a history ends
 subroutine ghhmot(hist, maxnd, xnode, motion, info)
-    use gapbeam_handles, only: handle_type, history_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, history_tag, find_first
     implicit none
     integer(8), intent(in) :: hist
     ! Room in the arrays, NUMBER(6) of GHHIST
@@ -109,8 +101,7 @@ subroutine ghhmot(hist, maxnd, xnode, motion, info)
     integer, intent(out) :: info
     type(handle_type), pointer :: followed
 
-    info = 0
-    call find(hist, 1, history_tag, followed, info)
+    call find_first(hist, history_tag, followed, info)
     if (info /= 0) return
     associate (h => followed%history)
         if (.not. allocated(h%motion)) info = -1
@@ -124,10 +115,8 @@ end subroutine ghhmot
 
 ! The state at a load factor on a history
 subroutine ghhsol(beam, hist, nstrch, at, state, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_history, only: solve_on_path
-    use gapbeam_handles, only: handle_type, history_tag, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, history_tag, find_both, find, info_of
     implicit none
     integer(8), intent(in) :: beam, hist
     ! Number of the stretch; 0: the last one with AT that is not passed in a jump, a stable one if there is any
@@ -142,9 +131,7 @@ subroutine ghhsol(beam, hist, nstrch, at, state, info)
     type(handle_type), pointer :: prepared, followed, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(hist, 2, history_tag, followed, info)
+    call find_both(beam, hist, history_tag, prepared, followed, info)
     call find(state, 5, state_tag, solved, info)
     if (info /= 0) return
     call solve_on_path(prepared%beam, followed%history, at, solved%result, error, nstrch)

@@ -2,30 +2,43 @@
 !> wrong, or a code
 module gapbeam_fortran77_info
     use, intrinsic :: iso_fortran_env, only: int64
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_null_ptr
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_handles, only: handle_type, find_handle
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_no_memory, &
+        gapbeam_not_prepared
+    use gapbeam_handles, only: handle_type, beam_tag, state_tag, history_tag, cases_tag, passing_tag, find_handle, number_of, &
+        address_numbered
     implicit none
     private
-    public :: find, address_of, number_of, info_of
+    public :: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
+    public :: handle_type, beam_tag, state_tag, history_tag, cases_tag, passing_tag, number_of
+    public :: find_first, find_both, find, info_of
 
 contains
 
-    !> The address that a number is
-    pure function address_of(number) result(address)
+    !> The object behind the handle that is the first argument
+    subroutine find_first(number, tag, handle, info)
         integer(int64), intent(in) :: number
-        type(c_ptr) :: address
+        !> What there has to be (gapbeam_handles)
+        integer(int64), intent(in) :: tag
+        type(handle_type), pointer, intent(out) :: handle
+        !> 0, or -1 where there is no such handle
+        integer, intent(out) :: info
 
-        address = transfer(int(number, c_intptr_t), c_null_ptr)
-    end function address_of
+        info = 0
+        call find(number, 1, tag, handle, info)
+    end subroutine find_first
 
-    !> The number that an address is; 0 for null
-    pure function number_of(address) result(number)
-        type(c_ptr), intent(in) :: address
-        integer(int64) :: number
+    !> The beam that is the first argument, and the object behind the second one
+    subroutine find_both(beam, number, tag, prepared, handle, info)
+        integer(int64), intent(in) :: beam, number
+        !> What the second one has to be
+        integer(int64), intent(in) :: tag
+        type(handle_type), pointer, intent(out) :: prepared, handle
+        !> 0, or -1 or -2 where there is no such handle
+        integer, intent(out) :: info
 
-        number = transfer(address, 0_c_intptr_t)
-    end function number_of
+        call find_first(beam, beam_tag, prepared, info)
+        call find(number, 2, tag, handle, info)
+    end subroutine find_both
 
     !> The object behind a handle. INFO is -place where the argument there is no such handle; where it is not 0 before, nothing is
     !> looked at
@@ -33,14 +46,13 @@ contains
         integer(int64), intent(in) :: number
         !> Among the arguments
         integer, intent(in) :: place
-        !> What there has to be (gapbeam_handles)
         integer(int64), intent(in) :: tag
         type(handle_type), pointer, intent(out) :: handle
         integer, intent(inout) :: info
 
         nullify (handle)
         if (info /= 0) return
-        call find_handle(address_of(number), tag, handle)
+        call find_handle(address_numbered(number), tag, handle)
         if (.not. associated(handle)) info = -place
     end subroutine find
 

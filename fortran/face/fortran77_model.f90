@@ -1,7 +1,6 @@
 !> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL and GHPRFD do
 module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
-    use, intrinsic :: iso_c_binding, only: c_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
     use gapbeam_laws, only: parameters_of_law
@@ -9,8 +8,8 @@ module gapbeam_fortran77_model
     use gapbeam_input_error, only: of_supports, of_foundations, not_expected
     use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
-    use gapbeam_handles, only: new_beam
-    use gapbeam_fortran77_info, only: number_of
+    use gapbeam_handles, only: handle_type, number_of
+    use gapbeam_new_objects, only: new_beam
     implicit none
     private
     public :: prepare
@@ -33,7 +32,7 @@ contains
         !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
         integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
         type(model_type) :: model
-        type(c_ptr) :: address
+        type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
         real(wp), allocatable :: ground(:, :), points(:, :)
         integer, allocatable :: owners(:)
@@ -85,10 +84,10 @@ contains
                     model%supports(k)%parameter = slaw(:, k)
                 end do
             end if
-            call new_beam(model, address, error)
+            call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then
-            beam = number_of(address)
+            beam = number_of(handle)
             return
         end if
         info = error%code

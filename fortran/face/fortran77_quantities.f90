@@ -5,10 +5,8 @@
 
 ! Exact values at places
 subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_quantities, only: get_quantities
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Quantities, 1 or more
@@ -25,9 +23,7 @@ subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info == 0 .and. nx < 0) info = -5
     if (info /= 0) return
@@ -37,10 +33,8 @@ end subroutine ghquan
 
 ! Exact extremes along the beam
 subroutine ghqxtr(beam, state, nquan, iquan, value, xvalue, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api_quantities, only: get_quantity_extremes
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     integer, intent(in) :: nquan, iquan(*)
@@ -51,9 +45,7 @@ subroutine ghqxtr(beam, state, nquan, iquan, value, xvalue, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info /= 0) return
     call get_quantity_extremes(prepared%beam, solved%result, iquan(1:nquan), value(:, 1:nquan), xvalue(:, 1:nquan), error)
@@ -62,10 +54,9 @@ end subroutine ghqxtr
 
 ! Largest and smallest values over all positions of a train; of quantities 1 to 4 and 8
 subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
-    use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
-    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes
-    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, copy_extremes
+    use gapbeam_fortran77_info, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory, handle_type, passing_tag, &
+        find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
     integer, intent(in) :: nquan, iquan(*)
@@ -76,11 +67,9 @@ subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     type(handle_type), pointer :: prepared, passed
     type(train_extreme_type), allocatable :: found(:, :)
     type(error_type), allocatable :: error
-    integer :: i, k, stat
+    integer :: stat
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(pass, 2, passing_tag, passed, info)
+    call find_both(beam, pass, passing_tag, prepared, passed, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info /= 0) return
     allocate (found(2, nquan), stat=stat)
@@ -90,21 +79,12 @@ subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     info = info_of(error, 2, ["quantities"], [4])
     if (info == 0 .and. .not. found(1, 1)%known) info = gapbeam_no_equilibrium
     if (info /= 0) return
-    do k = 1, nquan
-        do i = 1, 2
-            associate (one => found(i, k))
-                value(:, i, k) = [one%value, one%x, one%position, dble(one%side)]
-            end associate
-        end do
-    end do
+    call copy_extremes(found, value(:, :, 1:nquan))
 end subroutine ghtqxt
 
 ! Largest and smallest values at places over all positions of a train; of quantities 1 to 4 and 8
 subroutine ghtqcr(beam, pass, nquan, iquan, nx, x, curve, posn, info)
-    use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
-    use gapbeam_api_trains, only: get_train_quantity_curves
-    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_shapes, only: fill_curves
     implicit none
     integer(8), intent(in) :: beam, pass
     integer, intent(in) :: nquan, iquan(*)
@@ -115,25 +95,6 @@ subroutine ghtqcr(beam, pass, nquan, iquan, nx, x, curve, posn, info)
     double precision, intent(inout) :: curve(2, nquan, *), posn(2, nquan, *)
     ! -1 to -5; -6: a place off the beam; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(handle_type), pointer :: prepared, passed
-    double precision, allocatable :: value(:, :, :), position(:, :, :)
-    type(error_type), allocatable :: error
-    integer :: stat
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(pass, 2, passing_tag, passed, info)
-    if (info == 0 .and. nquan < 1) info = -3
-    if (info == 0 .and. nx < 0) info = -5
-    if (info /= 0) return
-    allocate (value(2, nquan, nx), position(2, nquan, nx), stat=stat)
-    if (stat /= 0) info = gapbeam_no_memory
-    if (info /= 0) return
-    call get_train_quantity_curves(prepared%beam, passed%passing, iquan(1:nquan), x(1:nx), value, position, error)
-    info = info_of(error, 6, ["quantities"], [4])
-    if (info /= 0 .or. nx == 0) return
-    if (.not. value(1, 1, 1) > -huge(value)) info = gapbeam_no_equilibrium
-    if (info /= 0) return
-    curve(:, :, 1:nx) = value
-    posn(:, :, 1:nx) = position
+    call fill_curves(beam, pass, nquan, iquan, nx, x, [5, 6, 4], curve, posn, info)
 end subroutine ghtqcr

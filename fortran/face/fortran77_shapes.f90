@@ -1,12 +1,15 @@
-!> Many cases for the Fortran 77 interface: arrays with their shapes
+!> Many cases, and curves of trains, for the Fortran 77 interface: arrays with their shapes
 module gapbeam_fortran77_shapes
+    use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: prepared_type, options_type
     use gapbeam_api_cases, only: cases_type, solve_cases
+    use gapbeam_api_trains, only: get_train_quantity_curves
+    use gapbeam_fortran77_info, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory, handle_type, passing_tag, find_both, &
+        info_of
     implicit none
     private
-    public :: solve_shaped
+    public :: solve_shaped, fill_curves
 
 contains
 
@@ -34,5 +37,36 @@ contains
                              condition=condition, deflection=deflection, moment_left=left, moment_right=right)
         end if
     end subroutine solve_shaped
+
+    !> Curves of a train, as get_train_quantity_curves; what GHTCRV and GHTQCR do
+    subroutine fill_curves(beam, pass, nquan, iquan, nx, x, places, curve, posn, info)
+        integer(int64), intent(in) :: beam, pass
+        integer, intent(in) :: nquan, nx, iquan(nquan)
+        real(wp), intent(in) :: x(nx)
+        !> Places of NX, X and IQUAN among the arguments; NQUAN is before IQUAN
+        integer, intent(in) :: places(3)
+        !> Written only where some position is solved
+        real(wp), intent(inout) :: curve(2, nquan, nx), posn(2, nquan, nx)
+        integer, intent(out) :: info
+        type(handle_type), pointer :: prepared, passed
+        real(wp), allocatable :: value(:, :, :), position(:, :, :)
+        type(error_type), allocatable :: error
+        integer :: stat
+
+        call find_both(beam, pass, passing_tag, prepared, passed, info)
+        if (info == 0 .and. nquan < 1) info = 1 - places(3)
+        if (info == 0 .and. nx < 0) info = -places(1)
+        if (info /= 0) return
+        allocate (value(2, nquan, nx), position(2, nquan, nx), stat=stat)
+        if (stat /= 0) info = gapbeam_no_memory
+        if (info /= 0) return
+        call get_train_quantity_curves(prepared%beam, passed%passing, iquan, x, value, position, error)
+        info = info_of(error, places(2), ["quantities"], places(3:3))
+        if (info /= 0 .or. nx == 0) return
+        if (.not. value(1, 1, 1) > -huge(value)) info = gapbeam_no_equilibrium
+        if (info /= 0) return
+        curve(:, :, :) = value
+        posn(:, :, :) = position
+    end subroutine fill_curves
 
 end module gapbeam_fortran77_shapes

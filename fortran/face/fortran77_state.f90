@@ -3,10 +3,8 @@
 
 ! Values at the supports
 subroutine ghsupp(beam, state, supval, kstate, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: get_supports, count_supports
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Reaction, deflection, opening (negative: the beam has gone past a support without stiffness), couple of every support
@@ -19,9 +17,7 @@ subroutine ghsupp(beam, state, supval, kstate, info)
     type(error_type), allocatable :: error
     integer :: n
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info /= 0) return
     n = count_supports(prepared%beam)
     call get_supports(prepared%beam, solved%result, supval(1, 1:n), supval(2, 1:n), supval(3, 1:n), supval(4, 1:n), kstate(1:n), &
@@ -31,10 +27,8 @@ end subroutine ghsupp
 
 ! Exact fields anywhere along the beam
 subroutine ghflds(beam, state, nx, x, left, field, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: get_fields
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Places
@@ -49,9 +43,7 @@ subroutine ghflds(beam, state, nx, x, left, field, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nx < 0) info = -3
     if (info /= 0) return
     call get_fields(prepared%beam, solved%result, x(1:nx), field(:, 1:nx), error, left /= 0)
@@ -60,10 +52,8 @@ end subroutine ghflds
 
 ! Exact extremes of all fields
 subroutine ghxtrm(beam, state, value, xvalue, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: get_extremes
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Maximum and minimum of the six fields of GHFLDS, and where they are
@@ -73,9 +63,7 @@ subroutine ghxtrm(beam, state, value, xvalue, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info /= 0) return
     call get_extremes(prepared%beam, solved%result, value, xvalue, error)
     info = info_of(error, 2)
@@ -83,10 +71,8 @@ end subroutine ghxtrm
 
 ! The free motion where there is no equilibrium
 subroutine ghmotn(beam, state, maxnd, nnode, xnode, motion, info)
-    use gapbeam_error, only: error_type
     use gapbeam_api, only: get_motion, count_nodes
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Room in the arrays; NHINGE + NSUP + 2 NLOAD + 2 is always enough, with foundations NSPAN + 2 NFOUND + NPROF + NTAB more
@@ -100,9 +86,7 @@ subroutine ghmotn(beam, state, maxnd, nnode, xnode, motion, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info /= 0) return
     nnode = count_nodes(prepared%beam)
     if (maxnd < nnode) info = -3
@@ -113,10 +97,8 @@ end subroutine ghmotn
 
 ! How good a state is, and which supports its digits cannot decide
 subroutine ghcert(beam, state, cert, known, iundec, info)
-    use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_api, only: certificate_type, get_certificate, count_supports
-    use gapbeam_handles, only: handle_type, state_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_info, only: error_type, gapbeam_no_memory, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
     ! Relative residuals of equilibrium, compatibility, complementarity; largest error of any deflection of a node, any reaction;
@@ -134,9 +116,7 @@ subroutine ghcert(beam, state, cert, known, iundec, info)
     logical, allocatable :: undecided(:)
     integer :: stat
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(state, 2, state_tag, solved, info)
+    call find_both(beam, state, state_tag, prepared, solved, info)
     if (info /= 0) return
     allocate (undecided(count_supports(prepared%beam)), stat=stat)
     if (stat /= 0) info = gapbeam_no_memory

@@ -3,11 +3,9 @@
 ! Prepare another beam: every load times a factor, dead ones too, and supports that have moved further. It has a scheme of its own:
 ! results cannot be added up
 subroutine ghcmbn(beam, factor, settle, combnd, ientry, info)
-    use, intrinsic :: iso_c_binding, only: c_ptr
-    use gapbeam_error, only: error_type
     use gapbeam_input_error, only: of_supports
-    use gapbeam_handles, only: handle_type, beam_tag, new_combination
-    use gapbeam_fortran77_info, only: find, number_of, info_of
+    use gapbeam_new_objects, only: new_combination
+    use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, find_first, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! Factor of every load; further movement of every support, down, of an axial one to the right
@@ -18,19 +16,17 @@ subroutine ghcmbn(beam, factor, settle, combnd, ientry, info)
     integer, intent(out) :: ientry
     ! -1; -2 or -3: no finite number, a load too great, or supports that leave no room for each other; 14, 15
     integer, intent(out) :: info
-    type(handle_type), pointer :: prepared
-    type(c_ptr) :: address
+    type(handle_type), pointer :: prepared, combined
     type(error_type), allocatable :: error
 
     combnd = 0
     ientry = 0
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info /= 0) return
     associate (model => prepared%beam%lowered%model)
-        call new_combination(prepared%beam, factor(1:size(model%loads)), settle(1:size(model%supports)), address, error)
+        call new_combination(prepared%beam, factor(1:size(model%loads)), settle(1:size(model%supports)), combined, error)
     end associate
-    combnd = number_of(address)
+    combnd = number_of(combined)
     info = info_of(error, 2, ["settlements"], [3])
     if (info == 0) return
     ientry = error%entry
@@ -40,12 +36,10 @@ end subroutine ghcmbn
 ! Move a train over a beam: loads that move together, followed from event to event in their position, which is that of the first
 ! axle. All loads of the beam stay, dead and live ones in full
 subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
-    use, intrinsic :: iso_c_binding, only: c_ptr
-    use gapbeam_error, only: error_type, gapbeam_no_memory
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_api_trains, only: moving_train_type
-    use gapbeam_handles, only: handle_type, passing_tag, beam_tag, new_passing, find_handle
-    use gapbeam_fortran77_info, only: find, number_of, info_of
+    use gapbeam_new_objects, only: new_passing
+    use gapbeam_fortran77_info, only: error_type, gapbeam_no_memory, handle_type, beam_tag, find_first, number_of, info_of
     implicit none
     integer(8), intent(in) :: beam
     ! Axles, 1 or more: distance of every one behind the first, 0 or more; force, down
@@ -66,13 +60,11 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, passed
     type(moving_train_type) :: train
-    type(c_ptr) :: address
     type(error_type), allocatable :: error
     integer :: stat
 
     pass = 0
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. naxle < 1) info = -2
     if (info == 0 .and. left /= 0 .and. left /= 1) info = -5
     if (info /= 0) return
@@ -85,18 +77,16 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     train%to_the_left = left == 1
     train%from = merge(gapbeam_unchanged, from, from < gapbeam_unchanged)
     train%to = merge(gapbeam_unchanged, to, to > huge(to))
-    call new_passing(prepared%beam, train, address, error)
+    call new_passing(prepared%beam, train, passed, error)
     info = info_of(error, 1, ["distance", "force   ", "q       ", "from    ", "to      "], [3, 3, 4, 6, 7])
     if (info /= 0) return
-    pass = number_of(address)
-    call find_handle(address, passing_tag, passed)
+    pass = number_of(passed)
     number = [size(passed%passing%events), size(passed%passing%gaps), passed%passing%solves]
 end subroutine ghtran
 
 ! What changes while a train passes, and the positions that are not solved
 subroutine ghtget(pass, maxev, evpos, ievent, maxgap, gap, igap, info)
-    use gapbeam_handles, only: handle_type, passing_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, passing_tag, find_first
     implicit none
     integer(8), intent(in) :: pass
     ! Room for events and gaps, 0 or more
@@ -114,8 +104,7 @@ subroutine ghtget(pass, maxev, evpos, ievent, maxgap, gap, igap, info)
     type(handle_type), pointer :: passed
     integer :: k
 
-    info = 0
-    call find(pass, 1, passing_tag, passed, info)
+    call find_first(pass, passing_tag, passed, info)
     if (info == 0 .and. maxev < 0) info = -2
     if (info == 0 .and. maxgap < 0) info = -5
     if (info /= 0) return
@@ -135,11 +124,10 @@ end subroutine ghtget
 
 ! Largest and smallest values over all positions of a train but those of the gaps, exact in place and position
 subroutine ghtxtr(beam, pass, field, supval, info)
-    use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
     use gapbeam_api, only: count_supports
-    use gapbeam_api_trains, only: train_extreme_type, get_train_extremes
-    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_api_trains, only: train_extreme_type, get_train_extremes, copy_extremes
+    use gapbeam_fortran77_info, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory, handle_type, passing_tag, &
+        find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, pass
     ! Of largest (1) and smallest (2) deflection, rotation, moment, shear: value, x, position, and -1 left of x or 1 right of it
@@ -153,11 +141,9 @@ subroutine ghtxtr(beam, pass, field, supval, info)
     type(train_extreme_type) :: fields(2, 4)
     type(train_extreme_type), allocatable :: supports(:, :, :)
     type(error_type), allocatable :: error
-    integer :: i, j, k, stat
+    integer :: k, stat
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(pass, 2, passing_tag, passed, info)
+    call find_both(beam, pass, passing_tag, prepared, passed, info)
     if (info /= 0) return
     allocate (supports(2, 4, count_supports(prepared%beam)), stat=stat)
     if (stat /= 0) info = gapbeam_no_memory
@@ -166,32 +152,15 @@ subroutine ghtxtr(beam, pass, field, supval, info)
     info = info_of(error, 2)
     if (info == 0 .and. .not. fields(1, 1)%known) info = gapbeam_no_equilibrium
     if (info /= 0) return
-    do j = 1, 4
-        do i = 1, 2
-            field(:, i, j) = numbers_of(fields(i, j))
-            do k = 1, size(supports, 3)
-                supval(:, i, j, k) = numbers_of(supports(i, j, k))
-            end do
-        end do
+    call copy_extremes(fields, field)
+    do k = 1, size(supports, 3)
+        call copy_extremes(supports(:, :, k), supval(:, :, :, k))
     end do
-
-contains
-
-    pure function numbers_of(extreme) result(numbers)
-        type(train_extreme_type), intent(in) :: extreme
-        double precision :: numbers(4)
-
-        numbers = [extreme%value, extreme%x, extreme%position, dble(extreme%side)]
-    end function numbers_of
-
 end subroutine ghtxtr
 
 ! Largest and smallest fields at places of the beam over all positions of a train but those of the gaps
 subroutine ghtcrv(beam, pass, nx, x, curve, posn, info)
-    use gapbeam_error, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory
-    use gapbeam_api_trains, only: get_train_curves
-    use gapbeam_handles, only: handle_type, passing_tag, beam_tag
-    use gapbeam_fortran77_info, only: find, info_of
+    use gapbeam_fortran77_shapes, only: fill_curves
     implicit none
     integer(8), intent(in) :: beam, pass
     ! Places; where a field jumps both sides count
@@ -201,24 +170,6 @@ subroutine ghtcrv(beam, pass, nx, x, curve, posn, info)
     double precision, intent(inout) :: curve(2, 4, *), posn(2, 4, *)
     ! -1, -2, -3; -4: a place off the beam; 1: no position is solved; 12 to 15, 18
     integer, intent(out) :: info
-    type(handle_type), pointer :: prepared, passed
-    double precision, allocatable :: value(:, :, :), position(:, :, :)
-    type(error_type), allocatable :: error
-    integer :: stat
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
-    call find(pass, 2, passing_tag, passed, info)
-    if (info == 0 .and. nx < 0) info = -3
-    if (info /= 0) return
-    allocate (value(2, 4, nx), position(2, 4, nx), stat=stat)
-    if (stat /= 0) info = gapbeam_no_memory
-    if (info /= 0) return
-    call get_train_curves(prepared%beam, passed%passing, x(1:nx), value, position, error)
-    info = info_of(error, 4)
-    if (info /= 0 .or. nx == 0) return
-    if (.not. value(1, 1, 1) > -huge(value)) info = gapbeam_no_equilibrium
-    if (info /= 0) return
-    curve(:, :, 1:nx) = value
-    posn(:, :, 1:nx) = position
+    call fill_curves(beam, pass, 4, [1, 2, 3, 4], nx, x, [3, 4, 4], curve, posn, info)
 end subroutine ghtcrv

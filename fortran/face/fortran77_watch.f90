@@ -6,8 +6,7 @@
 subroutine ghwtch(beam, ask, idata, second, info)
     use, intrinsic :: iso_c_binding, only: c_int, c_loc, c_funloc
     use gapbeam_watch, only: begin_watch
-    use gapbeam_handles, only: handle_type, beam_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, beam_tag, find_first
     implicit none
     interface
         ! INTEGER FUNCTION ASK(IDATA), EXTERNAL where GHWTCH is called: asked every 10 ms or so by the thread at work; not 0 where
@@ -29,8 +28,7 @@ subroutine ghwtch(beam, ask, idata, second, info)
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. .not. second >= 0.0d0) info = -4
     if (info == 0) call begin_watch(prepared%watch, c_funloc(ask), c_loc(idata), second)
 end subroutine ghwtch
@@ -39,8 +37,7 @@ end subroutine ghwtch
 subroutine ghlimt(beam, second, info)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_null_funptr
     use gapbeam_watch, only: begin_watch
-    use gapbeam_handles, only: handle_type, beam_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, beam_tag, find_first
     implicit none
     integer(8), intent(in) :: beam
     ! As for GHWTCH
@@ -49,8 +46,7 @@ subroutine ghlimt(beam, second, info)
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0 .and. .not. second >= 0.0d0) info = -2
     if (info == 0) call begin_watch(prepared%watch, c_null_funptr, c_null_ptr, second)
 end subroutine ghlimt
@@ -58,15 +54,13 @@ end subroutine ghlimt
 ! End all calls with a beam, from any thread
 subroutine ghstop(beam, info)
     use gapbeam_watch, only: end_watched
-    use gapbeam_handles, only: handle_type, beam_tag
-    use gapbeam_fortran77_info, only: find
+    use gapbeam_fortran77_info, only: handle_type, beam_tag, find_first
     implicit none
     integer(8), intent(in) :: beam
     ! -1
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared
 
-    info = 0
-    call find(beam, 1, beam_tag, prepared, info)
+    call find_first(beam, beam_tag, prepared, info)
     if (info == 0) call end_watched(prepared%watch)
 end subroutine ghstop

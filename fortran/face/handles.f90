@@ -1,25 +1,22 @@
-!> Handles: what users of C and Fortran 77 hold instead of the objects of the Fortran interface. A handle is the address of an
-!> object that begins with a tag; no table of handles is kept
+!> Handles: what users of C, Fortran 77 and Python hold instead of the objects of the Fortran interface. A handle is the address of
+!> an object that begins with a tag; no table of handles is kept
 module gapbeam_handles
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer, c_null_ptr
-    use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_watch, only: watch_type
-    use gapbeam_scene, only: model_type
-    use gapbeam_api, only: prepared_type, result_type, prepare_model
-    use gapbeam_api_cases, only: cases_type, prepare_cases
-    use gapbeam_api_combinations, only: combine_loads
-    use gapbeam_api_history, only: history_type, follow_history
-    use gapbeam_api_trains, only: moving_train_type, passing_type, follow_train
+    use gapbeam_element, only: field_type
+    use gapbeam_cases, only: case_loads_type
+    use gapbeam_ground_events, only: ground_path_type
+    use gapbeam_api_objects, only: prepared_type, result_type, history_type, cases_type, passing_type
     implicit none
     private
-    public :: handle_type, beam_tag, state_tag, history_tag, cases_tag, passing_tag
-    public :: find_handle, free_handle, new_beam, new_combination, new_state, new_history, new_cases, new_passing
+    public :: handle_type, beam_tag, state_tag, fields_tag, history_tag, cases_tag, passing_tag
+    public :: handle_at, find_handle, free_handle, new_handle, finish_handle, address_of, number_of, address_numbered
 
     !> Tags tell the kinds of handle apart, and those of the library from other addresses
     integer(int64), parameter :: beam_tag = 7233173843452522818_int64, state_tag = beam_tag + 1, history_tag = beam_tag + 2, &
-                                 cases_tag = beam_tag + 3, passing_tag = beam_tag + 4
+                                 cases_tag = beam_tag + 3, passing_tag = beam_tag + 4, fields_tag = beam_tag + 5
 
     !> What is behind a handle: the tag says which of its objects there is
     type :: handle_type
@@ -27,7 +24,15 @@ module gapbeam_handles
         type(prepared_type), allocatable :: beam
         !> On calls with the beam
         type(watch_type) :: watch
+        !> Of a beam in Python: the thread that hears signals; its loads one by one, and the path on the ground followed last, where
+        !> they have been asked for
+        integer(int64) :: thread = 0
+        type(case_loads_type), allocatable :: loads
+        type(ground_path_type), allocatable :: ground_path
         type(result_type), allocatable :: result
+        !> Fields of a state at the left end of every piece, none on the ground: for Python, where threads share states
+        type(field_type), allocatable :: starts(:)
+        !> In Python it is that of a beam, followed last
         type(history_type), allocatable :: history
         type(cases_type), allocatable :: cases
         type(passing_type), allocatable :: passing
@@ -74,7 +79,7 @@ contains
         handle => handle_at(address)
         freed = associated(handle)
         if (.not. freed) return
-        freed = handle%tag >= beam_tag .and. handle%tag <= passing_tag
+        freed = handle%tag >= beam_tag .and. handle%tag <= fields_tag
         if (present(only)) freed = handle%tag == only
         if (.not. freed) return
         ! The tag is gone before the memory is, should somebody keep the address
@@ -103,104 +108,52 @@ contains
                 allocate (handle%history, stat=stat)
             case (cases_tag)
                 allocate (handle%cases, stat=stat)
-            case default
+            case (passing_tag)
                 allocate (handle%passing, stat=stat)
+            case default
             end select
             if (stat /= 0) deallocate (handle)
         end if
         if (stat /= 0) call no_memory(error)
     end subroutine new_handle
 
-    !> Give the address of an object that is ready
-    subroutine give(handle, address, error)
-        !> Freed where there is an error
-        type(handle_type), pointer, intent(inout) :: handle
+    !> Let go of an object that has not become ready, and let calls with a beam that has look at its watch
+    subroutine finish_handle(handle, error)
         !> Null where there is an error
-        type(c_ptr), intent(out) :: address
+        type(handle_type), pointer, intent(inout) :: handle
         type(error_type), allocatable, intent(in) :: error
 
-        address = c_null_ptr
         if (allocated(error)) then
             if (associated(handle)) deallocate (handle)
-            return
+            nullify (handle)
+        else if (allocated(handle%beam)) then
+            handle%beam%lowered%beam%watch = c_loc(handle%watch)
         end if
-        if (allocated(handle%beam)) handle%beam%lowered%beam%watch = c_loc(handle%watch)
-        address = c_loc(handle)
-    end subroutine give
+    end subroutine finish_handle
 
-    !> Prepare a model, as prepare_model
-    subroutine new_beam(model, address, error)
-        type(model_type), intent(in) :: model
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
+    !> The handle of an object in C; null where there is none
+    function address_of(handle) result(address)
+        type(handle_type), pointer, intent(in) :: handle
+        type(c_ptr) :: address
 
-        call new_handle(beam_tag, handle, error)
-        if (.not. allocated(error)) call prepare_model(model, handle%beam, error)
-        call give(handle, address, error)
-    end subroutine new_beam
+        address = c_null_ptr
+        if (associated(handle)) address = c_loc(handle)
+    end function address_of
 
-    !> Combine the loads of a beam, as combine_loads
-    subroutine new_combination(beam, factors, settlements, address, error)
-        type(prepared_type), intent(in) :: beam
-        real(wp), intent(in) :: factors(:)
-        real(wp), intent(in), optional :: settlements(:)
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
+    !> The handle of an object in Fortran 77 and Python; 0 where there is none
+    function number_of(handle) result(number)
+        type(handle_type), pointer, intent(in) :: handle
+        integer(int64) :: number
 
-        call new_handle(beam_tag, handle, error)
-        if (.not. allocated(error)) call combine_loads(beam, factors, handle%beam, error, settlements)
-        call give(handle, address, error)
-    end subroutine new_combination
+        number = transfer(address_of(handle), 0_c_intptr_t)
+    end function number_of
 
-    !> An empty place for results
-    subroutine new_state(address, error)
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
+    !> The address that a number is
+    pure function address_numbered(number) result(address)
+        integer(int64), intent(in) :: number
+        type(c_ptr) :: address
 
-        call new_handle(state_tag, handle, error)
-        call give(handle, address, error)
-    end subroutine new_state
-
-    !> Follow the load through factors in turn, as follow_history
-    subroutine new_history(beam, factors, at_limit, address, error)
-        type(prepared_type), intent(in) :: beam
-        real(wp), intent(in) :: factors(:)
-        integer, intent(in) :: at_limit
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
-
-        call new_handle(history_tag, handle, error)
-        if (.not. allocated(error)) call follow_history(beam, factors, at_limit, handle%history, error)
-        call give(handle, address, error)
-    end subroutine new_history
-
-    !> Make ready for many cases, as prepare_cases
-    subroutine new_cases(beam, address, error)
-        type(prepared_type), intent(in) :: beam
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
-
-        call new_handle(cases_tag, handle, error)
-        if (.not. allocated(error)) call prepare_cases(beam, handle%cases, error)
-        call give(handle, address, error)
-    end subroutine new_cases
-
-    !> Move a train over a beam, as follow_train
-    subroutine new_passing(beam, train, address, error)
-        type(prepared_type), intent(in) :: beam
-        type(moving_train_type), intent(in) :: train
-        type(c_ptr), intent(out) :: address
-        type(error_type), allocatable, intent(out) :: error
-        type(handle_type), pointer :: handle
-
-        call new_handle(passing_tag, handle, error)
-        if (.not. allocated(error)) call follow_train(beam, train, handle%passing, error)
-        call give(handle, address, error)
-    end subroutine new_passing
+        address = transfer(int(number, c_intptr_t), c_null_ptr)
+    end function address_numbered
 
 end module gapbeam_handles

@@ -1,7 +1,7 @@
 ! The library for Python: plain arrays only, in the manner of Fortran 77. f2py reads this very file, so it holds only default
 ! kinds, explicit shapes and external subroutines, and nothing but marshalling. It is no part of the library for everyone else.
 !
-! BEAM is the handle of a prepared beam (gapbeam_beam_handle): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
+! BEAM is the handle of a prepared beam (gapbeam_handles): NP pieces, NL links between nodes 0 to NL, NS supports of the engine,
 ! NM supports of the scene, NB axial bars. Arrays over supports and bars have one entry more than there are: f2py takes none
 ! that is empty. Units are the engine's where nothing else is said. STATUS as in gapbeam_error: 0 solved, 1 no equilibrium, above
 ! 10 an error with its MESSAGE and nothing else set.
@@ -30,10 +30,9 @@ end subroutine gbtole
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
                   iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, thread, &
                   beam, status, reason, table, entry, partner, key, message)
-    use gapbeam_error, only: error_type
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, keep_beam, listen, report
     use gapbeam_scene, only: model_type
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
-    use gapbeam_beam_handle, only: new_handle, listen, report
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
@@ -52,19 +51,11 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     character(len=16), intent(out) :: key
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(span) :: mspan = shape(span, 1)
-    !f2py integer, intent(hide), depend(hinge) :: mhinge = shape(hinge, 0)
-    !f2py integer, intent(hide), depend(sect) :: msect = shape(sect, 1)
-    !f2py integer, intent(hide), depend(sup) :: msup = shape(sup, 1)
-    !f2py integer, intent(hide), depend(ilaw) :: mlaw = shape(ilaw, 0)
-    !f2py integer, intent(hide), depend(aload) :: mload = shape(aload, 1)
-    !f2py integer, intent(hide), depend(ifound) :: mfound = shape(ifound, 0)
-    !f2py integer, intent(hide), depend(iprof) :: mprof = shape(iprof, 0)
-    !f2py integer, intent(hide), depend(iflaw) :: mflaw = shape(iflaw, 0)
+    type(handle_type), pointer :: handle
     type(model_type) :: model
     type(error_type), allocatable :: error
 
-    beam = 0
+    nullify (handle)
     reason = 0
     table = 0
     entry = 0
@@ -75,10 +66,11 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
                                                              aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
                                                              model, error)
-    if (.not. allocated(error)) call new_handle(model, beam, error)
+    if (.not. allocated(error)) call keep_beam(model, handle, error)
+    beam = number_of(handle)
     call report(error, status, message)
     if (.not. allocated(error)) then
-        call listen(beam, thread)
+        call listen(handle, thread)
         return
     end if
     reason = error%reason
@@ -90,34 +82,36 @@ end subroutine gbmake
 
 ! End the calls with a beam that are at work, and those to come (ENDS = 1), until they may go on again (0)
 subroutine gbstop(beam, ends)
-    use gapbeam_beam_handle, only: handle_type, handle_of, stop_calls, listen
+    use gapbeam_python_handles, only: handle_type, behind, listen
+    use gapbeam_watch, only: end_watched
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ends
     type(handle_type), pointer :: handle
 
+    handle => behind(beam)
     if (ends /= 0) then
-        call stop_calls(beam)
+        call end_watched(handle%watch)
     else
-        handle => handle_of(beam)
-        call listen(beam, handle%thread)
+        call listen(handle, handle%thread)
     end if
 end subroutine gbstop
 
-! Free a beam
-subroutine gbdrop(beam)
-    use gapbeam_beam_handle, only: drop_handle
+! Free what a handle stands for, whatever it is
+subroutine gbdrop(handle)
+    use gapbeam_handles, only: free_handle, address_numbered
     implicit none
-    integer(8), intent(in) :: beam
+    integer(8), intent(in) :: handle
+    logical :: freed
 
-    call drop_handle(beam)
+    call free_handle(address_numbered(handle), freed)
 end subroutine gbdrop
 
 ! Another beam: the loads of a case, all live, each times its factor, and nothing dead
 subroutine gbcopy(beam, nd, factor, copy, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, copy_handle, drop_handle, report
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, copy_beam, report
     use gapbeam_cases, only: take_case
+    use gapbeam_handles, only: finish_handle
     implicit none
     integer(8), intent(in) :: beam
     ! One more than there are loads
@@ -127,23 +121,20 @@ subroutine gbcopy(beam, nd, factor, copy, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, other
     type(error_type), allocatable :: error
 
-    call copy_handle(beam, copy, error)
-    if (.not. allocated(error)) then
-        handle => handle_of(copy)
-        call take_case(factor(:nd - 1), handle%lowered, error)
-        if (allocated(error)) call drop_handle(copy)
-    end if
+    handle => behind(beam)
+    call copy_beam(handle, other, error)
+    if (.not. allocated(error)) call take_case(factor(:nd - 1), other%beam%lowered, error)
+    call finish_handle(other, error)
+    copy = number_of(other)
     call report(error, status, message)
-    if (allocated(error)) copy = 0
 end subroutine gbcopy
 
 ! Sizes of a beam, and its units
 subroutine gbsize(beam, sizes, units)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     implicit none
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
@@ -153,8 +144,8 @@ subroutine gbsize(beam, sizes, units)
     integer, intent(out) :: units(3)
     type(handle_type), pointer :: handle
 
-    handle => handle_of(beam)
-    associate (lowered => handle%lowered)
+    handle => behind(beam)
+    associate (lowered => handle%beam%lowered)
         sizes = [size(lowered%pieces), size(lowered%beam%links), size(lowered%beam%supports), size(lowered%model%supports), -1, &
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
@@ -168,7 +159,7 @@ end subroutine gbsize
 
 ! Which supports of the scene those of the engine are
 subroutine gbnumb(beam, ns, number, laws)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ns
@@ -178,11 +169,11 @@ subroutine gbnumb(beam, ns, number, laws)
     double precision, intent(out) :: laws(4, ns + 1)
     type(handle_type), pointer :: handle
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     number = 0
     laws = 0.0d0
-    number(:ns) = handle%lowered%normal - 1
-    associate (s => handle%lowered%beam%supports)
+    number(:ns) = handle%beam%lowered%normal - 1
+    associate (s => handle%beam%lowered%beam%supports)
         laws(1, :ns) = s%contact
         laws(2, :ns) = s%force
         laws(3, :ns) = s%stiffness
@@ -193,7 +184,7 @@ end subroutine gbnumb
 ! What there is along a beam, in the scene's units
 subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, &
                   snode, level)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_units, only: rotation_unit, moment_unit
     use gapbeam_assembled_model, only: point_x, piece_length, stiffness_of, in_bending, in_shear
     use gapbeam_assemble_supports, only: contact_level
@@ -217,8 +208,8 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
     type(handle_type), pointer :: handle
     integer :: j, k
 
-    handle => handle_of(beam)
-    associate (lowered => handle%lowered, units => handle%lowered%units)
+    handle => behind(beam)
+    associate (lowered => handle%beam%lowered, units => handle%beam%lowered%units)
         xend = lowered%ends(ubound(lowered%ends, 1))
         do j = 0, np
             xpoint(j) = point_x(lowered, j)
@@ -249,8 +240,7 @@ end subroutine gbplac
 
 ! Another beam: the same with the laws of its supports as they have become
 subroutine gblaws(beam, ns, laws, copy, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_beam_handle, only: handle_type, handle_of, copy_handle
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, copy_beam, report
     use gapbeam_assemble_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
@@ -261,25 +251,20 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(laws) :: ns = shape(laws, 1)
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, other
     type(error_type), allocatable :: error
 
-    status = gapbeam_solved
-    message = " "
-    call copy_handle(beam, copy, error)
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
-    handle => handle_of(copy)
-    associate (s => handle%lowered%beam%supports)
+    handle => behind(beam)
+    call copy_beam(handle, other, error)
+    copy = number_of(other)
+    call report(error, status, message)
+    if (allocated(error)) return
+    associate (s => other%beam%lowered%beam%supports)
         s%contact = laws(1, :ns - 1)
         s%force = laws(2, :ns - 1)
         s%stiffness = laws(3, :ns - 1)
         s%before = laws(4, :ns - 1)
         s%passed = s%breakpoint > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
     end associate
-    handle%lowered%depends_on_path = depends_on_path(handle%lowered)
+    other%beam%lowered%depends_on_path = depends_on_path(other%beam%lowered)
 end subroutine gblaws

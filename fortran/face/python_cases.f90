@@ -2,8 +2,8 @@
 
 ! Condense the loads of a beam one by one, for GBCASE
 subroutine gbshar(beam, status)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind
+    use gapbeam_error, only: gapbeam_solved
     use gapbeam_cases, only: split_loads
     implicit none
     integer(8), intent(in) :: beam
@@ -12,38 +12,33 @@ subroutine gbshar(beam, status)
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     status = gapbeam_solved
-    if (allocated(handle%cases)) return
-    allocate (handle%cases)
-    call split_loads(handle%lowered, handle%cases, error)
+    if (allocated(handle%loads)) return
+    allocate (handle%loads)
+    call split_loads(handle%beam%lowered, handle%loads, error)
     if (.not. allocated(error)) return
-    deallocate (handle%cases)
+    deallocate (handle%loads)
     status = error%code
 end subroutine gbshar
 
 ! Room for cases, kept from call to call; calls at the same time need one each. 0 where memory ends
 subroutine gbroom(room)
-    use gapbeam_beam_handle, only: new_room
+    use gapbeam_python_handles, only: error_type, handle_type, number_of
+    use gapbeam_handles, only: new_handle, cases_tag
     implicit none
     integer(8), intent(out) :: room
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
 
-    call new_room(room)
+    call new_handle(cases_tag, handle, error)
+    room = number_of(handle)
 end subroutine gbroom
-
-! Free it
-subroutine gbleav(room)
-    use gapbeam_beam_handle, only: drop_room
-    implicit none
-    integer(8), intent(in) :: room
-
-    call drop_room(room)
-end subroutine gbleav
 
 ! Solve NC cases of loads; every load counts with its factor
 subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor, supp, span, rule, closed, w, ml, mr, react, &
                   solves, status)
-    use gapbeam_beam_handle, only: handle_type, handle_of, room_of
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: solve_cases
     implicit none
@@ -70,22 +65,12 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     ! Where memory ends all STATUS say so
     integer, intent(inout), target :: solves(nc), status(nc)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
-    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(supp) :: vc = shape(supp, 2)
-    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
-    !f2py integer, intent(hide), depend(span) :: pc = shape(span, 2)
-    !f2py integer, intent(hide), depend(w) :: nw = shape(w, 0)
-    !f2py integer, intent(hide), depend(ml) :: nl = shape(ml, 0)
-    !f2py integer, intent(hide), depend(mr) :: nr = shape(mr, 0)
-    !f2py integer, intent(hide), depend(react) :: nt = shape(react, 0)
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, kept
     type(case_numbers_type) :: numbers
     type(case_solutions_type) :: solutions
 
-    handle => handle_of(beam)
+    handle => behind(beam)
+    kept => behind(room)
     numbers%factors => factor
     numbers%rule = rule
     if (nv > 1) numbers%supports => supp
@@ -97,13 +82,13 @@ subroutine gbcase(beam, room, nw, nl, nr, nt, ns, nd, nv, np, nc, vc, pc, factor
     if (nt > 1) solutions%reaction => react
     solutions%solves => solves
     solutions%status => status
-    call solve_cases(handle%lowered, handle%cases, numbers, room_of(room), solutions)
+    call solve_cases(handle%beam%lowered, handle%loads, numbers, kept%cases%room, solutions)
 end subroutine gbcase
 
 ! Solve one case of a beam with loads, every search from all supports closed, at the least cost of a call
 subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_error, only: gapbeam_no_memory
-    use gapbeam_beam_handle, only: handle_type, handle_of, room_of
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: solve_cases
     implicit none
@@ -117,10 +102,7 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     ! -1 where a factor is not finite, and nothing was done
     integer, intent(out) :: status
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(block) :: nb = shape(block, 0)
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, kept
     type(case_numbers_type) :: numbers
     type(case_solutions_type) :: solutions
     integer, target :: solves(1), found(1)
@@ -129,9 +111,10 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
 
     status = -1
     if (.not. all(abs(factor) <= huge(1.0d0))) return
-    handle => handle_of(beam)
-    n = size(handle%lowered%beam%links) + 1
-    m = size(handle%lowered%beam%supports)
+    handle => behind(beam)
+    kept => behind(room)
+    n = size(handle%beam%lowered%beam%links) + 1
+    m = size(handle%beam%lowered%beam%supports)
     at = 3*n + 2
     status = gapbeam_no_memory
     allocate (closed(m, 1), stat=stat)
@@ -147,7 +130,7 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     solutions%reaction(1:m, 1:1) => block(at + 1:at + m)
     solutions%solves => solves
     solutions%status => found
-    call solve_cases(handle%lowered, handle%cases, numbers, room_of(room), solutions)
+    call solve_cases(handle%beam%lowered, handle%loads, numbers, kept%cases%room, solutions)
     status = found(1)
     block(1) = status
     block(2) = solves(1)

@@ -3,7 +3,7 @@
 ! Certify NC cases
 subroutine gbccrt(beam, nn, ns, nd, nv, np, nf, nc, factor, supp, span, modul, rule, given, closed, w, ml, mr, react, cert, known, &
                   status)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_case_certificates, only: certify_cases
     implicit none
@@ -24,19 +24,12 @@ subroutine gbccrt(beam, nn, ns, nd, nv, np, nf, nc, factor, supp, span, modul, r
     ! By GBCASE in; out otherwise where a case has no certificate. Where memory ends some say so
     integer, intent(inout), target :: status(nc)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
-    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
-    !f2py integer, intent(hide), depend(modul) :: nf = shape(modul, 0)
-    !f2py integer, intent(hide), depend(w) :: nn = shape(w, 0)
     type(handle_type), pointer :: handle
     type(case_numbers_type) :: numbers
     type(case_solutions_type) :: solutions
     logical :: has_position(nc)
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     numbers%factors => factor
     numbers%rule = rule
     if (nv > 1) numbers%supports => supp
@@ -50,6 +43,6 @@ subroutine gbccrt(beam, nn, ns, nd, nv, np, nf, nc, factor, supp, span, modul, r
         solutions%mr => mr
         solutions%reaction => react
     end if
-    call certify_cases(handle%lowered, handle%cases, numbers, solutions, cert, has_position)
+    call certify_cases(handle%beam%lowered, handle%loads, numbers, solutions, cert, has_position)
     known = merge(1, 0, has_position)
 end subroutine gbccrt

@@ -4,8 +4,8 @@
 subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
                   extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind
+    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block
@@ -37,14 +37,6 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     double precision, intent(out) :: extr(2, nq, nc), place(2, nq, nc), field(nq, nx, nc)
     integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
-    !f2py integer, intent(hide), depend(settle) :: nm = shape(settle, 0)
-    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
-    !f2py integer, intent(hide), depend(modul) :: nf = shape(modul, 0)
-    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
     type(handle_type), pointer :: handle
     type(combination_type) :: combined
     type(varied_type) :: varied
@@ -53,7 +45,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     double precision :: nan
     integer :: i, found(nc)
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     nan = ieee_value(nan, ieee_quiet_nan)
     value = nan
     extr = nan
@@ -61,14 +53,14 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     field = nan
     solves = 0
     found = 0
-    if (rule == rule_block .and. np == 1 .and. nf == 1 .and. fits_lanes(handle%lowered)) then
-        call find_contact_states(handle%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
+    if (rule == rule_block .and. np == 1 .and. nf == 1 .and. fits_lanes(handle%beam%lowered)) then
+        call find_contact_states(handle%beam%lowered, factor(:nd - 1, :), settle(:nm - 1, :), supp(:, :nv - 1, :), closed, found)
     end if
     do i = 1, nc
         if (nv > 1) varied%supports => supp(:, :nv - 1, i)
         if (np > 1) varied%spans => span(:, :np - 1, i)
         if (nf > 1) varied%moduli => modul(:nf - 1, i)
-        call combine(handle%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, varied)
+        call combine(handle%beam%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, varied)
         if (.not. allocated(error)) then
             call solve_combination(combined%assembled, rule, closed(:ns - 1, i) /= 0, state, error)
         end if

@@ -4,7 +4,7 @@
 ! Find the extremes of the fields of NC cases that GBCASE has solved, and the fields at NX places (one more than there are)
 subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, rule, closed, w, ml, mr, want, extr, place, piece, &
                   dist, field, status, there)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_lane_spans, only: fits_spans
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_case_extremes, only: case_fields_type, has_lane_extremes, extremes_of_cases
@@ -33,26 +33,17 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, 
     ! 0: not for such a beam, and nothing is done
     integer, intent(out) :: there
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
-    !f2py integer, intent(hide), depend(factor) :: nd = shape(factor, 0)
-    !f2py integer, intent(hide), depend(factor) :: nc = shape(factor, 1)
-    !f2py integer, intent(hide), depend(supp) :: nv = shape(supp, 1)
-    !f2py integer, intent(hide), depend(span) :: np = shape(span, 1)
-    !f2py integer, intent(hide), depend(span) :: pc = shape(span, 2)
-    !f2py integer, intent(hide), depend(want) :: nb = shape(want, 0)
-    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
-    !f2py integer, intent(hide), depend(w) :: nl = shape(w, 0) - 1
     type(handle_type), pointer :: handle
     type(case_numbers_type) :: numbers
     type(case_solutions_type) :: solutions
     type(case_fields_type) :: found
 
-    handle => handle_of(beam)
-    there = merge(1, 0, allocated(handle%cases))
+    handle => behind(beam)
+    there = merge(1, 0, allocated(handle%loads))
     if (there == 0) return
-    if (.not. has_lane_extremes(handle%lowered)) there = 0
+    if (.not. has_lane_extremes(handle%beam%lowered)) there = 0
     if (np > 1) then
-        if (.not. fits_spans(handle%lowered, handle%cases)) there = 0
+        if (.not. fits_spans(handle%beam%lowered, handle%loads)) there = 0
     end if
     if (there == 0 .or. nc == 0) return
     numbers%factors => factor
@@ -67,5 +58,5 @@ subroutine gbcext(beam, nl, ns, nd, nv, np, nc, pc, nx, nb, factor, supp, span, 
     found%extremes => extr
     found%places => place
     found%fields => field
-    call extremes_of_cases(handle%lowered, handle%cases, numbers, solutions, want /= 0, piece(:nx - 1), dist(:nx - 1), found)
+    call extremes_of_cases(handle%beam%lowered, handle%loads, numbers, solutions, want /= 0, piece(:nx - 1), dist(:nx - 1), found)
 end subroutine gbcext

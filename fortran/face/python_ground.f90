@@ -2,8 +2,8 @@
 
 ! Follow the load from factor 0 to 1
 subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_error, only: gapbeam_solved
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_ground_path, only: follow_on_ground
     implicit none
@@ -23,21 +23,20 @@ subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, messa
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     type(handle_type), pointer :: handle
     type(state_type) :: state
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     sizes = 0
     ends = 0.0d0
     motion = 0.0d0
     if (allocated(handle%ground_path)) deallocate (handle%ground_path)
     allocate (handle%ground_path)
-    call new_state(handle%lowered, state, error)
+    call new_state(handle%beam%lowered, state, error)
     if (.not. allocated(error)) then
         state%closed(:) = closed(:ns) /= 0
-        call follow_on_ground(handle%lowered, 1.0d0, rule, state, handle%ground_path, error)
+        call follow_on_ground(handle%beam%lowered, 1.0d0, rule, state, handle%ground_path, error)
     end if
     call report(error, status, message)
     if (allocated(error)) return
@@ -51,7 +50,7 @@ end subroutine gbgpth
 
 ! The events and segments of a path that GBGPTH found, which is freed with that
 subroutine gbgpte(beam, ns, ne, nk, at, which, from, closed)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     implicit none
     integer(8), intent(in) :: beam
     ! Supports of the engine, events, segments, one more than there are
@@ -65,7 +64,7 @@ subroutine gbgpte(beam, ns, ne, nk, at, which, from, closed)
     type(handle_type), pointer :: handle
     integer :: k
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     at = 0.0d0
     which = 0
     from = 0.0d0
@@ -87,30 +86,41 @@ end subroutine gbgpte
 
 ! What is in the stretches of a state on the ground
 subroutine gbgget(state, ng, ny, values, bounds, resid)
-    use gapbeam_state_handle, only: state_handle_type, state_of, pack_ground
+    use gapbeam_python_handles, only: handle_type, behind
     implicit none
     ! From GBSOLV; stretches, and most layers
     integer(8), intent(in) :: state
     integer, intent(in) :: ng, ny
-    ! As for pack_ground, in the engine's units
+    ! A column a stretch, in the engine's units: piece; distances of the ends from its left end, length; moduli; loads qa, qb, qc,
+    ! kappa; deflections, moments, rotations, shears of the ends, slope; of every layer the force up, and the piece of its law on
+    ! which it acts (0: none)
     double precision, intent(out) :: values(19 + 2*ny, ng)
     ! Bounds of the errors of deflection, rotation, moment, shear and reactions; residuals of compatibility, equilibrium,
     ! complementarity
     double precision, intent(out) :: bounds(5), resid(3)
     !f2py threadsafe
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: solved
+    integer :: i
 
-    solved => state_of(state)
-    call pack_ground(solved%state%ground, values)
-    bounds = solved%state%ground%bounds
-    resid = solved%state%ground%residuals
+    solved => behind(state)
+    associate (ground => solved%result%state%ground)
+        do i = 1, ng
+            associate (s => ground%stretches(i), q => ground%loads(i), e => ground%ends(i))
+                values(:19, i) = [dble(ground%piece(i)), ground%from(i), ground%to(i), s%length, s%modulus_a, s%modulus_b, q%qa, &
+                                  q%qb, q%qc, q%kappa, e%w_a, e%w_b, e%moment_a, e%moment_b, ground%rotation(:, i), &
+                                  ground%shear(:, i), ground%slope(i)]
+            end associate
+            values(20:19 + ny, i) = ground%resultant(:, i)
+            values(20 + ny:, i) = ground%acts(:, i)
+        end do
+        bounds = ground%bounds
+        resid = ground%residuals
+    end associate
 end subroutine gbgget
 
 ! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
 subroutine gbgrun(beam, state, ng, ny, number, about, values, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_ground_zones, only: run_type, ground_runs
     implicit none
     integer(8), intent(in) :: beam, state
@@ -125,18 +135,17 @@ subroutine gbgrun(beam, state, ng, ny, number, about, values, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: handle, solved
     type(run_type), allocatable :: runs(:)
     type(error_type), allocatable :: error
     integer :: i
 
-    handle => handle_of(beam)
-    solved => state_of(state)
+    handle => behind(beam)
+    solved => behind(state)
     number = 0
     about = 0
     values = 0.0d0
-    call ground_runs(handle%lowered, solved%state%ground, runs, error)
+    call ground_runs(handle%beam%lowered, solved%result%state%ground, runs, error)
     call report(error, status, message)
     if (allocated(error)) return
     number = size(runs)
@@ -150,9 +159,7 @@ end subroutine gbgrun
 
 ! How the zones of contact of a state become those of another one of the same ground under other loads
 subroutine gbgdif(most, beam, state, other, after, same, number, which, x, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_ground_changes, only: zone_type, zone_change_type, find_zones, same_zones, compare_zones
     implicit none
     ! Changes that there is room for, one more
@@ -169,8 +176,7 @@ subroutine gbgdif(most, beam, state, other, after, same, number, which, x, statu
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: handle, solved
     type(zone_type), allocatable :: zones(:), zones_after(:)
     type(zone_change_type), allocatable :: changes(:)
     type(error_type), allocatable :: error
@@ -180,13 +186,13 @@ subroutine gbgdif(most, beam, state, other, after, same, number, which, x, statu
     number = 0
     which = 0
     x = 0.0d0
-    handle => handle_of(beam)
-    solved => state_of(state)
-    call find_zones(handle%lowered, solved%state%ground, zones, error)
+    handle => behind(beam)
+    solved => behind(state)
+    call find_zones(handle%beam%lowered, solved%result%state%ground, zones, error)
     if (.not. allocated(error)) then
-        handle => handle_of(other)
-        solved => state_of(after)
-        call find_zones(handle%lowered, solved%state%ground, zones_after, error)
+        handle => behind(other)
+        solved => behind(after)
+        call find_zones(handle%beam%lowered, solved%result%state%ground, zones_after, error)
     end if
     call report(error, status, message)
     if (allocated(error)) return

@@ -3,8 +3,7 @@
 ! Follow the load from a factor to LIMIT, from event to event
 subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &
                   message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_memory, only: for_following
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: reserve_for
@@ -29,14 +28,13 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     integer, intent(out) :: solves, nodes, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
     type(handle_type), pointer :: handle
     type(path_type) :: path
     type(outcome_type) :: outcome
     type(error_type), allocatable :: error
     logical, allocatable :: acting(:), zero(:)
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     events = 0
     at = 0.0d0
     which = 0
@@ -44,7 +42,7 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     motion = 0.0d0
     solves = 0
     nodes = 0
-    associate (lowered => handle%lowered)
+    associate (lowered => handle%beam%lowered)
         call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
         if (.not. allocated(error)) then
             allocate (acting(ns), zero(ns))
@@ -70,8 +68,7 @@ end subroutine gbpath
 
 ! Follow the load through factors in turn, by the path itself
 subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_history, only: follow_history
     use gapbeam_state, only: name_range
     implicit none
@@ -85,30 +82,26 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
     integer, intent(out) :: sizes(5), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(factor) :: nf = shape(factor, 0)
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     sizes = 0
-    status = gapbeam_solved
-    message = " "
     if (allocated(handle%history)) deallocate (handle%history)
     allocate (handle%history)
-    call follow_history(handle%lowered, factor, limit, most, handle%history, error)
-    call name_range(handle%lowered, error)
-    if (allocated(error)) then
-        status = error%code
-        message = error%message
-        return
-    end if
-    sizes = [handle%history%number, size(handle%history%limits), size(handle%history%others), handle%history%ending, &
-             handle%history%solves]
+    allocate (handle%history%path)
+    call follow_history(handle%beam%lowered, factor, limit, most, handle%history%path, error)
+    call name_range(handle%beam%lowered, error)
+    call report(error, status, message)
+    if (allocated(error)) return
+    associate (path => handle%history%path)
+        sizes = [path%number, size(path%limits), size(path%others), path%ending, path%solves]
+    end associate
 end subroutine gbhist
 
 ! What GBHIST found
 subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors, which, motion, others, scheme)
-    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_history, only: laws_at
     use gapbeam_polyline, only: node_support_type
     implicit none
@@ -133,7 +126,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
     type(node_support_type), allocatable :: now(:)
     integer :: k
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     along = 0.0d0
     about = 0
     closed = int(0, kind(closed))
@@ -141,13 +134,13 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
     factors = 0.0d0
     which = 0
     motion = 0.0d0
-    if (allocated(handle%history%motion)) motion = handle%history%motion
+    if (allocated(handle%history%path%motion)) motion = handle%history%path%motion
     do k = 1, nh - 1
-        associate (s => handle%history%stretches(k))
+        associate (s => handle%history%path%stretches(k))
             along(:, k) = [s%from, s%to]
             about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped)]
             closed(:ns - 1, k) = int(merge(1, 0, s%closed), kind(closed))
-            now = laws_at(handle%lowered, s)
+            now = laws_at(handle%beam%lowered, s)
             laws(1, :ns - 1, k) = now%contact
             laws(2, :ns - 1, k) = now%force
             laws(3, :ns - 1, k) = now%stiffness
@@ -155,7 +148,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
         end associate
     end do
     do k = 1, nk - 1
-        associate (limit => handle%history%limits(k))
+        associate (limit => handle%history%path%limits(k))
             factors(k) = limit%factor
             which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
         end associate
@@ -163,7 +156,7 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
     others = 0
     scheme = int(0, kind(scheme))
     do k = 1, nw - 1
-        associate (way => handle%history%others(k))
+        associate (way => handle%history%path%others(k))
             others(:, k) = [way%stretch, way%direction, way%index]
             scheme(:ns - 1, k) = int(merge(1, 0, way%closed), kind(scheme))
         end associate

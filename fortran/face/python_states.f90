@@ -1,11 +1,10 @@
 ! Single states for Python, in the manner of face/python.f90, which says what the arguments are. STATE is the handle of a solved
-! state, FIELDS that of its fields at the pieces (gapbeam_state_handle)
+! state, FIELDS that of its fields at the pieces
 
 ! Find the contact state at one load factor and solve it
 subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, counts, state, status, message)
-    use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, solve_and_keep, state_of
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_state, report
+    use gapbeam_error, only: gapbeam_solved
     use gapbeam_support_values, only: support_values
     implicit none
     integer(8), intent(in) :: beam
@@ -30,36 +29,34 @@ subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, cou
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0) - 1
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: handle, solved
     type(error_type), allocatable :: error
     integer, allocatable :: conditions(:)
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     undec = 0
     values = 0.0d0
     counts = 0
-    call solve_and_keep(handle%lowered, factor, rule, onlaws /= 0, closed(:ns) /= 0, state, error)
+    call keep_state(handle, factor, rule, onlaws /= 0, closed(:ns) /= 0, solved, error)
+    state = number_of(solved)
     call report(error, status, message)
     if (allocated(error)) return
-    solved => state_of(state)
-    associate (s => solved%state)
+    associate (s => solved%result%state)
         status = s%status
         counts(:5) = [s%solves, s%method, merge(1, 0, s%indifferent), merge(1, 0, s%cycled), merge(1, 0, s%slides)]
         if (status /= gapbeam_solved) return
         closed(:ns) = merge(1, 0, s%closed)
         undec(:ns) = merge(1, 0, s%undecided)
         allocate (conditions(nm))
-        call support_values(handle%lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
+        call support_values(handle%beam%lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
         if (allocated(s%ground)) counts(6:7) = shape(transpose(s%ground%acts))
     end associate
 end subroutine gbsolv
 
 ! The numbers of a state
 subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_error, only: gapbeam_solved
-    use gapbeam_state_handle, only: state_handle_type, state_of
     implicit none
     integer(8), intent(in) :: state
     integer, intent(in) :: nl, ns, nb
@@ -70,7 +67,7 @@ subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
     ! Displacements of the axial system's points and forces in its bars
     double precision, intent(out) :: u(0:nb), pull(nb + 1)
     !f2py threadsafe
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: solved
 
     w = 0.0d0
     ml = 0.0d0
@@ -80,8 +77,8 @@ subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
     motion = 0.0d0
     u = 0.0d0
     pull = 0.0d0
-    solved => state_of(state)
-    associate (s => solved%state)
+    solved => behind(state)
+    associate (s => solved%result%state)
         if (allocated(s%motion)) motion = s%motion
         if (s%status /= gapbeam_solved) return
         w = s%deflection
@@ -94,20 +91,9 @@ subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
     end associate
 end subroutine gbsget
 
-! Free a state
-subroutine gbsdro(state)
-    use gapbeam_state_handle, only: drop_state
-    implicit none
-    integer(8), intent(in) :: state
-
-    call drop_state(state)
-end subroutine gbsdro
-
 ! Check a solved state
 subroutine gbcert(beam, state, residu, bound, known, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_certificate, only: certificate_type
     use gapbeam_state, only: certify_state
     implicit none
@@ -120,17 +106,16 @@ subroutine gbcert(beam, state, residu, bound, known, status, message)
     integer, intent(out) :: known, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: handle, solved
     type(certificate_type) :: found
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    solved => state_of(state)
+    handle => behind(beam)
+    solved => behind(state)
     residu = 0.0d0
     bound = 0.0d0
     known = 0
-    call certify_state(handle%lowered, solved%state, found, error)
+    call certify_state(handle%beam%lowered, solved%result%state, found, error)
     call report(error, status, message)
     if (allocated(error)) return
     residu = [found%compatibility, found%equilibrium, found%complementarity]
@@ -140,9 +125,7 @@ end subroutine gbcert
 
 ! Recover the fields at the pieces
 subroutine gbreco(beam, state, fields, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of, recover_and_keep
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_fields, report
     implicit none
     integer(8), intent(in) :: beam, state
     ! 0 where there is an error
@@ -150,29 +133,19 @@ subroutine gbreco(beam, state, fields, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
+    type(handle_type), pointer :: handle, solved, recovered
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    solved => state_of(state)
-    call recover_and_keep(handle%lowered, solved%state, fields, error)
+    handle => behind(beam)
+    solved => behind(state)
+    call keep_fields(handle, solved, recovered, error)
+    fields = number_of(recovered)
     call report(error, status, message)
 end subroutine gbreco
 
-! Free them
-subroutine gbfdro(fields)
-    use gapbeam_state_handle, only: drop_fields
-    implicit none
-    integer(8), intent(in) :: fields
-
-    call drop_fields(fields)
-end subroutine gbfdro
-
 ! Fields at NX places of the scene, in its units; where they jump right (LEFT = 0) or left of the place
 subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_query, only: find_pieces
     implicit none
     integer(8), intent(in) :: beam
@@ -185,16 +158,15 @@ subroutine gbfind(beam, nx, x, left, piece, dist, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(x) :: nx = shape(x, 0)
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
     integer, allocatable :: pieces(:)
     double precision, allocatable :: distances(:)
 
-    handle => handle_of(beam)
+    handle => behind(beam)
     piece = 0
     dist = 0.0d0
-    call find_pieces(handle%lowered, x, left /= 0, pieces, distances, error)
+    call find_pieces(handle%beam%lowered, x, left /= 0, pieces, distances, error)
     call report(error, status, message)
     if (allocated(error)) return
     piece = pieces
@@ -203,9 +175,7 @@ end subroutine gbfind
 
 ! Quantities at distances from the left ends of pieces, in the scene's units
 subroutine gbvalu(beam, state, fields, nq, nx, which, piece, dist, value, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_query, only: fields_in_pieces
     implicit none
     integer(8), intent(in) :: beam, state, fields
@@ -217,29 +187,23 @@ subroutine gbvalu(beam, state, fields, nq, nx, which, piece, dist, value, status
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(which) :: nq = shape(which, 0)
-    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
-    type(fields_handle_type), pointer :: recovered
+    type(handle_type), pointer :: handle, solved, recovered
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    solved => state_of(state)
-    recovered => fields_of(fields)
+    handle => behind(beam)
+    solved => behind(state)
+    recovered => behind(fields)
     value = 0.0d0
-    associate (s => solved%state)
-        call fields_in_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, piece, dist, value, &
-                              error, s%ground)
+    associate (s => solved%result%state)
+        call fields_in_pieces(handle%beam%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, piece, dist, &
+                              value, error, s%ground)
     end associate
     call report(error, status, message)
 end subroutine gbvalu
 
 ! Maximum and minimum of quantities and their places, in the scene's units; WHICH as for GBVALU
 subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_query, only: extremes_of_pieces
     implicit none
     integer(8), intent(in) :: beam, state, fields
@@ -249,45 +213,39 @@ subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(which) :: nq = shape(which, 0)
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
-    type(fields_handle_type), pointer :: recovered
+    type(handle_type), pointer :: handle, solved, recovered
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    solved => state_of(state)
-    recovered => fields_of(fields)
+    handle => behind(beam)
+    solved => behind(state)
+    recovered => behind(fields)
     value = 0.0d0
     x = 0.0d0
-    associate (s => solved%state)
-        call extremes_of_pieces(handle%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, value, x, error, &
-                                s%ground)
+    associate (s => solved%result%state)
+        call extremes_of_pieces(handle%beam%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, value, x, &
+                                error, s%ground)
     end associate
     call report(error, status, message)
 end subroutine gbextr
 
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)
+    use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_fields, only: find_extremes
     use gapbeam_quantities, only: bending_count, bounded_count
-    use gapbeam_beam_handle, only: handle_type, handle_of
-    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
     implicit none
     integer(8), intent(in) :: beam, state, fields
     double precision, intent(out) :: value(4)
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(state_handle_type), pointer :: solved
-    type(fields_handle_type), pointer :: recovered
+    type(handle_type), pointer :: handle, solved, recovered
     double precision :: found(2, bending_count), distance(2, bending_count)
     integer :: piece(2, bending_count)
 
-    handle => handle_of(beam)
-    solved => state_of(state)
-    recovered => fields_of(fields)
-    associate (lowered => handle%lowered)
-        call find_extremes(lowered%pieces, lowered%dead, lowered%live, solved%state%factor, recovered%starts, found, piece, &
+    handle => behind(beam)
+    solved => behind(state)
+    recovered => behind(fields)
+    associate (lowered => handle%beam%lowered)
+        call find_extremes(lowered%pieces, lowered%dead, lowered%live, solved%result%state%factor, recovered%starts, found, piece, &
                            distance)
     end associate
     value = maxval(abs(found(:, :bounded_count)), 1)

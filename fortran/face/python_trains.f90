@@ -5,9 +5,7 @@
 
 ! Move a train over a beam
 subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, sizes, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_train_handle, only: new_train
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_train, report
     implicit none
     integer(8), intent(in) :: beam
     ! Axles; uniform loads and one more
@@ -24,28 +22,23 @@ subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, s
     integer, intent(out) :: sizes(4), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(offset) :: na = shape(offset, 0)
-    !f2py integer, intent(hide), depend(uniform) :: nu = shape(uniform, 1)
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, passing
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    call new_train(handle%lowered, offset, force, uniform(:, :nu - 1), from, to, back /= 0, train, sizes, error)
+    handle => behind(beam)
+    sizes = 0
+    call keep_train(handle%beam%lowered, offset, force, uniform(:, :nu - 1), from, to, back /= 0, passing, error)
+    train = number_of(passing)
     call report(error, status, message)
+    if (allocated(error)) return
+    associate (passage => passing%passing%passage)
+        sizes = [passage%number, size(passage%motion, 2), size(passing%passing%events), passage%solves]
+    end associate
 end subroutine gbtmak
-
-! Free a train
-subroutine gbtdro(train)
-    use gapbeam_train_handle, only: drop_train
-    implicit none
-    integer(8), intent(in) :: train
-
-    call drop_train(train)
-end subroutine gbtdro
 
 ! The way of a train: stretches, motions and events
 subroutine gbtget(train, ns, nl, nt, nk, ne, ends, codes, closed, motion, place, events)
-    use gapbeam_train_handle, only: train_handle_type, train_of
+    use gapbeam_python_handles, only: handle_type, behind
     implicit none
     integer(8), intent(in) :: train
     ! Supports of the engine, stretches, motions, events: one more than there are; links
@@ -61,34 +54,34 @@ subroutine gbtget(train, ns, nl, nt, nk, ne, ends, codes, closed, motion, place,
     ! Of every event the position of the train; number of the support, from 0, what it is then, what happens (gapbeam_pieces)
     double precision, intent(out) :: place(ne)
     integer, intent(out) :: events(3, ne)
-    type(train_handle_type), pointer :: handle
+    type(handle_type), pointer :: handle
     integer :: k
 
-    handle => train_of(train)
+    handle => behind(train)
     ends = 0.0d0
     codes = 0
     closed = int(0, kind(closed))
     motion = 0.0d0
     place = 0.0d0
     events = 0
-    do k = 1, nt - 1
-        ends(:, k) = [handle%passage%from(k), handle%passage%to(k)]
-        codes(:, k) = [handle%passage%status(k), handle%passage%motion_of(k)]
-        closed(:ns - 1, k) = int(merge(1, 0, handle%passage%closed(:, k)), kind(closed))
-    end do
-    motion(:, :nk - 1) = handle%passage%motion
-    do k = 1, ne - 1
-        place(k) = handle%events(k)%position
-        events(:, k) = [handle%events(k)%support - 1, handle%events(k)%state, handle%events(k)%change]
-    end do
+    associate (passage => handle%passing%passage, list => handle%passing%events)
+        do k = 1, nt - 1
+            ends(:, k) = [passage%from(k), passage%to(k)]
+            codes(:, k) = [passage%status(k), passage%motion_of(k)]
+            closed(:ns - 1, k) = int(merge(1, 0, passage%closed(:, k)), kind(closed))
+        end do
+        motion(:, :nk - 1) = passage%motion
+        do k = 1, ne - 1
+            place(k) = list(k)%position
+            events(:, k) = [list(k)%support - 1, list(k)%state, list(k)%change]
+        end do
+    end associate
 end subroutine gbtget
 
 ! Extremes while a train goes over a beam
 subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports, support_sides, support_ties, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report, pack_extremes
     use gapbeam_train, only: track_type
-    use gapbeam_train_handle, only: train_handle_type, train_of, pack_extremes
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     implicit none
     integer(8), intent(in) :: beam, train
@@ -103,15 +96,14 @@ subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports
     integer, intent(out) :: support_sides(16, 2, 4, nm), support_ties(2, 4, nm), status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
-    type(train_handle_type), pointer :: passing
+    type(handle_type), pointer :: handle, passing
     type(envelope_type) :: envelope
     type(track_type) :: track
     type(error_type), allocatable :: error
     integer :: k
 
-    handle => handle_of(beam)
-    passing => train_of(train)
+    handle => behind(beam)
+    passing => behind(train)
     supports = 0.0d0
     support_sides = 0
     support_ties = 0
@@ -119,8 +111,10 @@ subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports
     field_sides = 0
     field_ties = 0
     ! Another thread may ask the same train
-    track = passing%track
-    call find_envelope(handle%lowered, track, passing%train, passing%passage, envelope, error)
+    associate (p => passing%passing)
+        track = p%track
+        call find_envelope(handle%beam%lowered, track, p%train, p%passage, envelope, error)
+    end associate
     call report(error, status, message)
     if (allocated(error)) return
     call pack_extremes(envelope%fields, fields, field_sides, field_ties)
@@ -132,10 +126,8 @@ end subroutine gbtenv
 
 ! Largest and smallest values at places of the beam while a train goes over it
 subroutine gbtcur(beam, train, nx, nb, piece, dist, value, position, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_train, only: track_type
-    use gapbeam_train_handle, only: train_handle_type, train_of
     use gapbeam_train_curves, only: find_curves
     implicit none
     integer(8), intent(in) :: beam, train
@@ -149,25 +141,23 @@ subroutine gbtcur(beam, train, nx, nb, piece, dist, value, position, status, mes
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(piece) :: nx = shape(piece, 0)
-    type(handle_type), pointer :: handle
-    type(train_handle_type), pointer :: passing
+    type(handle_type), pointer :: handle, passing
     type(track_type) :: track
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    passing => train_of(train)
+    handle => behind(beam)
+    passing => behind(train)
     ! Another thread may ask the same train
-    track = passing%track
-    call find_curves(handle%lowered, track, passing%train, passing%passage, piece, dist, value, position, error)
+    associate (p => passing%passing)
+        track = p%track
+        call find_curves(handle%beam%lowered, track, p%train, p%passage, piece, dist, value, position, error)
+    end associate
     call report(error, status, message)
 end subroutine gbtcur
 
 ! Influence lines of a scheme at a place of the beam
 subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, value, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_train_handle, only: train_handle_type, train_of
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_train_influence, only: find_influence
     implicit none
     integer(8), intent(in) :: beam, train
@@ -185,16 +175,13 @@ subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, v
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    !f2py integer, intent(hide), depend(chosen) :: nm = shape(chosen, 0)
-    !f2py integer, intent(hide), depend(x) :: nx = shape(x, 0)
-    type(handle_type), pointer :: handle
-    type(train_handle_type), pointer :: passing
+    type(handle_type), pointer :: handle, passing
     type(error_type), allocatable :: error
 
-    handle => handle_of(beam)
-    passing => train_of(train)
+    handle => behind(beam)
+    passing => behind(train)
     value = 0.0d0
-    call find_influence(handle%lowered, passing%track, closed(:ns - 1) /= 0, chosen(:nm - 1) /= 0, piece, dist, x, value, error)
+    call find_influence(handle%beam%lowered, passing%passing%track, closed(:ns - 1) /= 0, chosen(:nm - 1) /= 0, piece, dist, x, &
+                        value, error)
     call report(error, status, message)
 end subroutine gbtinf

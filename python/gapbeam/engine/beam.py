@@ -94,7 +94,7 @@ class Beam(Layout):
     def _take(self, handle: int) -> None:
         """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
-        self.rooms: list[_engine.Room] = []
+        self.rooms: list[_engine.Owned] = []
         self.spare: list[np.ndarray] = []
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
@@ -207,7 +207,7 @@ class Beam(Layout):
             state,
         )  # fmt: skip
 
-    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: bool) -> _engine.StateHandle:
+    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: bool) -> _engine.Owned:
         """Solve a state once more.
 
         Parameters
@@ -217,7 +217,7 @@ class Beam(Layout):
 
         Returns
         -------
-        StateHandle
+        Owned
 
         Raises
         ------

@@ -169,13 +169,12 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 
 
 class Owned(int):
-    """A number by which the compiled layer knows something, which is freed with the last reference to the number."""
+    """A number by which the compiled layer knows an object: a beam, room for its cases, a state, the fields of one, a train.
 
-    _drop: Callable
+    The object is freed with the last reference to the number; calls that go on after Ctrl-C keep theirs.
+    """
 
-    def __init_subclass__(cls, drop: Callable) -> None:
-        """Take the routine that frees one."""
-        cls._drop = staticmethod(drop)
+    _drop = staticmethod(_engine.gbdrop)
 
     def __del__(self, again: Callable = interrupt_main) -> None:
         """Free it, also when Python ends and modules are gone; a Ctrl-C that comes just here is not lost."""
@@ -186,10 +185,8 @@ class Owned(int):
             again()
 
 
-class Handle(Owned, drop=_engine.gbdrop):
-    """A beam in the compiled layer, which is freed with the last reference to this number.
-
-    Calls that go on after Ctrl-C keep theirs.
+class Handle(Owned):
+    """A beam.
 
     Attributes
     ----------
@@ -198,26 +195,6 @@ class Handle(Owned, drop=_engine.gbdrop):
     """
 
     has_curves = False
-
-
-class Room(Owned, drop=_engine.gbleav):
-    """What cases of a beam need in the compiled layer, which is freed with the last reference to this number.
-
-    Calls at the same time need one each.
-    """
-
-
-class StateHandle(Owned, drop=_engine.gbsdro):
-    """A solved state in the compiled layer, which is freed with the last reference to this number."""
-
-
-class FieldsHandle(Owned, drop=_engine.gbfdro):
-    """The fields of a state at the pieces, in the compiled layer; freed with the last reference to this number."""
-
-
-class TrainHandle(Owned, drop=_engine.gbtdro):
-    """A train in the compiled layer, which is freed with the last reference to this number."""
-
 
 
 def parts(count: int) -> Iterator[slice]:
@@ -250,12 +227,12 @@ def _on_ground(beam: Handle, stretches: int) -> int:
 def _solve(beam: Handle, links: int, *about: Any) -> tuple:
     """Solve one state, which is freed even where nobody waits for it any more."""
     *found, state, status, message = _engine.gbsolv(beam, *about)
-    return *found, StateHandle(state), status, message
+    return *found, Owned(state), status, message
 
 
-def _recover(beam: Handle, pieces: int, state: StateHandle) -> tuple:
+def _recover(beam: Handle, pieces: int, state: Owned) -> tuple:
     fields, status, message = _engine.gbreco(beam, state)
-    return FieldsHandle(fields), status, message
+    return Owned(fields), status, message
 
 
 gbsize = _engine.gbsize
@@ -311,7 +288,7 @@ _long_cases = interruptible(_engine.gbcase)
 
 
 def gbcase(
-    beam: Handle, room: Room, factors: np.ndarray, supports: np.ndarray, spans: np.ndarray, rule: int, *results: np.ndarray
+    beam: Handle, room: Owned, factors: np.ndarray, supports: np.ndarray, spans: np.ndarray, rule: int, *results: np.ndarray
 ) -> None:
     """Solve load cases, so many at a time that each call is a short one.
 

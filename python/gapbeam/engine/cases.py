@@ -30,7 +30,7 @@ def split_loads(beam: Beam) -> None:
     check_status(_engine.gbshar(beam.handle, beam.pieces + beam.columns.load.shape[1]))
 
 
-def _room(beam: Beam) -> _engine.Room:
+def _room(beam: Beam) -> _engine.Owned:
     """Take a room that is not in use, or a new one."""
     try:
         return beam.rooms.pop()
@@ -38,7 +38,7 @@ def _room(beam: Beam) -> _engine.Room:
         address = _engine.gbroom()
         if not address:
             check_status(Status.NO_MEMORY)
-        return _engine.Room(address)
+        return _engine.Owned(address)
 
 
 def solve_cases(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .beam import Beam
 
 GROUND_ROWS = 19
-"""Rows of `Ground.values` beside those of the layers, as in gapbeam_state_handle."""
+"""Rows of `Ground.values` beside those of the layers, as GBGGET has them."""
 ON_DEMAND = ("deflection", "moment_left", "moment_right", "shear", "reaction", "motion", "displacement", "tension")
 """Arrays of a state that come out of the compiled layer where they are asked for, in the order of GBSGET."""
 ALL = np.array(list(NUMBERS.values()), dtype=np.int32)
@@ -42,13 +42,13 @@ class State:
         Of a beam on the ground its stretches, and most layers under one of them; else 0.
     on_laws : bool
         Whether it is on the smooth laws themselves.
-    handle : StateHandle, optional
+    handle : Owned, optional
         Of the state.
     """
 
     def __init__(
         self, beam: Beam, factor: float, code: int, start: np.ndarray, stretches: int, layers: int,
-        on_laws: bool, handle: _engine.StateHandle | None = None,
+        on_laws: bool, handle: _engine.Owned | None = None,
     ):  # fmt: skip
         self.beam, self.factor, self.code, self.start = beam, factor, code, read_only(start)
         self.stretches, self.layers, self.on_laws = stretches, layers, on_laws
@@ -60,7 +60,7 @@ class State:
         return type(self), (self.beam, self.factor, self.code, self.start, self.stretches, self.layers, self.on_laws)
 
     @cached_property
-    def handle(self) -> _engine.StateHandle:
+    def handle(self) -> _engine.Owned:
         """Its number in the compiled layer."""
         return self.beam.solve_again(self.factor, self.code, self.start, self.on_laws)
 
@@ -73,7 +73,7 @@ class State:
         return read_only(found)
 
     @cached_property
-    def fields(self) -> _engine.FieldsHandle:
+    def fields(self) -> _engine.Owned:
         """Its fields at the pieces, in the compiled layer; EngineError where one left the range of doubles."""
         fields, status, message = _engine.gbreco(self.beam.handle, self.beam.pieces, self.handle)
         check_status(status, message)

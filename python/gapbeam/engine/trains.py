@@ -83,7 +83,7 @@ class Traversal:
             beam.handle, offset, force, np.vstack((uniform, np.zeros(3))).T, from_, to, int(backwards)
         )
         check_status(status, message)
-        self._handle = _engine.TrainHandle(handle)
+        self._handle = _engine.Owned(handle)
         stretches, motions, events, self.solves = sizes.tolist()
         ends, codes, closed, motion, position, what = _engine.gbtget(
             handle, beam.supports + 1, beam.links, stretches + 1, motions + 1, events + 1

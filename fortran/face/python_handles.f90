@@ -1,0 +1,239 @@
+!> Objects behind handles, made for Python. But for the beam nothing is written to them once they are made, so that threads may
+!> share them
+module gapbeam_python_handles
+    use, intrinsic :: iso_fortran_env, only: int64
+    use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_funloc, c_f_pointer, c_null_ptr
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_watch, only: begin_watch
+    use gapbeam_scene, only: model_type
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble, only: assemble_model
+    use gapbeam_state, only: solve_state
+    use gapbeam_smooth_state, only: solve_on_laws
+    use gapbeam_query, only: find_starts
+    use gapbeam_train, only: uniform_type, new_track
+    use gapbeam_train_path, only: pass_train
+    use gapbeam_train_events, only: find_events
+    use gapbeam_train_ties, only: extreme_type
+    use gapbeam_api_objects, only: make_state
+    use gapbeam_handles, only: handle_type, beam_tag, state_tag, fields_tag, passing_tag, new_handle, finish_handle, &
+        number_of, address_numbered
+    implicit none
+    private
+    public :: error_type, handle_type, number_of, behind, keep_beam, copy_beam, keep_state, keep_fields, keep_train
+    public :: listen, report, pack_extremes
+
+    interface
+        !> Let Python see to signals that have come, in its main thread; not 0 where what it did then is an exception
+        function hear_signals(thread) result(raised) bind(c, name="gb_hear_signals")
+            import :: c_int, c_ptr
+            implicit none
+            type(c_ptr), intent(in), value :: thread
+            integer(c_int) :: raised
+        end function hear_signals
+    end interface
+
+contains
+
+    !> What a handle stands for; Python has none but its own
+    function behind(number) result(handle)
+        integer(int64), intent(in) :: number
+        type(handle_type), pointer :: handle
+
+        call c_f_pointer(address_numbered(number), handle)
+    end function behind
+
+    !> From now on calls with a beam end where Python hears a signal that raises an exception; what was ended goes on
+    subroutine listen(handle, thread)
+        type(handle_type), intent(inout) :: handle
+        !> Python's main thread, by its number
+        integer(int64), intent(in) :: thread
+
+        handle%thread = thread
+        call begin_watch(handle%watch, c_funloc(hear_signals), transfer(thread, c_null_ptr), real(huge(thread), wp))
+    end subroutine listen
+
+    !> Assemble a model and keep it
+    subroutine keep_beam(model, handle, error)
+        !> Moved away
+        type(model_type), intent(inout) :: model
+        type(handle_type), pointer, intent(out) :: handle
+        !> As for assemble_model
+        type(error_type), allocatable, intent(out) :: error
+
+        call new_beam(handle, error)
+        if (.not. allocated(error)) then
+            associate (kept => handle%beam%lowered%model)
+                call move_alloc(model%spans, kept%spans)
+                call move_alloc(model%hinges, kept%hinges)
+                call move_alloc(model%sections, kept%sections)
+                call move_alloc(model%supports, kept%supports)
+                call move_alloc(model%law, kept%law)
+                call move_alloc(model%foundations, kept%foundations)
+                call move_alloc(model%ground, kept%ground)
+                call move_alloc(model%ground_law, kept%ground_law)
+                call move_alloc(model%loads, kept%loads)
+            end associate
+            call assemble_model(handle%beam%lowered, error)
+        end if
+        call finish_handle(handle, error)
+    end subroutine keep_beam
+
+    !> A place for a beam
+    subroutine new_beam(handle, error)
+        type(handle_type), pointer, intent(out) :: handle
+        type(error_type), allocatable, intent(out) :: error
+        integer :: stat
+
+        call new_handle(beam_tag, handle, error)
+        if (allocated(error)) return
+        allocate (handle%beam%lowered, stat=stat)
+        if (stat /= 0) call no_memory(error)
+    end subroutine new_beam
+
+    !> Keep another beam like one at hand
+    subroutine copy_beam(from, to, error)
+        type(handle_type), intent(in) :: from
+        type(handle_type), pointer, intent(out) :: to
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+
+        call new_beam(to, error)
+        if (.not. allocated(error)) to%beam%lowered = from%beam%lowered
+        call finish_handle(to, error)
+        if (.not. allocated(error)) call listen(to, from%thread)
+    end subroutine copy_beam
+
+    !> Solve at one load factor and keep the state
+    subroutine keep_state(beam, factor, rule, on_laws, closed, handle, error)
+        type(handle_type), intent(in) :: beam
+        !> As for solve_state
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> On the smooth laws themselves, or on the polylines in place of them
+        logical, intent(in) :: on_laws
+        !> Scheme that the search starts from
+        logical, intent(in) :: closed(:)
+        type(handle_type), pointer, intent(out) :: handle
+        !> As for solve_state
+        type(error_type), allocatable, intent(out) :: error
+
+        call new_handle(state_tag, handle, error)
+        if (.not. allocated(error)) call make_state(beam%beam, handle%result, error)
+        if (.not. allocated(error)) then
+            associate (state => handle%result%state, lowered => beam%beam%lowered)
+                state%closed(:) = closed
+                if (on_laws) then
+                    call solve_on_laws(lowered, factor, rule, state, error)
+                else
+                    call solve_state(lowered, factor, rule, state, error)
+                end if
+                ! What is not looked at here
+                if (allocated(state%starts)) deallocate (state%starts)
+                if (state%status == gapbeam_solved .and. allocated(state%motion)) deallocate (state%motion)
+            end associate
+        end if
+        call finish_handle(handle, error)
+    end subroutine keep_state
+
+    !> Recover the fields of a solved state at the pieces and keep them
+    subroutine keep_fields(beam, state, handle, error)
+        type(handle_type), intent(in) :: beam, state
+        type(handle_type), pointer, intent(out) :: handle
+        !> A field out of range, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: stat
+
+        call new_handle(fields_tag, handle, error)
+        if (.not. allocated(error)) then
+            associate (lowered => beam%beam%lowered, solved => state%result%state)
+                allocate (handle%starts(merge(0, size(lowered%pieces), allocated(solved%ground))), stat=stat)
+                if (stat /= 0) then
+                    call no_memory(error)
+                else if (.not. allocated(solved%ground)) then
+                    call find_starts(lowered, solved, handle%starts, error)
+                end if
+            end associate
+        end if
+        call finish_handle(handle, error)
+    end subroutine keep_fields
+
+    !> Move a train over a beam and keep its way
+    subroutine keep_train(lowered, offset, force, uniform, from, to, backwards, handle, error)
+        !> The beam
+        type(assembled_type), intent(in) :: lowered
+        !> As in train_type; uniform loads, and between which distances, shape (3, n)
+        real(wp), intent(in) :: offset(:), force(:), uniform(:, :)
+        !> Positions of the train
+        real(wp), intent(in) :: from, to
+        !> Does it go towards smaller positions
+        logical, intent(in) :: backwards
+        type(handle_type), pointer, intent(out) :: handle
+        !> As for pass_train
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, k, n, stat
+
+        call new_handle(passing_tag, handle, error)
+        if (allocated(error)) return
+        n = size(offset)
+        associate (p => handle%passing)
+            allocate (p%train%offset(n), p%train%force(n), p%train%uniform(count(abs(uniform(1, :)) > 0.0_wp)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+            else
+                p%train%offset(:) = offset
+                p%train%force(:) = force
+                k = 0
+                do i = 1, size(uniform, 2)
+                    if (.not. abs(uniform(1, i)) > 0.0_wp) cycle
+                    k = k + 1
+                    p%train%uniform(k) = uniform_type(uniform(1, i), uniform(2, i), uniform(3, i))
+                end do
+                call new_track(lowered, p%track, error)
+            end if
+            if (.not. allocated(error)) call pass_train(lowered, p%track, p%train, from, to, p%passage, error)
+            if (.not. allocated(error)) call find_events(lowered, p%passage, backwards, p%events, error)
+        end associate
+        call finish_handle(handle, error)
+    end subroutine keep_train
+
+    !> Extremes as arrays
+    pure subroutine pack_extremes(extremes, values, sides, ties)
+        type(extreme_type), intent(in) :: extremes(:, :)
+        !> Value, x, position, shape (3, most_extreme_ties, 2, 4); side (tie_type), shape (most_extreme_ties, 2, 4)
+        real(wp), intent(inout) :: values(:, :, :, :)
+        integer, intent(inout) :: sides(:, :, :)
+        !> How many there are, shape (2, 4)
+        integer, intent(out) :: ties(:, :)
+        integer :: f, i, k
+
+        do f = 1, size(extremes, 2)
+            do i = 1, size(extremes, 1)
+                ties(i, f) = extremes(i, f)%number
+                do k = 1, extremes(i, f)%number
+                    associate (tie => extremes(i, f)%ties(k))
+                        values(:, k, i, f) = [tie%value, tie%x, tie%position]
+                        sides(k, i, f) = tie%side
+                    end associate
+                end do
+            end do
+        end do
+    end subroutine pack_extremes
+
+    !> What Python is told of an error
+    pure subroutine report(error, status, message)
+        !> Not allocated where there is none
+        type(error_type), allocatable, intent(in) :: error
+        !> Its code, or gapbeam_solved; its message, or blank
+        integer, intent(out) :: status
+        character(len=240), intent(out) :: message
+
+        status = gapbeam_solved
+        message = " "
+        if (.not. allocated(error)) return
+        status = error%code
+        message = error%message
+    end subroutine report
+
+end module gapbeam_python_handles
