@@ -26,27 +26,3 @@ subroutine gblawp(law, param, n, points)
     points = 0.0d0
     points(:, :n) = found
 end subroutine gblawp
-
-! Load factor at which support or breakpoint NUMBER (from 1) changes its state on the smooth laws, from that on their polylines
-subroutine gblawe(beam, ns, closed, number, factor, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_smooth_events, only: find_on_laws
-    implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: ns
-    ! The scheme before, with one entry more than there are supports
-    integer, intent(in) :: closed(ns), number
-    double precision, intent(inout) :: factor
-    integer, intent(out) :: status
-    character(len=240), intent(out) :: message
-    !f2py threadsafe
-    !f2py intent(in, out) :: factor
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    type(handle_type), pointer :: handle
-    type(error_type), allocatable :: error
-
-    handle => handle_of(beam)
-    call find_on_laws(handle%lowered, closed(:ns - 1) /= 0, number, factor, error)
-    call report(error, status, message)
-end subroutine gblawe

@@ -413,13 +413,14 @@ contains
         call refuse(model, 3, 2, "gap: expected 0 or more")
     end subroutine hardening_law
 
-    !> A law by name that is a curve: its force is the load less what the beam takes, and events are refused
+    !> A law by name that is a curve: its force is the load less what the beam takes, and it closes where its gap does
     subroutine smooth_law()
         type(model_type) :: model
         type(prepared_type) :: beam
         type(result_type) :: result
         type(error_type), allocatable :: error
         type(event_type), allocatable :: events(:)
+        type(history_type) :: history
         real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
         integer :: condition(3)
 
@@ -432,7 +433,17 @@ contains
         call check_close(deflection(2), 5*3*4.0_wp**4/(384*100) - reaction(2)*4.0_wp**3/(48*100), "and of the beam")
         call check(condition(2) == gapbeam_branch + 1, "a curve is one piece")
         call follow_load(beam, 1.0_wp, options_type(), events, result, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its events are refused")
+        call check(result%status == 0 .and. size(events) == 0, "nothing happens to it")
+        call check_close(result%factor, 1.0_wp, "to the end of the load")
+        model%supports(2)%gap = 0.01_wp
+        call prepare_model(model, beam, error)
+        call follow_load(beam, 1.0_wp, options_type(), events, result, error)
+        call check(size(events) == 1, "it closes")
+        call check(events(1)%support == 2 .and. events(1)%state == gapbeam_branch + 1, "and has one piece then")
+        call check_close(events(1)%factor, 0.01_wp/(5*3*4.0_wp**4/(384*100)), "where the beam comes to it")
+        call follow_history(beam, [1.0_wp], 0, history, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its history is refused")
+        model%supports(2)%gap = 0.0_wp
         model%supports(2)%parameter(2) = 0.0_wp
         call refuse(model, 3, 2, "law.limit: expected a finite number above 0, got 0")
         model%supports(2)%law = 6

@@ -433,7 +433,7 @@ NAMED = [
 
 @pytest.mark.parametrize("seed", range(12))
 def test_laws_of_supports_by_name_agree(library, seed):
-    """Curves are met with the same digits, and their beams are refused where the load is followed."""
+    """Curves are met with the same digits, and so are the events on them."""
     rng = np.random.default_rng(seed)
     sides = rng.choice(["both", "below", "above"], size=6).tolist()
     supports = [
@@ -454,6 +454,12 @@ def test_laws_of_supports_by_name_agree(library, seed):
     for one in (beam, f77):
         reaction, deflection, opening, *_ = one.at_supports()
         np.testing.assert_array_equal([reaction, deflection, opening], [step.reaction, step.deflection, step.opening])
+    path = gapbeam.solve({**scene, "analysis": {"follow": "events"}})
+    followed = beam.follow(1.0), f77.follow(1.0)
+    for status, events in (followed[0][::2], followed[1]):
+        assert status == 0
+        assert [(factor, k) for factor, k, _ in events] == [(event.factor, event.support) for event in path.events]
+        assert all(state in {0, 1, 11} for _, k, state in events if "limit" in scene["supports"][k].get("law", {}))
 
 
 def test_wrong_laws_of_supports_by_name_are_refused(library):

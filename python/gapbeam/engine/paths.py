@@ -13,7 +13,9 @@ AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
 """Ways to go on at a limit and how a path ends, as in gapbeam_history."""
 TURNS = 3
-"""The event in which the beam turns, as in gapbeam_path; others change the scheme."""
+"""The event in which the beam turns; all others change the scheme."""
+NO_EVENT = -1
+"""A change of the scheme that is none: along one straight line, or one smooth law."""
 
 
 def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:
@@ -49,34 +51,6 @@ def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.n
     check_status(status, message, f"at load factor {factor:.15g}: ")
     events = factors[:count], which[:count] - 1, what[:count]
     return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
-
-
-def factor_on_laws(beam: Beam, factor: float, closed: np.ndarray, support: int) -> float:
-    """Load factor at which a support changes its state, on the smooth laws of others.
-
-    Parameters
-    ----------
-    beam : Beam
-        With smooth laws.
-    factor : float
-        The same with their polylines.
-    closed : numpy.ndarray of int
-        The scheme before.
-    support : int
-        Number of the support or breakpoint in the engine.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    EngineError
-        The laws are not met.
-    """
-    found, status, message = _engine.gblawe(beam.handle, extended(closed), support + 1, factor)
-    check_status(status, message)
-    return found
 
 
 def follow_history(beam: Beam, factors: np.ndarray, at_limit: str, most: int) -> History:
