@@ -1,14 +1,14 @@
 ! Laws of supports for Python, in the manner of face/python.f90: what stands in gapbeam_laws
 
-! A curve at a displacement past the gap, 0 or more: force, slope and work; and the scale that it has everywhere
+! A curve at a displacement past the gap, 0 or more: force and slope; and the scale that it has everywhere
 subroutine gblawv(law, param, past, values)
-    use gapbeam_laws, only: law_force, law_slope, law_energy, law_scale
+    use gapbeam_laws, only: law_force, law_slope, law_scale
     implicit none
     integer, intent(in) :: law
     double precision, intent(in) :: param(3), past
-    double precision, intent(out) :: values(4)
+    double precision, intent(out) :: values(3)
 
-    values = [law_force(law, param, past), law_slope(law, param, past), law_energy(law, param, past), law_scale(law, param)]
+    values = [law_force(law, param, past), law_slope(law, param, past), law_scale(law, param)]
 end subroutine gblawv
 
 ! The polyline of a law: displacements and forces of N points

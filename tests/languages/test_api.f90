@@ -8,8 +8,9 @@ program test_api
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
-        gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
-        gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, gapbeam_limit_jump, &
+        gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, get_released_energy, gapbeam_plastic, &
+        gapbeam_branch, gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, &
+        gapbeam_limit_jump, &
         gapbeam_law_tanh, gapbeam_limit_follow, gapbeam_arrived, gapbeam_limit_point, gapbeam_path_ended, gapbeam_mechanism
     implicit none
     integer :: status
@@ -462,7 +463,7 @@ contains
         type(certificate_type) :: certificate
         type(error_type), allocatable :: error
         type(event_type), allocatable :: events(:)
-        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3), energy
         integer :: condition(3)
         logical :: undecided(3)
 
@@ -500,6 +501,10 @@ contains
         call solve_on_path(beam, history, 0.5_wp, result, error, stretch=history%limits(1)%landing)
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(deflection(2), 1.1_wp, "the landing")
+        call get_released_energy(beam, history, 1, energy, error)
+        call check_close(energy, 0.5_wp, "the energy of the beam alone, of stiffness 1, that it moves by 1")
+        call get_released_energy(beam, history, 2, energy, error)
+        call check(error%code == gapbeam_bad_input .and. .not. abs(energy) > 0.0_wp, "there is one limit")
         call solve_on_path(beam, history, 0.5_wp, result, error, stretch=99)
         call check(error%code == gapbeam_bad_input, "no such stretch")
 

@@ -250,6 +250,13 @@ def test_laws_agree(library, family):
             assert (status, message, info) == (0, "", 0)
             assert_same_history(found, result.path)
             assert_same_history(found_f77, result.path)
+            for k, limit in enumerate(result.limits):
+                (status, energy), (info, same) = beam.released(k), f77.released(k)
+                if limit.leg < 0 or limit.landing is None:
+                    assert (status, info) == (11, -3)
+                else:
+                    assert (status, info) == (0, 0)
+                    assert [energy, same] == pytest.approx([limit.released] * 2, rel=1e-14)
             motion = beam.history_motion()
             assert (motion is None) == (result.path.motion is None)
             if motion is not None:

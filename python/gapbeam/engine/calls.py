@@ -292,6 +292,7 @@ gbextr = interruptible(
     lambda beam, pieces, stretches, *_: _on_ground(beam, stretches) if stretches else pieces,
 )
 gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
+gbwork = interruptible(lambda beam, pieces, *about: _engine.gbwork(beam, *about), lambda beam, pieces, *_: pieces)
 gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
 gbgdif = interruptible(
     lambda stretches, *about: _engine.gbgdif(*about), lambda stretches, most, beam, *_: _on_ground(beam, stretches)

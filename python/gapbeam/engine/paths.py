@@ -8,6 +8,7 @@ from ..base.errors import check_status
 from . import calls as _engine
 from .arrays import GroundChanges, History, Stretch, extended
 from .beam import RULES, Beam
+from .states import Solution
 
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
@@ -118,3 +119,21 @@ def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
         at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
         float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
     )  # fmt: skip
+
+
+def energy_between(one: Solution, other: Solution) -> float:
+    """Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear.
+
+    Parameters
+    ----------
+    one, other : Solution
+        The states, with the same loads.
+
+    Returns
+    -------
+    float
+        Force times length.
+    """
+    beam = one.state.beam
+    states = (part for solution in (one, other) for part in (solution.state.handle, solution.state.fields))
+    return float(_engine.gbwork(beam.handle, beam.pieces, *states))
