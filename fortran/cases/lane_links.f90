@@ -233,16 +233,6 @@ contains
         end do
     end subroutine load_pieces
 
-    !> A term for a sum that keeps its rounding error (Knuth's two-sum, which needs no branch)
-    elemental subroutine add(high, low, term)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: term
-        real(wp) :: z, t
-
-        z = high + term
-        t = z - high
-        low = low + ((high - (z - t)) + (term - t))
-        high = z
-    end subroutine add
+    include 'elimination/add.inc'
 
 end module gapbeam_lane_links

@@ -96,9 +96,7 @@ contains
         integer, dimension(lanes) :: first, step, begin
         integer :: l, s
 
-        do l = 1, lanes
-            call node_of(beam, l, first(l), step(l), begin(l))
-        end do
+        call node_of(beam, [(l, l=1, lanes)], first, step, begin)
         do s = 1, beam%columns
             do l = 1, lanes
                 if (s < begin(l)) cycle
@@ -118,9 +116,7 @@ contains
         integer, dimension(lanes) :: first, step, begin
         integer :: l, s
 
-        do l = 1, lanes
-            call node_of(beam, l, first(l), step(l), begin(l))
-        end do
+        call node_of(beam, [(l, l=1, lanes)], first, step, begin)
         do s = 1, beam%columns
             do l = 1, lanes
                 if (s < begin(l)) cycle
