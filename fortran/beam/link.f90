@@ -116,14 +116,8 @@ contains
             shear_term = total(shear)/link%length**2
         end if
         link%inverse = 1/link%length
-        associate (m => link%bending)
-            link%sum_a = m*(1 - centre)
-            link%sum_b = m*centre
-            link%faa = m*((1 - centre)**2 + spread) + shear_term
-            link%fab = m*(centre*(1 - centre) - spread) - shear_term
-            link%fbb = m*(centre**2 + spread) + shear_term
-            link%determinant = m*(m*spread + shear_term)
-        end associate
+        call condense_centre(link%bending, centre, spread, shear_term, link%sum_a, link%sum_b, link%faa, link%fab, link%fbb, &
+                             link%determinant)
     end subroutine condense_flexibility
 
     !> Load terms of the link for one load case
@@ -389,5 +383,7 @@ contains
             call add(first, work(j, 3)*total(position))
         end do
     end subroutine recover_link
+
+    include 'beam/elastic_centre.inc'
 
 end module gapbeam_link

@@ -62,7 +62,7 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: faa, fab, sum_a, sum_b, bending
         real(wp) :: turn_a, turn_b, m, z, psi, size, other, other_size, crosses
-        integer :: i, l
+        integer :: i, j, k, l, way
 
         do i = 1, n
             !$omp simd private(faa, fab, sum_a, sum_b, bending, turn_a, turn_b, m, z)
@@ -83,30 +83,22 @@ contains
                     + larger(larger(abs(turn_a), abs(turn_b)), bending*larger(abs(m), abs(z)))
             end do
         end do
-        do i = 2, n
-            crosses = 1.0_wp - beam%hinge(i - 1)
-            !$omp simd private(psi, size, other, other_size)
-            do l = 1, lanes
-                psi = room(l, i, 1)
-                size = room(l, i, 3)
-                other = room(l, i - 1, 1) - room(l, i - 1, 2)
-                other_size = room(l, i - 1, 3)
-                other_size = merge(other_size, size, crosses > 0.5_wp)
-                room(l, i, 1) = merge(other, psi, other_size < size)
-                room(l, i, 3) = merge(other_size, size, other_size < size)
-            end do
-        end do
-        do i = n - 1, 1, -1
-            crosses = 1.0_wp - beam%hinge(i)
-            !$omp simd private(psi, size, other, other_size)
-            do l = 1, lanes
-                psi = room(l, i, 1)
-                size = room(l, i, 3)
-                other = room(l, i + 1, 1) + room(l, i, 2)
-                other_size = room(l, i + 1, 3)
-                other_size = merge(other_size, size, crosses > 0.5_wp)
-                room(l, i, 1) = merge(other, psi, other_size < size)
-                room(l, i, 3) = merge(other_size, size, other_size < size)
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of link k, across node j
+                k = i - way
+                j = min(i, k)
+                crosses = 1.0_wp - beam%hinge(j)
+                !$omp simd private(psi, size, other, other_size)
+                do l = 1, lanes
+                    psi = room(l, i, 1)
+                    size = room(l, i, 3)
+                    other = room(l, k, 1) - way*room(l, j, 2)
+                    other_size = room(l, k, 3)
+                    other_size = merge(other_size, size, crosses > 0.5_wp)
+                    room(l, i, 1) = merge(other, psi, other_size < size)
+                    room(l, i, 3) = merge(other_size, size, other_size < size)
+                end do
             end do
         end do
     end subroutine find_rotations
