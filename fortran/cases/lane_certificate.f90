@@ -9,7 +9,7 @@ module gapbeam_lane_certificate
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_tolerances, only: unit => rounding_unit, largest_error_share, greatest_squared
     use gapbeam_lane_row_errors, only: find_sizes, limit_range
-    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
+    use gapbeam_lane_residual, only: find_rests
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_measures, only: measure_pack
@@ -51,12 +51,7 @@ contains
                           pack%spring, pack%force)
         pack%spare(:, :) = pack%reaction
         call complete(beam, n, pack, poor)
-        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
-                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
-        if (size(beam%restrained) > 0) then
-            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
-                                         pack%left_rest, pack%turn_rest)
-        end if
+        call find_rests(beam, pack)
         call find_wrong_levels(n, pack%known_rest, poor)
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
