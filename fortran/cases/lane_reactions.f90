@@ -50,13 +50,10 @@ contains
         integer :: i, l, way
 
         do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                room(l, i, 1) = 0.0_wp
-                room(l, i, 2) = 0.0_wp
-                room(l, i, 3) = load_size(l, i)
-                room(l, i, 4) = abs(w(l, i))
-            end do
+            room(:, i, 1) = 0.0_wp
+            room(:, i, 2) = 0.0_wp
+            room(:, i, 3) = load_size(:, i)
+            room(:, i, 4) = abs(w(:, i))
         end do
         do i = 1, n
             inverse = beam%inverse(i)
@@ -102,11 +99,8 @@ contains
         integer :: i, j, k, l, way
 
         do i = 1, n
-            !$omp simd
-            do l = 1, lanes
-                room(l, i, 5) = (ml(l, i) - mr(l, i - 1))*beam%inverse(i)
-                room(l, i, 6) = epsilon(1.0_wp)*(abs(ml(l, i)) + abs(mr(l, i - 1)))*beam%inverse(i)
-            end do
+            room(:, i, 5) = (ml(:, i) - mr(:, i - 1))*beam%inverse(i)
+            room(:, i, 6) = epsilon(1.0_wp)*(abs(ml(:, i)) + abs(mr(:, i - 1)))*beam%inverse(i)
         end do
         do way = 1, -1, -2
             do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
