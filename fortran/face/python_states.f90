@@ -228,6 +228,26 @@ subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     call report(error, status, message)
 end subroutine gbextr
 
+! Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear
+subroutine gbwork(beam, one, fone, other, fother, energy)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_path_energy, only: energy_between
+    implicit none
+    integer(8), intent(in) :: beam
+    ! The states and their fields
+    integer(8), intent(in) :: one, fone, other, fother
+    double precision, intent(out) :: energy
+    !f2py threadsafe
+    type(handle_type), pointer :: handle, from, to, along_from, along_to
+
+    handle => behind(beam)
+    from => behind(one)
+    to => behind(other)
+    along_from => behind(fone)
+    along_to => behind(fother)
+    energy = energy_between(handle%beam%lowered, from%result%state, along_from%starts, to%result%state, along_to%starts)
+end subroutine gbwork
+
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)
     use gapbeam_python_handles, only: handle_type, behind
