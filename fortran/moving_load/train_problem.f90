@@ -6,30 +6,28 @@ module gapbeam_train_problem
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
-    use gapbeam_laws, only: is_smooth
-    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_ground, only: ground_type, grounded_type
     use gapbeam_ground_start, only: ground_start_type, settle_nearby
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_state, only: ground_of
-    use gapbeam_smooth_laws, only: past_the_gap, deflection_at, reaction_at
-    use gapbeam_solution, only: way_to_contact
     use gapbeam_path_problem, only: point_type, path_problem_type
-    use gapbeam_ground_changes, only: zone_change_type, compare_zones
-    use gapbeam_pieces, only: gapbeam_merges, gapbeam_splits
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: put_train, end_of_beam
     use gapbeam_train_states, only: kept_type, box_type, solve_at, put_near, take_undecided, alike_states => alike, same_units
+    use gapbeam_train_changes, only: list_changes_between, measure_support
     implicit none
     private
     public :: train_problem_type, position_type, crossing_type, new_train_problem, add_state, share_apart
 
-    !> Positions are neighbours that are nearer to each other than this share of the beam
+    !> Positions nearer to each other than this share of the beam are neighbours
     real(wp), parameter :: neighbours = 2.0_wp**(-45)
-    !> States as near as this to a crossing are left out: that at the crossing itself is on both sides
-    real(wp), parameter :: share_apart = 2.0_wp**(-36)
+    !> States as near as this to a crossing are left out, but for the neighbours on both sides of it
+    real(wp), parameter :: share_apart = 2.0_wp**(-30)
+    !> States that are tried to find these, each so many times farther away as long as nothing changes
+    integer, parameter :: most_tries = 60
+    real(wp), parameter :: farther = 8.0_wp
 
     !> A position: the number of its state, or only what another measurement needs to begin there
     type, extends(point_type) :: position_type
@@ -39,8 +37,8 @@ module gapbeam_train_problem
 
     !> Where something changes between two states
     type :: crossing_type
-        !> Numbers of the states before and after it; of that at its very position, 0: none is settled there
-        integer :: below = 0, above = 0, state = 0
+        !> Numbers of the states next to it
+        integer :: below = 0, above = 0
         real(wp) :: at = 0.0_wp
         !> Places of what changes, as far as they are known
         real(wp), allocatable :: place(:)
@@ -184,34 +182,8 @@ contains
         class(train_problem_type), intent(in) :: problem
         class(point_type), intent(in) :: before, after
         type(change_type), allocatable, intent(out) :: changes(:)
-        type(zone_change_type), allocatable :: of_zones(:)
-        integer :: k, number, s
 
-        allocate (changes(0))
-        associate (one => problem%boxes(number_of(before))%of, other => problem%boxes(number_of(after))%of)
-            do k = 1, size(one%state%closed)
-                s = one%placed%normal(k)
-                if (.not. (one%decided(s) .and. other%decided(s))) cycle
-                if (is_smooth(one%placed%model%supports(s)%law)) then
-                    if (k > 1) then
-                        if (one%placed%normal(max(k - 1, 1)) == s) cycle
-                    end if
-                    if (one%acting(s)%condition == other%acting(s)%condition) cycle
-                else if (one%state%closed(k) .eqv. other%state%closed(k)) then
-                    cycle
-                end if
-                changes = [changes, change_type(support=k, closed=one%state%closed(k))]
-            end do
-            if (.not. allocated(one%zones)) return
-            call compare_zones(one%zones, other%zones, of_zones, number)
-            do k = 1, number
-                associate (c => of_zones(k), power => -one%placed%units%length)
-                    changes = [changes, change_type(foundation=c%foundation, side=c%side, branch=c%branch, &
-                                                    from=scale(c%from, power), to=scale(c%to, power), &
-                                                    greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)]
-                end associate
-            end do
-        end associate
+        call list_changes_between(problem%boxes(number_of(before))%of, problem%boxes(number_of(after))%of, changes)
     end subroutine list_changes
 
     !> How far a change is away at a position
@@ -308,32 +280,6 @@ contains
 
     end subroutine measure_on_ground
 
-    !> How far a support is past where it begins to act: of one that acts by its force
-    subroutine measure_support(kept, number, margin, known)
-        type(kept_type), intent(in) :: kept
-        !> Of the engine
-        integer, intent(in) :: number
-        real(wp), intent(out) :: margin
-        logical, intent(out) :: known
-        integer :: way
-
-        margin = 0.0_wp
-        associate (s => kept%placed%normal(number), placed => kept%placed)
-            associate (support => placed%model%supports(s))
-                known = .true.
-                if (is_smooth(support%law)) then
-                    call past_the_gap(support, deflection_at(placed, kept%state%deflection, s), margin, way)
-                else if (placed%with_law(s)) then
-                    known = .false.
-                else if (kept%state%closed(number)) then
-                    margin = support%side*reaction_at(placed, kept%state%reaction, s)
-                else
-                    margin = -scale(way_to_contact(placed, kept%state, s), placed%units%deflection)
-                end if
-            end associate
-        end associate
-    end subroutine measure_support
-
     !> The next position of the grid
     pure function next_stop(problem, point) result(next)
         class(train_problem_type), intent(in) :: problem
@@ -355,16 +301,15 @@ contains
         class(train_problem_type), intent(inout) :: problem
         class(point_type), intent(in) :: point
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: crossed
+        integer :: latest
 
-        if (problem%length > 0) then
-            if (problem%way(problem%length) < 0) then
-                associate (crossing => problem%crossings(-problem%way(problem%length)))
-                    crossed = crossing%at
-                    if (crossing%state > 0 .and. point%at - crossed <= share_apart*problem%extent .and. &
-                        point%at < problem%last) return
-                end associate
-            end if
+        latest = 0
+        if (problem%length > 0) latest = -problem%way(problem%length)
+        if (latest > 0) then
+            associate (crossing => problem%crossings(latest))
+                if (number_of(point) /= crossing%above .and. point%at < problem%last .and. &
+                    point%at - crossing%at <= share_apart*problem%extent) return
+            end associate
         end if
         call append(problem, number_of(point), error)
     end subroutine take
@@ -390,7 +335,7 @@ contains
         problem%way(problem%length) = entry
     end subroutine append
 
-    !> Record a crossing: the state at its very position stands for those next to it on both sides
+    !> Record a crossing
     subroutine take_changes(problem, before, after, at, place, error)
         class(train_problem_type), intent(inout) :: problem
         class(point_type), intent(in) :: before, after
@@ -402,23 +347,13 @@ contains
 
         crossing%below = number_of(before)
         crossing%above = number_of(after)
+        crossing%place = pack(place, place >= 0.0_wp)
         crossing%at = after%at
         if (size(at) > 0) crossing%at = min(max(minval(at), before%at), after%at)
-        crossing%place = pack(place, place >= 0.0_wp)
-        if (crossing%at > before%at .and. crossing%at < after%at) then
-            call add_state(problem, crossing%at, crossing%state, error, crossing%below)
-            if (allocated(error)) return
-            associate (here => problem%boxes(crossing%state)%of)
-                if (here%status == gapbeam_solved) then
-                    if (.not. (alike_states(problem%boxes(crossing%below)%of, here) .or. &
-                               alike_states(here, problem%boxes(crossing%above)%of))) crossing%state = 0
-                else
-                    crossing%state = 0
-                end if
-            end associate
-        end if
-        if (crossing%state > 0 .and. problem%length > 1) then
-            if (problem%way(problem%length) == crossing%below .and. crossing%at - before%at <= share_apart*problem%extent &
+        if (crossing%at > before%at .and. crossing%at < after%at) call draw_near(problem, crossing, error)
+        if (allocated(error)) return
+        if (problem%length > 1 .and. crossing%below /= number_of(before)) then
+            if (problem%way(problem%length) == number_of(before) .and. crossing%at - before%at <= share_apart*problem%extent &
                 .and. problem%way(problem%length - 1) > 0) problem%length = problem%length - 1
         end if
         allocate (longer(size(problem%crossings) + 1), stat=stat)
@@ -431,5 +366,35 @@ contains
         call move_alloc(longer, problem%crossings)
         call append(problem, -size(problem%crossings), error)
     end subroutine take_changes
+
+    !> Neighbours on both sides of a crossing: what it was computed from has rounding of its own
+    subroutine draw_near(problem, crossing, error)
+        class(train_problem_type), intent(inout) :: problem
+        !> With its position as computed, and states around it, in; its neighbours out
+        type(crossing_type), intent(inout) :: crossing
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: way, next
+        integer :: number, tries
+        logical :: is_below
+
+        way = 2*neighbours*problem%extent
+        next = crossing%at
+        do tries = 1, most_tries
+            call add_state(problem, next, number, error, crossing%below)
+            if (allocated(error)) return
+            if (problem%boxes(number)%of%status /= gapbeam_solved) exit
+            is_below = alike_states(problem%boxes(crossing%below)%of, problem%boxes(number)%of)
+            if (is_below) crossing%below = number
+            if (.not. is_below) crossing%above = number
+            associate (low => problem%boxes(crossing%below)%of%position, high => problem%boxes(crossing%above)%of%position)
+                if (high - low <= 2*neighbours*problem%extent) exit
+                next = merge(low + way, high - way, is_below)
+                if (.not. (next > low .and. next < high)) next = low + (high - low)/2
+                if (.not. (next > low .and. next < high)) exit
+            end associate
+            way = farther*way
+        end do
+        crossing%at = min(max(crossing%at, problem%boxes(crossing%below)%of%position), problem%boxes(crossing%above)%of%position)
+    end subroutine draw_near
 
 end module gapbeam_train_problem

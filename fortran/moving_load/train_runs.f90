@@ -226,11 +226,11 @@ contains
                 if (last > 0 .and. last /= number) then
                     if (.not. alike(problem%boxes(max(last, 1))%of, kept)) then
                         if (size(run) > 0 .and. last > 0) call end_run()
-                        call add_events(crossing_type(last, number, 0, kept%position, [real(wp) ::]))
+                        call add_events(crossing_type(last, number, kept%position, [real(wp) ::]))
                     end if
                 end if
             end associate
-            run = [run, number]
+            if (last /= number .or. size(run) == 0) run = [run, number]
             last = number
         end do
         call end_run()
@@ -245,11 +245,11 @@ contains
         subroutine cross(crossing)
             type(crossing_type), intent(in) :: crossing
 
-            if (crossing%state > 0) run = [run, crossing%state]
+            if (last /= crossing%below) run = [run, crossing%below]
             call end_run()
             call add_events(crossing)
             last = crossing%above
-            if (crossing%state > 0) run = [crossing%state]
+            run = [crossing%above]
         end subroutine cross
 
         !> The run so far is one
