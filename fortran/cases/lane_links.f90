@@ -89,16 +89,11 @@ contains
             m = flexibility(l)*length
             shear = shear_flexibility(l)/length
             link(l, link_bending) = m
-            link(l, link_sum_a) = m*(1 - centre)
-            link(l, link_sum_b) = m*centre
-            both = m*(centre**2 + spread) + shear
-            link(l, link_faa) = both
-            link(l, link_fbb) = both
-            link(l, link_fab) = m*(centre*(1 - centre) - spread) - shear
-            link(l, link_determinant) = m*(m*spread + shear)
+            call condense_centre(m, centre, spread, shear, link(l, link_sum_a), link(l, link_sum_b), link(l, link_faa), &
+                                 link(l, link_fab), link(l, link_fbb), link(l, link_determinant))
             none = merge(0.0_wp, 1.0_wp, m > 0.0_wp)
             link(l, link_fixity) = (1.0_wp - none)/(m + none)
-            both = both + both
+            both = link(l, link_faa) + link(l, link_fbb)
             link(l, link_reach) = merge(m, both, m > both)*length
         end do
     end subroutine condense
@@ -111,7 +106,7 @@ contains
         real(wp), intent(in), contiguous :: length(:), before(:), flexibility(:, :), shear_flexibility(:, :)
         real(wp), intent(inout) :: link(lanes, link_numbers)
         real(wp), dimension(lanes) :: bending, bending_low, first, first_low, slip, slip_low, second, second_low, centres
-        real(wp) :: m, shear, none, middle, spreading, x, p
+        real(wp) :: m, shear, none, middle, spreading, both, x, p
         integer :: j, l
 
         bending(:) = 0.0_wp
@@ -148,7 +143,7 @@ contains
                 call add(second(l), second_low(l), flexibility(l, j)*p*((x - centres(l))**2 + p**2/12))
             end do
         end do
-        !$omp simd private(m, shear, none, middle, spreading, x)
+        !$omp simd private(m, shear, none, middle, spreading, both)
         do l = 1, lanes
             m = bending(l) + bending_low(l)
             none = merge(0.0_wp, 1.0_wp, m > 0.0_wp)
@@ -156,15 +151,11 @@ contains
             spreading = (second(l) + second_low(l))/(m + none)/whole**2
             shear = (slip(l) + slip_low(l))/whole**2
             link(l, link_bending) = m
-            link(l, link_sum_a) = m*(1 - middle)
-            link(l, link_sum_b) = m*middle
-            link(l, link_faa) = m*((1 - middle)**2 + spreading) + shear
-            link(l, link_fab) = m*(middle*(1 - middle) - spreading) - shear
-            link(l, link_fbb) = m*(middle**2 + spreading) + shear
-            link(l, link_determinant) = m*(m*spreading + shear)
+            call condense_centre(m, middle, spreading, shear, link(l, link_sum_a), link(l, link_sum_b), link(l, link_faa), &
+                                 link(l, link_fab), link(l, link_fbb), link(l, link_determinant))
             link(l, link_fixity) = (1.0_wp - none)/(m + none)
-            x = (m*((1 - middle)**2 + spreading) + shear) + (m*(middle**2 + spreading) + shear)
-            link(l, link_reach) = merge(m, x, m > x)*whole
+            both = link(l, link_faa) + link(l, link_fbb)
+            link(l, link_reach) = merge(m, both, m > both)*whole
         end do
     end subroutine condense_pieces
 
@@ -233,16 +224,7 @@ contains
         end do
     end subroutine load_pieces
 
-    !> A term for a sum that keeps its rounding error (Knuth's two-sum, which needs no branch)
-    elemental subroutine add(high, low, term)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: term
-        real(wp) :: z, t
-
-        z = high + term
-        t = z - high
-        low = low + ((high - (z - t)) + (term - t))
-        high = z
-    end subroutine add
+    include 'beam/elastic_centre.inc'
+    include 'elimination/add.inc'
 
 end module gapbeam_lane_links

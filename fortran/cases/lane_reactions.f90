@@ -108,7 +108,7 @@ contains
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, force, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: by_spring, change, passed, v, e, other, error
-        integer :: i, l
+        integer :: i, j, k, l, way
 
         do i = 1, n
             !$omp simd
@@ -117,35 +117,25 @@ contains
                 room(l, i, 6) = epsilon(1.0_wp)*(abs(ml(l, i)) + abs(mr(l, i - 1)))*beam%inverse(i)
             end do
         end do
-        do i = 2, n
-            !$omp simd private(by_spring, change, passed, v, e, other, error)
-            do l = 1, lanes
-                by_spring = spring(l, i - 1)*w(l, i - 1)
-                change = by_spring - force(l, i - 1)
-                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i - 1)))
-                v = room(l, i, 5)
-                e = room(l, i, 6)
-                other = room(l, i - 1, 5) + change
-                ! No way past a rigid support
-                error = room(l, i - 1, 6) + passed
-                error = merge(e, error, held(l, i - 1) > 0.5_wp)
-                room(l, i, 5) = merge(other, v, error < e)
-                room(l, i, 6) = merge(error, e, error < e)
-            end do
-        end do
-        do i = n - 1, 1, -1
-            !$omp simd private(by_spring, change, passed, v, e, other, error)
-            do l = 1, lanes
-                by_spring = spring(l, i)*w(l, i)
-                change = by_spring - force(l, i)
-                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i)))
-                v = room(l, i, 5)
-                e = room(l, i, 6)
-                other = room(l, i + 1, 5) - change
-                error = room(l, i + 1, 6) + passed
-                error = merge(e, error, held(l, i) > 0.5_wp)
-                room(l, i, 5) = merge(other, v, error < e)
-                room(l, i, 6) = merge(error, e, error < e)
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of link k, across node j
+                k = i - way
+                j = min(i, k)
+                !$omp simd private(by_spring, change, passed, v, e, other, error)
+                do l = 1, lanes
+                    by_spring = spring(l, j)*w(l, j)
+                    change = by_spring - force(l, j)
+                    passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, j)))
+                    v = room(l, i, 5)
+                    e = room(l, i, 6)
+                    other = room(l, k, 5) + way*change
+                    ! No way past a rigid support
+                    error = room(l, k, 6) + passed
+                    error = merge(e, error, held(l, j) > 0.5_wp)
+                    room(l, i, 5) = merge(other, v, error < e)
+                    room(l, i, 6) = merge(error, e, error < e)
+                end do
             end do
         end do
         room(:, 0, 5:6) = 0.0_wp

@@ -139,24 +139,17 @@ contains
         !> Those of the middle node in, all out
         real(wp), intent(inout) :: w(lanes, 0:n), m(lanes, 0:n)
         real(wp) :: moment, deflection
-        integer :: l, i
+        integer :: l, i, way
 
-        do i = middle - 1, 0, -1
-            !$omp simd private(moment, deflection)
-            do l = 1, lanes
-                moment = m(l, i + 1)
-                deflection = w(l, i + 1)
-                m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
-                w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
-            end do
-        end do
-        do i = middle + 1, n
-            !$omp simd private(moment, deflection)
-            do l = 1, lanes
-                moment = m(l, i - 1)
-                deflection = w(l, i - 1)
-                m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
-                w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
+        do way = -1, 1, 2
+            do i = middle + way, merge(0, n, way == -1), way
+                !$omp simd private(moment, deflection)
+                do l = 1, lanes
+                    moment = m(l, i - way)
+                    deflection = w(l, i - way)
+                    m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
+                    w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
+                end do
             end do
         end do
     end subroutine go_back
