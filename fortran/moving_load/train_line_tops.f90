@@ -82,7 +82,7 @@ contains
         real(wp), allocatable :: places(:), heights(:), more_at(:), more_values(:)
         real(wp) :: left, right, width, best, place, height, found(1, 1), here
         integer :: first, n, state, step, top
-        logical :: known, solved
+        logical :: known, promising, solved
 
         associate (i => which(1), q => which(2), k => which(3), size_of => lines%scale_of(which(2)))
             n = size(at)
@@ -90,7 +90,9 @@ contains
             right = at(min(j + 1, n))
             best = at(j)
             call find_top(at, values, j, [left, right], ruler, sure*size_of, place, height, known, solved)
-            if (.not. solved .and. 2*height - values(j) >= lines%best(i, q, k) .and. lines%states > 0) then
+            promising = known .and. .not. solved .and. lines%states > 0
+            if (promising) promising = 2*height - values(j) >= lines%best(i, q, k)
+            if (promising) then
                 call add_known_states(lines, which, ruler, at, values, j, more_at, more_values, top, error)
                 if (allocated(error)) return
                 if (size(more_at) > n) then
@@ -201,6 +203,8 @@ contains
                 height = higher
             end if
         end if
+        ! A top that is not above the highest point is another one
+        known = known .and. height >= near_heights(1)
         if (.not. known) call find_vertex(best, at, heights, bounds(1), bounds(2), place, height, known)
     end subroutine find_next
 
@@ -257,7 +261,7 @@ contains
             call find_highest(places(first:first + n - 1), values(first:first + n - 1), low, high, place, height, known)
             if (.not. known) return
             call find_highest(places(first + 1:first + n - 2), values(first + 1:first + n - 2), low, high, other, fewer, both)
-            is_sure = both .and. abs(height - fewer) <= enough
+            is_sure = both .and. abs(height - fewer) <= enough .and. height >= values(j)
         end subroutine agree
 
     end subroutine find_top

@@ -61,7 +61,7 @@ class SampledMember(Member):
                 (value, position, FreeSpan(foundation, from_, to, sag))
                 for value, _, position, from_, to, sag in values.tolist() if to > from_
             ]  # fmt: skip
-        return [TrainExtreme(self, quantity, value, None, None, None, position, foundation, span) for value, position, span in found]
+        return [TrainExtreme(self, quantity, value, None, None, None, at, foundation, span) for value, at, span in found]
 
     def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
