@@ -30,7 +30,7 @@ module gapbeam_limits
     !> through the engine, by gapbeam.results.paths
     integer, parameter :: changes_at_a_time = 1000
     !> Places and positions listed at which an extreme under trains is reached; beams with many equal spans have more. Read by
-    !> moving_load/train_ties and, through the engine, by gapbeam.results.trains
+    !> moving_load/train_peaks, moving_load/train_ties and, through the engine, by gapbeam.results.trains
     integer, parameter :: most_extreme_ties = 16
     !> States beyond which a train on the ground or on smooth laws is refused: they would take minutes. Read by
     !> moving_load/train_grid

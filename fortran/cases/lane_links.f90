@@ -65,15 +65,11 @@ contains
         real(wp), intent(in) :: power, own
         real(wp), intent(in) :: stiffness(lanes)
         real(wp), intent(out) :: flexibility(lanes)
-        integer :: l
 
         if (span == 0) then
             flexibility(:) = own
         else
-            !$omp simd
-            do l = 1, lanes
-                flexibility(l) = 1/(stiffness(l)*power)
-            end do
+            flexibility(:) = 1/(stiffness*power)
         end if
     end subroutine invert
 
@@ -138,10 +134,7 @@ contains
         do j = 1, size(length)
             p = length(j)
             x = before(j) + p/2
-            !$omp simd
-            do l = 1, lanes
-                call add(second(l), second_low(l), flexibility(l, j)*p*((x - centres(l))**2 + p**2/12))
-            end do
+            call add(second, second_low, flexibility(:, j)*p*((x - centres)**2 + p**2/12))
         end do
         !$omp simd private(m, shear, none, middle, spreading, both)
         do l = 1, lanes
@@ -164,14 +157,10 @@ contains
         !> As in lane_spans_type
         real(wp), intent(in) :: terms(10), sizes(2), flexibility(lanes), bending(lanes)
         real(wp), intent(inout) :: to_link(lanes, 6)
-        integer :: l
 
-        !$omp simd
-        do l = 1, lanes
-            to_link(l, 1) = 0.0_wp + (flexibility(l)*terms(1) - terms(3))
-            to_link(l, 2) = 0.0_wp + (flexibility(l)*terms(2) - terms(3))
-            to_link(l, 6) = sizes(1) + bending(l)*sizes(2)
-        end do
+        to_link(:, 1) = 0.0_wp + (flexibility*terms(1) - terms(3))
+        to_link(:, 2) = 0.0_wp + (flexibility*terms(2) - terms(3))
+        to_link(:, 6) = sizes(1) + bending*sizes(2)
     end subroutine load
 
     !> What a load does to a link of several pieces: condense_loads

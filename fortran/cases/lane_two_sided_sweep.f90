@@ -207,12 +207,9 @@ contains
         i = first
         begin = merge(first, first + step, beam%restraint(first) > 0)
         h = beam%inverse(merge(1, n, way == 1))
-        !$omp simd
-        do l = 1, lanes
-            room(l, i, 4) = (force(l, i)*(1.0_wp - held(l, i)) + known(l, i))/room(l, i, 7)
-            passed(l, 1) = h*room(l, i, 4)
-            passed(l, 2) = 0.0_wp
-        end do
+        room(:, i, 4) = (force(:, i)*(1.0_wp - held(:, i)) + known(:, i))/room(:, i, 7)
+        passed(:, 1) = h*room(:, i, 4)
+        passed(:, 2) = 0.0_wp
         if (begin == first) passed(:, 1) = 0.0_wp
         do i = begin, last, step
             link = merge(i + 1, i, way == 1)

@@ -13,7 +13,6 @@ module gapbeam_segment_finish
     private
     public :: solve_long_beam, audit_long_beam
 
-
 contains
 
     !> Find the contact state of a case and its solution

@@ -1,4 +1,4 @@
-!> What changes between two states of a train, as the engine looks for it.
+!> Changes between two states of a train, as the engine looks for them.
 module gapbeam_train_changes
     use gapbeam_kinds, only: wp
     use gapbeam_laws, only: is_smooth

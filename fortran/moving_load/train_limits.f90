@@ -1,5 +1,5 @@
-!> What is asked of states of a train on the ground or on smooth laws; shears between an axle and the support or force to which it
-!> comes, which are not there when it has come.
+!> Shears between an axle and the support or force to which it comes, which are not there when it has come; and states of a run
+!> at further positions.
 module gapbeam_train_limits
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved
