@@ -17,6 +17,7 @@ module gapbeam_api_objects
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_events, only: train_event_type
+    use gapbeam_train_runs, only: runs_type
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
@@ -148,6 +149,8 @@ module gapbeam_api_objects
         type(train_type) :: train
         type(track_type) :: track
         type(traversal_type) :: passage
+        !> On the ground, or with smooth laws, instead of these two
+        type(runs_type), allocatable :: runs
     end type passing_type
 
 contains

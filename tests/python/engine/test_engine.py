@@ -27,8 +27,8 @@ def test_all_routines_are_there():
     names = (
         "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gblaws "
         "gbsget gbcert gbreco gbfind gbvalu gbextr gblarg "
-        "gbshar gbroom gbcase gbone gbgget gbgrun gbgdif gbgpth gbgpte gbcomb gbcext gbccrt "
-        "gbtmak gbtget gbtenv gbtcur gbtinf gbstop gbtole gblawv gblawp gbwork"
+        "gbshar gbroom gbcase gbone gbgget gbgrun gbgpth gbgpte gbcomb gbcext gbccrt "
+        "gbtmak gbtget gbtenv gbtcur gbtinf gbrmak gbrget gbrext gbrcur gbstop gbtole gblawv gblawp gbwork"
     )
     assert set(ROUTINES) == set(names.split())
 
