@@ -1,18 +1,20 @@
 !> States on smooth laws of supports: from the state on a polyline through each curve to the state on the curve itself.
 !>
-!> Each curve is replaced by its tangent where the support is, the beam is solved with that, and so on (Newton). Tangents are
-!> pieces of laws as any others, so each of these solves is an ordinary one; what it converges to is on the curve, to all digits.
+!> Each curve is replaced by its tangent where the support is, the beam is solved with that, and so on (Newton), where a tangent
+!> leads too far only to the least energy on the way. Tangents are pieces of laws as any others, so each of these solves is an
+!> ordinary one; what it converges to is on the curve, to all digits.
 module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
     use gapbeam_laws, only: begins_steep, law_displacement, law_bound
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_energy, only: line_type, way_to_least_energy, way_to_rest
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
@@ -22,6 +24,8 @@ module gapbeam_smooth_state
 
     !> Tangents that usually do, from a polyline as near as it is some five
     integer, parameter :: usual_tangents = 10
+    !> After so many the energy tells how far a tangent leads, which settles from anywhere; tuned
+    integer, parameter :: tangents_to_search = 30
     !> So often a tangent may lead too far; after that the support has opened
     integer, parameter :: most_shortened = 12
     !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
@@ -37,9 +41,9 @@ module gapbeam_smooth_state
         !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
         real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
         integer :: way = 0
-        !> Does the force tell the displacement
-        logical :: by_force = .false.
-        !> The displacement, its way and its change a tangent before, and how often it has been shortened
+        !> Does the law begin steep, and does the force tell the displacement
+        logical :: steep = .false., by_force = .false.
+        !> The displacement where the last tangent was put, its way and its change, and how often it has been shortened
         real(wp) :: before = huge(1.0_wp), change = 0.0_wp
         integer :: way_before = 0, shortened = 0
     end type place_type
@@ -82,45 +86,65 @@ contains
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(place_type), allocatable :: places(:)
+        type(line_type) :: line
         real(wp), allocatable :: size_of(:)
-        real(wp) :: force, slope
-        integer :: j, tangents, solves
-        logical :: overshot, halved
+        real(wp) :: force, slope, way
+        integer :: j, tangents, solves, stat
+        logical :: searching, overshot, halved
 
-        allocate (places(size(numbers)), size_of(size(numbers)))
+        associate (n => size(assembled%beam%links), m => size(state%reaction))
+            allocate (places(size(numbers)), size_of(size(numbers)), line%deflection(0:n), line%step(0:n), line%reaction(m), &
+                      line%change(m), stat=stat)
+        end associate
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         solves = state%solves
+        way = 1.0_wp
+        searching = .false.
+        line%deflection(:) = state%deflection
+        line%reaction(:) = state%reaction
         do tangents = 0, most_tangents - 1
+            ! Where nothing else helps
+            if (tangents == tangents_to_search) searching = .true.
             do j = 1, size(numbers)
-                call find_place(assembled, state, numbers(j), places(j))
+                call find_place(assembled, line, numbers(j), searching, places(j))
                 associate (s => assembled%model%supports(numbers(j)))
                     size_of(j) = max(abs(places(j)%deflection - s%settlement), abs(s%gap))
                 end associate
             end do
             if (.not. all(abs(places%past) <= huge(1.0_wp))) exit
             if (is_settled()) then
-                call audit_laws(assembled, numbers, places, maxval(size_of), error)
-                if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
-                state%solves = solves
-                return
+                if (searching .and. any(places%steep .and. places%reached > 0.0_wp)) then
+                    searching = .false.  ! the last digits come from the forces
+                else
+                    call audit_laws(assembled, numbers, places, maxval(size_of), error)
+                    if (.not. allocated(error) .or. searching) then
+                        if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
+                        state%solves = solves
+                        return
+                    end if
+                    deallocate (error)
+                    searching = .true.  ! from a tangent that was put too near
+                end if
             end if
             if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
             do j = 1, size(numbers)
                 associate (p => places(j), s => assembled%model%supports(numbers(j)))
                     ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
-                    overshot = p%before > 0.0_wp .and. p%before < huge(p%before) .and. p%shortened < most_shortened .and. &
-                        (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
+                    overshot = .not. searching .and. p%before > 0.0_wp .and. p%before < huge(p%before) .and. &
+                        p%shortened < most_shortened .and. (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
                     if (overshot) then
                         p%past = p%before/8
                         p%way = p%way_before
                         p%shortened = p%shortened + 1
                     end if
                     ! About a bend they may go to and fro for ever: then half as far
-                    halved = tangents >= usual_tangents .and. p%past > 0.0_wp .and. p%way == p%way_before .and. &
-                        (p%past - p%before)*p%change < 0.0_wp
-                    force = 0.0_wp
-                    if (tangents > 0) force = p%past - p%before
+                    halved = .not. searching .and. tangents >= usual_tangents .and. p%past > 0.0_wp .and. &
+                        p%way == p%way_before .and. (p%past - p%before)*p%change < 0.0_wp
+                    if (tangents > 0) p%change = p%past - p%before
                     if (halved) p%past = (p%past + p%before)/2
-                    p%change = force
                     p%before = p%past
                     p%way_before = p%way
                     if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
@@ -132,10 +156,30 @@ contains
             solves = solves + state%solves
             state%solves = solves
             if (allocated(error)) return
+            way = 1.0_wp
             if (state%status == gapbeam_no_equilibrium .and. .not. state%slides) then
                 if (let_go(assembled, numbers, places, state%motion)) return
+                line%step(:) = state%motion
+                line%change(:) = 0.0_wp
+                way = way_to_rest(assembled, line)
+                if (.not. way <= huge(way)) return
+                searching = .true.
+                line%deflection(:) = line%deflection + way*line%step
+                way = 0.0_wp
+            else if (state%status == gapbeam_solved) then
+                line%step(:) = state%deflection - line%deflection
+                line%change(:) = state%reaction - line%reaction
+                if (searching) way = way_to_least_energy(assembled, line)
+                if (way < 1.0_wp) then
+                    line%deflection(:) = line%deflection + way*line%step
+                    line%reaction(:) = line%reaction + way*line%change
+                else
+                    line%deflection(:) = state%deflection
+                    line%reaction(:) = state%reaction
+                end if
+            else
+                exit
             end if
-            if (state%status /= gapbeam_solved) exit
         end do
         call refuse_laws(error)
 
@@ -148,7 +192,7 @@ contains
             integer :: i
 
             it_is = .false.
-            if (tangents == 0) return
+            if (tangents == 0 .or. way < 1.0_wp) return
             if (tangents < usual_tangents) then
                 it_is = all(abs(places%past - places%before) <= settled_on_laws*size_of)
             else
@@ -173,20 +217,24 @@ contains
         call fatal_error(error, gapbeam_not_converged, "the smooth laws of the supports could not be met: give them as polylines")
     end subroutine refuse_laws
 
-    !> Where a support is in a state
-    pure subroutine find_place(assembled, state, number, place)
+    !> Where a support is
+    pure subroutine find_place(assembled, line, number, by_displacement, place)
         type(assembled_type), intent(in) :: assembled
-        type(state_type), intent(in) :: state
+        !> Deflections and reactions at its beginning
+        type(line_type), intent(in) :: line
         !> Of the model
         integer, intent(in) :: number
+        !> The displacement tells the force, also where the law begins steep
+        logical, intent(in) :: by_displacement
         !> What was before stays
         type(place_type), intent(inout) :: place
 
         associate (s => assembled%model%supports(number))
-            place%deflection = deflection_at(assembled, state%deflection, number)
+            place%deflection = deflection_at(assembled, line%deflection, number)
             call past_the_gap(s, place%deflection, place%past, place%way)
-            place%reached = place%way*reaction_at(assembled, state%reaction, number)
-            place%by_force = place%reached > 0.0_wp .and. begins_steep(s%law, s%parameter)
+            place%reached = place%way*reaction_at(assembled, line%reaction, number)
+            place%steep = begins_steep(s%law, s%parameter)
+            place%by_force = place%steep .and. place%reached > 0.0_wp .and. .not. by_displacement
             if (place%by_force) place%past = law_displacement(s%law, s%parameter, place%reached)
         end associate
     end subroutine find_place
