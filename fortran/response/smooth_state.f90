@@ -6,8 +6,9 @@ module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
+    use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
-    use gapbeam_laws, only: begins_steep, law_displacement, law_bound
+    use gapbeam_laws, only: is_smooth, begins_steep, law_displacement, law_bound
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
@@ -59,15 +60,19 @@ contains
         integer, allocatable :: numbers(:)
         integer :: how
 
-        allocate (numbers, source=smooth_supports(assembled))
-        how = rule
-        if (size(numbers) > 0) then
-            if (allocated(state%laws)) deallocate (state%laws)
-            ! A scheme that is known holds on the laws, not on what is in their place
-            if (rule == rule_given) how = rule_extended
+        if (.not. any(is_smooth(assembled%model%supports%law) .and. assembled%beam_support > 0)) then
+            call solve_state(assembled, factor, rule, state, error)
+            return
         end if
+        call reserve_memory(for_laws, size(assembled%beam%links), size(assembled%beam%supports), 0, error)
+        if (allocated(error)) return
+        numbers = smooth_supports(assembled)
+        if (allocated(state%laws)) deallocate (state%laws)
+        ! A scheme that is known holds on the laws, not on what is in their place
+        how = rule
+        if (rule == rule_given) how = rule_extended
         call solve_state(assembled, factor, how, state, error)
-        if (size(numbers) == 0 .or. allocated(error) .or. state%status /= gapbeam_solved) return
+        if (allocated(error) .or. state%status /= gapbeam_solved) return
         call follow_tangents(assembled, numbers, factor, how, state, error)
         if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
     end subroutine solve_on_laws
