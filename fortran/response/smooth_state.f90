@@ -7,8 +7,9 @@ module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
+    use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
-    use gapbeam_laws, only: begins_steep, law_displacement, law_bound
+    use gapbeam_laws, only: is_smooth, law_bound
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
@@ -16,37 +17,19 @@ module gapbeam_smooth_state
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_energy, only: line_type, way_to_least_energy, way_to_rest
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
     implicit none
     private
     public :: solve_on_laws, refuse_laws, audit_laws, place_type
 
-    !> Tangents that usually do, from a polyline as near as it is some five
-    integer, parameter :: usual_tangents = 10
     !> After so many the energy tells how far a tangent leads, which settles from anywhere; tuned
     integer, parameter :: tangents_to_search = 30
-    !> So often a tangent may lead too far; after that the support has opened
-    integer, parameter :: most_shortened = 12
-    !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
-    !> digits
-    real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
     !> So many times that a force may be off its curve when all is done
     real(wp), parameter :: audited = 16
     !> Share by which laws are taken to give less than all that they can, to see whether anything else holds the beam
     real(wp), parameter :: less = 1e-9_wp
-
-    !> Where the supports with smooth laws are: in the user's units, one entry each
-    type :: place_type
-        !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
-        real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
-        integer :: way = 0
-        !> Does the law begin steep, and does the force tell the displacement
-        logical :: steep = .false., by_force = .false.
-        !> The displacement where the last tangent was put, its way and its change, and how often it has been shortened
-        real(wp) :: before = huge(1.0_wp), change = 0.0_wp
-        integer :: way_before = 0, shortened = 0
-    end type place_type
 
 contains
 
@@ -66,14 +49,18 @@ contains
         logical, allocatable :: start(:)
         integer :: how
 
-        allocate (numbers, source=smooth_supports(assembled))
-        how = rule
-        if (size(numbers) > 0) then
-            if (allocated(state%laws)) deallocate (state%laws)
-            ! A scheme that is known holds on the laws, not on what is in their place
-            if (rule == rule_given) how = rule_extended
+        if (.not. any(is_smooth(assembled%model%supports%law) .and. assembled%beam_support > 0)) then
+            call solve_state(assembled, factor, rule, state, error)
+            return
         end if
-        if (size(numbers) > 0 .and. present(near)) then
+        call reserve_memory(for_laws, size(assembled%beam%links), size(assembled%beam%supports), 0, error)
+        if (allocated(error)) return
+        numbers = smooth_supports(assembled)
+        if (allocated(state%laws)) deallocate (state%laws)
+        ! A scheme that is known holds on the laws, not on what is in their place
+        how = rule
+        if (rule == rule_given) how = rule_extended
+        if (present(near)) then
             allocate (start(size(state%closed)))
             start(:) = state%closed
             call begin_with_tangents(assembled, numbers, near, state)
@@ -90,7 +77,7 @@ contains
             end if
         end if
         call solve_state(assembled, factor, how, state, error)
-        if (size(numbers) == 0 .or. allocated(error) .or. state%status /= gapbeam_solved) return
+        if (allocated(error) .or. state%status /= gapbeam_solved) return
         call follow_tangents(assembled, numbers, factor, how, state, error)
         if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
 
@@ -142,14 +129,12 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(place_type), allocatable :: places(:)
         type(line_type) :: line
-        real(wp), allocatable :: size_of(:)
-        real(wp) :: force, slope, way
-        integer :: j, tangents, solves, stat
-        logical :: searching, overshot, halved
+        real(wp) :: way
+        integer :: tangents, solves, stat
+        logical :: searching, settled
 
         associate (n => size(assembled%beam%links), m => size(state%reaction))
-            allocate (places(size(numbers)), size_of(size(numbers)), line%deflection(0:n), line%step(0:n), line%reaction(m), &
-                      line%change(m), stat=stat)
+            allocate (places(size(numbers)), line%deflection(0:n), line%step(0:n), line%reaction(m), line%change(m), stat=stat)
         end associate
         if (stat /= 0) then
             call no_memory(error)
@@ -163,18 +148,15 @@ contains
         do tangents = 0, most_tangents - 1
             ! Where nothing else helps
             if (tangents == tangents_to_search) searching = .true.
-            do j = 1, size(numbers)
-                call find_place(assembled, line, numbers(j), searching, places(j))
-                associate (s => assembled%model%supports(numbers(j)))
-                    size_of(j) = max(abs(places(j)%deflection - s%settlement), abs(s%gap))
-                end associate
-            end do
+            call find_places(assembled, numbers, line, searching, places)
             if (.not. all(abs(places%past) <= huge(1.0_wp))) exit
-            if (is_settled()) then
+            settled = .false.
+            if (tangents > 0 .and. .not. way < 1.0_wp) settled = are_settled(assembled, numbers, tangents, places)
+            if (settled) then
                 if (searching .and. any(places%steep .and. places%reached > 0.0_wp)) then
                     searching = .false.  ! the last digits come from the forces
                 else
-                    call audit_laws(assembled, numbers, places, maxval(size_of), error)
+                    call audit_laws(assembled, numbers, places, maxval(places%size), error)
                     if (.not. allocated(error) .or. searching) then
                         if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
                         state%solves = solves
@@ -185,28 +167,7 @@ contains
                 end if
             end if
             if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
-            do j = 1, size(numbers)
-                associate (p => places(j), s => assembled%model%supports(numbers(j)))
-                    ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
-                    overshot = .not. searching .and. p%before > 0.0_wp .and. p%before < huge(p%before) .and. &
-                        p%shortened < most_shortened .and. (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
-                    if (overshot) then
-                        p%past = p%before/8
-                        p%way = p%way_before
-                        p%shortened = p%shortened + 1
-                    end if
-                    ! About a bend they may go to and fro for ever: then half as far
-                    halved = .not. searching .and. tangents >= usual_tangents .and. p%past > 0.0_wp .and. &
-                        p%way == p%way_before .and. (p%past - p%before)*p%change < 0.0_wp
-                    if (tangents > 0) p%change = p%past - p%before
-                    if (halved) p%past = (p%past + p%before)/2
-                    p%before = p%past
-                    p%way_before = p%way
-                    if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
-                    call force_and_slope(s, p%past, force, slope)
-                    call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, state%laws)
-                end associate
-            end do
+            call put_tangents(assembled, numbers, tangents, searching, places, state%laws)
             call solve_state(assembled, factor, rule, state, error)
             solves = solves + state%solves
             state%solves = solves
@@ -238,31 +199,6 @@ contains
         end do
         call refuse_laws(error)
 
-    contains
-
-        !> Does another tangent change nothing
-        pure function is_settled() result(it_is)
-            logical :: it_is
-            real(wp) :: f, k
-            integer :: i
-
-            it_is = .false.
-            if (tangents == 0 .or. way < 1.0_wp) return
-            if (tangents < usual_tangents) then
-                it_is = all(abs(places%past - places%before) <= settled_on_laws*size_of)
-            else
-                it_is = all(abs(places%past - places%before) <= rounding*maxval(size_of))
-            end if
-            if (it_is .or. any(places%by_force)) return
-            ! The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
-            do i = 1, size(places)
-                call force_and_slope(assembled%model%supports(numbers(i)), places(i)%past, f, k)
-                if (k > huge(k)) return
-                if (.not. abs(f - places(i)%reached) <= last_digit*(abs(f) + k*size_of(i))) return
-            end do
-            it_is = .true.
-        end function is_settled
-
     end subroutine follow_tangents
 
     !> Refuse laws that tangents do not settle on
@@ -271,28 +207,6 @@ contains
 
         call fatal_error(error, gapbeam_not_converged, "the smooth laws of the supports could not be met: give them as polylines")
     end subroutine refuse_laws
-
-    !> Where a support is
-    pure subroutine find_place(assembled, line, number, by_displacement, place)
-        type(assembled_type), intent(in) :: assembled
-        !> Deflections and reactions at its beginning
-        type(line_type), intent(in) :: line
-        !> Of the model
-        integer, intent(in) :: number
-        !> The displacement tells the force, also where the law begins steep
-        logical, intent(in) :: by_displacement
-        !> What was before stays
-        type(place_type), intent(inout) :: place
-
-        associate (s => assembled%model%supports(number))
-            place%deflection = deflection_at(assembled, line%deflection, number)
-            call past_the_gap(s, place%deflection, place%past, place%way)
-            place%reached = place%way*reaction_at(assembled, line%reaction, number)
-            place%steep = begins_steep(s%law, s%parameter)
-            place%by_force = place%steep .and. place%reached > 0.0_wp .and. .not. by_displacement
-            if (place%by_force) place%past = law_displacement(s%law, s%parameter, place%reached)
-        end associate
-    end subroutine find_place
 
     !> Do all laws give as much against a motion as they ever can, so that no other state stops it
     pure function let_go(assembled, numbers, places, motion) result(they_do)

@@ -24,7 +24,7 @@ module gapbeam_state
     use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range
-    use gapbeam_memory, only: for_solving, for_certifying
+    use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
     public :: solve_state, solve_along_axis, ground_of, recover_state, certify_state, detail_of, name_range
@@ -141,6 +141,8 @@ contains
             state%moment_left(:) = state%ground%moment_left
             state%moment_right(:) = state%ground%moment_right
             state%reaction(:) = state%ground%reaction
+            call reserve_memory(for_fields, 0, 0, 2*size(state%ground%piece) + size(acting), error)
+            if (allocated(error)) return
             call audit_ground(ground, factor, acting, state%ground, ledger, state%ground%residuals)
             call name_fault(assembled, ledger, error)
         end subroutine settle_on_ground

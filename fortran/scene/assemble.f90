@@ -7,6 +7,7 @@ module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
@@ -42,6 +43,10 @@ contains
             end if
             call place_span_ends(model%spans, assembled%ends)
             call gather_points(model, assembled%law, error)
+            if (.not. allocated(error)) then
+                call reserve_memory(for_assembling, n, size(model%supports), size(model%foundations) + size(model%ground) &
+                                    + size(model%ground_law), error)
+            end if
             if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
             allocate (assembled%with_law(size(model%supports)), stat=stat)

@@ -12,8 +12,9 @@ from __future__ import annotations
 import mmap
 import os
 import threading
-from _thread import allocate_lock, interrupt_main, start_new_thread
+from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable, Iterator
+from functools import partial
 from queue import SimpleQueue
 from time import perf_counter
 from typing import Any
@@ -171,19 +172,13 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 class Owned(int):
     """A number by which the compiled layer knows something, which is freed with the last reference to the number."""
 
-    _drop: Callable
-
     def __init_subclass__(cls, drop: Callable) -> None:
-        """Take the routine that frees one."""
-        cls._drop = staticmethod(drop)
+        """Take the compiled routine that frees one; 0 it must leave alone.
 
-    def __del__(self, again: Callable = interrupt_main) -> None:
-        """Free it, also when Python ends and modules are gone; a Ctrl-C that comes just here is not lost."""
-        try:
-            if self:
-                self._drop(self)
-        except KeyboardInterrupt:
-            again()
+        Nothing of it is written in Python, which hears signals between its own instructions: a Ctrl-C inside `__del__` would
+        be printed and lost. The property binds the number to the routine, and Python calls what it gets.
+        """
+        cls.__del__ = property(partial(partial, drop))
 
 
 class Handle(Owned, drop=_engine.gbdrop):

@@ -85,8 +85,8 @@ class SmoothLaws:
         if off[worst] > tolerance * np.abs(solution.at_supports[0]).max():
             raise EngineError(
                 f"supports[{self._numbers[worst]}].law: at load factor {factor:.9g} the path leads to a reaction of "
-                f"{found[worst]:.6g}, where the law gives {force[worst] + 0.0:.6g}: the supports may carry less than this load; lower "
-                "it, or give the laws as polylines",
+                f"{found[worst]:.6g}, where the law gives {force[worst] + 0.0:.6g}: the supports may carry less than this load; "
+                "lower it, or give the laws as polylines",
                 Status.NOT_CONVERGED,
             )
 

@@ -28,7 +28,7 @@ from .state_extremes import extremes_of_state
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
 ON_LAWS, ON_POLYLINES = 1e-6, 0.05
-"""Shares of the largest reaction by which a force may be beside its smooth law: far above rounding, and what polylines leave out."""
+"""Shares of the largest reaction by which a force may be beside its smooth law: far above rounding; what polylines leave out."""
 
 
 class Known(NamedTuple):

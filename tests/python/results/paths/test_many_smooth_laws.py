@@ -18,7 +18,8 @@ def row(law, n, q=1.0, force=15.0, seed=2, stiffness=1e4, gap=0.01):
     rng = np.random.default_rng(seed)
     supports = [{"node": i, "side": "below", "law": law, "gap": float(rng.uniform(0, gap))} for i in range(n)]
     forces = [{"type": "force", "x": float(x), "F": force} for x in rng.uniform(0, n - 1, n // 10)]
-    return {"beam": {"spans": [1.0] * (n - 1), "EI": stiffness}, "supports": supports, "loads": [{"type": "uniform", "q": q}, *forces]}
+    loads = [{"type": "uniform", "q": q}, *forces]
+    return {"beam": {"spans": [1.0] * (n - 1), "EI": stiffness}, "supports": supports, "loads": loads}
 
 
 def are_on_their_laws(scene, step):
