@@ -4,11 +4,10 @@ module gapbeam_events
     use gapbeam_limits, only: changes_at_a_time
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_turns
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
@@ -16,7 +15,7 @@ module gapbeam_events
     use gapbeam_memory, only: for_following
     implicit none
     private
-    public :: event_type, follow_events
+    public :: event_type, follow_events, add_event
 
     !> A change of the contact state
     type :: event_type
@@ -104,44 +103,41 @@ contains
         subroutine note(when, which, what)
             real(wp), intent(in) :: when
             integer, intent(in) :: which, what
-            type(event_type), allocatable :: longer(:)
             type(acting_type) :: before, after
             integer :: change
 
-            before = now_acts(which)
+            before = acts_in(assembled, assembled%normal(which), now)
             if (what /= gapbeam_turns) now(which) = .not. now(which)
-            after = now_acts(which)
+            after = acts_in(assembled, assembled%normal(which), now)
             change = what
             if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= gapbeam_turns) change = what_happens(before, after)
             if (change == no_change .or. (.not. when > 0.0_wp .and. what /= gapbeam_turns)) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
-                longer(1:number) = events
-                call move_alloc(longer, events)
-            end if
-            number = number + 1
-            events(number) = event_type(when, assembled%normal(which), merge(what, after%condition, what == gapbeam_turns), change)
+            call add_event(event_type(when, assembled%normal(which), merge(what, after%condition, what == gapbeam_turns), change), &
+                           events, number, stat)
+            if (stat /= 0) call no_memory(error)
         end subroutine note
 
-        !> What acts of a support of the beam, which may be a breakpoint of a law
-        pure function now_acts(which) result(acting)
-            integer, intent(in) :: which
-            type(acting_type) :: acting
-            integer :: first
-
-            associate (supports => assembled%beam%supports)
-                first = which - max(supports(which)%breakpoint - 1, 0)
-                associate (last => last_breakpoint(supports, which))
-                    acting = acting_piece(supports(first:last), assembled%model%supports(assembled%normal(which))%side, &
-                                          now(first:last))
-                end associate
-            end associate
-        end function now_acts
-
     end subroutine follow_events
+
+    !> Put an event to others
+    pure subroutine add_event(event, events, number, stat)
+        type(event_type), intent(in) :: event
+        !> The first `number` entries are events
+        type(event_type), allocatable, intent(inout) :: events(:)
+        integer, intent(inout) :: number
+        !> Not 0 where memory is at an end
+        integer, intent(out) :: stat
+        type(event_type), allocatable :: longer(:)
+
+        stat = 0
+        if (number == size(events)) then
+            allocate (longer(2*number), stat=stat)
+            if (stat /= 0) return
+            longer(:number) = events
+            call move_alloc(longer, events)
+        end if
+        number = number + 1
+        events(number) = event
+    end subroutine add_event
 
 end module gapbeam_events
