@@ -168,24 +168,24 @@ contains
                 stretch%closely = .true.
             end do
             call refuse_redundant_stretch(beam, detail, here, min(exactly, real(limit, qp)), closed, error)
-            if (allocated(error)) exit
+            if (allocated(error)) exit along
             if (exactly - here < shortest_interval*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
             stretch%in_doubt = stretch%in_doubt .or. short_stretches > 2*size(closed)
             if (short_stretches > 100 + 4*size(closed)) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
                                  "rounding decides, even in quadruple precision: follow the load by steps")
-                exit
+                exit along
             end if
             if (stretch%indifferent > 16 + 4*size(closed)) then
                 ! The position is not unique, so supports may be touched here or there, without end
                 call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
                                  "of the loads, so there is no single path of its supports: follow the load by steps")
-                exit
+                exit along
             end if
             if (exactly >= limit) at_zero = [integer ::]
             factor = max(factor, real(min(exactly, real(limit, qp)), wp))
-            if (exactly >= limit) exit
-            if (path%count >= path%most .and. (factor > begin .or. path%count >= path%most + 3*size(closed))) exit
+            if (exactly >= limit) exit along
+            if (path%count >= path%most .and. (factor > begin .or. path%count >= path%most + 3*size(closed))) exit along
         end do along
         marginal = .false.
         marginal(at_zero) = .true.
