@@ -12,7 +12,7 @@ LINES, ARGUMENTS, FILE = 100, 10, 400
 def listed(text):
     """Files, and names of procedures in them."""
     lines = [line.partition(":") for line in text.split("\n") if line]
-    return {f"{file} {name}" for file, _, names in lines for name in names.split()} | {file for file, _, names in lines if not names}
+    return {f"{file} {name}".strip() for file, _, names in lines for name in names.split() or [""]}
 
 
 LONG = listed("""
@@ -138,7 +138,7 @@ def test_no_file_is_long():
 
 def test_what_is_listed_is_there():
     there = {named(path, name) for path in sources() for name, *_ in procedures(path)}
-    assert LONG | MANY_ARGUMENTS <= there
+    assert there >= LONG | MANY_ARGUMENTS
 
 
 @pytest.mark.parametrize(("text", "found"), [
