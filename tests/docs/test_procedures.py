@@ -19,17 +19,13 @@ LONG = listed("""
 cases/lane_fields: recover_link
 cases/lane_row_errors: find_sizes
 cases/lane_sweeps: sweep_chain sweep_three_moments
-contact/contact_state: proximal_iteration
 contact/find_zones: find_zones
 contact/ground_energy: find_least_energy
-contact/kinematics: free_motions
 contact/mesh_zones: zones_of_mesh
-continuation/crossing: follow_margin
 continuation/ground_zones: ground_runs
 elimination/band: factor_chain
 elimination/elements: sweep
 elimination/foundation_chain: factor_foundation_chain
-elimination/pivoting: assemble
 moving_load/train_bounds: find_bounds
 moving_load/train_curves: find_curves
 moving_load/train_elimination: substitute
@@ -38,13 +34,9 @@ moving_load/train_extremes: find_extreme
 moving_load/train_link_bounds: bound_link
 precision/audit: audit_beam
 precision/ground_audit: audit_ground
-precision/ground_solution: sum_layers
 precision/ground_solver: solve_on_ground
 precision/stretch_audit: audit_stretch
-response/state: solve_state
-scene/assemble: find_points
 scene/assemble_foundations: assemble_foundations
-scene/check_laws: check_laws
 """)
 """Procedures of more lines, those inside counted with their host. None may be added: what is cut is taken out."""
 MANY_ARGUMENTS = listed("""
