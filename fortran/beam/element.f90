@@ -9,7 +9,7 @@ module gapbeam_element
     implicit none
     private
     public :: sum_type, add, total
-    public :: moment_integrals, field_type, fields_at
+    public :: load_moment, moment_integrals, field_type, fields_at
 
     !> A running sum that keeps its rounding error (Neumaier 1974), so that a million pieces lose no digits
     type :: sum_type
@@ -47,25 +47,7 @@ contains
         value = self%high + self%low
     end function total
 
-    !> Integrals of the moment over a piece, weighted towards its ends:
-    !> left = int (1-t) M ds, right = int t M ds, for M linear from m0 to m1 plus the bubble of the load.
-    !> The load terms are those of the simple beam under a linear load (7 and 8 over 360).
-    pure subroutine moment_integrals(l, m0, m1, qa, qb, left, right)
-        !> Length of the piece
-        real(wp), intent(in) :: l
-        !> Moments at its left and right end
-        real(wp), intent(in) :: m0, m1
-        !> Load per length at its left and right end, positive downward
-        real(wp), intent(in) :: qa, qb
-        !> The two integrals, moment times length
-        real(wp), intent(out) :: left, right
-
-        left = l*((2*m0 + m1)/6 + l**2*(8*qa + 7*qb)/360)
-        right = l*((m0 + 2*m1)/6 + l**2*(7*qa + 8*qb)/360)
-    end subroutine moment_integrals
-
-    !> Fields inside a piece from the fields at its left end, by exact integration of
-    !> M'' = -q, psi' = -M/EI + kappa, w' = psi + V/GA
+    !> Fields inside a piece from the fields at its left end
     pure function fields_at(start, s, l, flexibility, shear_flexibility, qa, qb, kappa) result(fields)
         !> Fields just right of the piece's left end
         type(field_type), intent(in) :: start
@@ -80,17 +62,16 @@ contains
         !> Imposed curvature
         real(wp), intent(in) :: kappa
         type(field_type) :: fields
-        real(wp) :: slope, rise
 
-        slope = (qb - qa)/l
-        rise = s*(start%shear - s*(qa/2 + s*slope/6))
-        fields%moment = start%moment + rise
-        fields%shear = start%shear - s*(qa + s*slope/2)
-        fields%rotation = start%rotation + s*(kappa - flexibility*(start%moment &
-            + s*(start%shear/2 - s*(qa/6 + s*slope/24))))
-        fields%deflection = start%deflection + s*(start%rotation + s*(kappa/2 &
-            - flexibility*(start%moment/2 + s*(start%shear/6 - s*(qa/24 + s*slope/120))))) &
-            + shear_flexibility*rise
+        associate (w => start%deflection, psi => start%rotation, m => start%moment, v => start%shear)
+            fields%deflection = deflection_at(s, l, flexibility, shear_flexibility, qa, qb, kappa, w, psi, m, v)
+            fields%rotation = rotation_at(s, l, flexibility, qa, qb, kappa, psi, m, v)
+            fields%moment = moment_at(s, l, qa, qb, m, v)
+            fields%shear = shear_at(s, l, qa, qb, v)
+        end associate
     end function fields_at
+
+    include 'beam/moments_along.inc'
+    include 'beam/fields_along.inc'
 
 end module gapbeam_element

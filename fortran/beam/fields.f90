@@ -74,7 +74,7 @@ contains
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(piece_load_type) :: q
-        real(wp) :: c(0:highest_degree, bending_count), roots(highest_degree), slope, left(bending_count), right(bending_count)
+        real(wp) :: c(0:highest_degree, bending_count), roots(highest_degree), left(bending_count), right(bending_count)
         real(wp) :: share(state_count + 1, derived_count)
         logical :: near(bending_count)
         integer :: degree(bending_count), j, k, i, number
@@ -105,16 +105,13 @@ contains
             if (.not. any(near)) cycle
             ! Derivatives of the fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
-                slope = (q%qb - q%qa)/pieces(j)%length
                 c = 0.0_wp
-                c(0:1, 4) = [-q%qa, -slope]
-                c(0:2, 3) = [a%shear, -q%qa, -slope/2]
-                c(0:3, 2) = [q%kappa - f*a%moment, -f*a%shear, f*q%qa/2, f*slope/6]
-                c(0, 1) = a%rotation + g*a%shear
-                c(1, 1) = q%kappa - f*a%moment - g*q%qa
-                c(2, 1) = -f*a%shear/2 - g*slope/2
-                c(3, 1) = f*q%qa/6
-                c(4, 1) = f*slope/24
+                call derive_deflection(pieces(j)%length, f, g, q%qa, q%qb, q%kappa, a%rotation, a%moment, a%shear, c(0, 1), &
+                                       c(1, 1), c(2, 1), c(3, 1), c(4, 1))
+                call derive_rotation(pieces(j)%length, f, q%qa, q%qb, q%kappa, a%moment, a%shear, c(0, 2), c(1, 2), &
+                                     c(2, 2), c(3, 2))
+                call derive_moment(pieces(j)%length, q%qa, q%qb, a%shear, c(0, 3), c(1, 3), c(2, 3))
+                c(0:1, 4) = [-q%qa, (q%qa - q%qb)/pieces(j)%length]
             end associate
             share = shares_of(softness_of(pieces(j)))
             c(:, state_count + 1:) = matmul(c(:, 1:state_count), share(1:state_count, :))
@@ -270,5 +267,7 @@ contains
             distances(2) = s
         end if
     end subroutine consider
+
+    include 'beam/derivatives_along.inc'
 
 end module gapbeam_fields

@@ -5,11 +5,11 @@
 !> them is a sum of terms of one sign, so they lose no digits however many pieces there are.
 module gapbeam_link
     use gapbeam_kinds, only: wp
-    use gapbeam_element, only: sum_type, add, total, moment_integrals, field_type
+    use gapbeam_element, only: sum_type, add, total, load_moment, moment_integrals, field_type
     implicit none
     private
     public :: link_type, piece_type, piece_load_type, condense_link, condense_loads, recover_link, combine_loads
-    public :: along_type, next_piece, moments_about_right_end
+    public :: along_type, next_piece, moments_about_right_end, no_load
 
     !> A prismatic piece
     type :: piece_type
@@ -24,6 +24,7 @@ module gapbeam_link
         !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
         real(wp) :: force, couple
     end type piece_load_type
+    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
     !> A condensed link; index 1 dead, 2 live
     type :: link_type
@@ -115,14 +116,8 @@ contains
             shear_term = total(shear)/link%length**2
         end if
         link%inverse = 1/link%length
-        associate (m => link%bending)
-            link%sum_a = m*(1 - centre)
-            link%sum_b = m*centre
-            link%faa = m*((1 - centre)**2 + spread) + shear_term
-            link%fab = m*(centre*(1 - centre) - spread) - shear_term
-            link%fbb = m*(centre**2 + spread) + shear_term
-            link%determinant = m*(m*spread + shear_term)
-        end associate
+        call condense_centre(link%bending, centre, spread, shear_term, link%sum_a, link%sum_b, link%faa, link%fab, link%fbb, &
+                             link%determinant)
     end subroutine condense_flexibility
 
     !> Load terms of the link for one load case
@@ -251,14 +246,6 @@ contains
         end do
         found = .false.
     end function any_load
-
-    !> Moment of a piece's own load about the left end of the link, the piece beginning at x0
-    elemental function load_moment(x0, l, qa, qb) result(moment)
-        real(wp), intent(in) :: x0, l, qa, qb
-        real(wp) :: moment
-
-        moment = l*(x0*(qa + qb)/2 + l*(qa + 2*qb)/6)
-    end function load_moment
 
     !> Sum of the moments about the right end of all loads that lie to the right of each interior point
     pure subroutine moments_about_right_end(pieces, loads, right, all_of_them)
@@ -396,5 +383,7 @@ contains
             call add(first, work(j, 3)*total(position))
         end do
     end subroutine recover_link
+
+    include 'beam/elastic_centre.inc'
 
 end module gapbeam_link

@@ -59,7 +59,7 @@ contains
         real(wp), intent(out) :: psi(:)
         real(wp) :: turn_a, turn_b, part, largest
         real(wp), allocatable :: rounding(:), bend(:)
-        integer :: i, n
+        integer :: i, j, k, n, way
 
         n = size(links)
         allocate (rounding(n), bend(n))
@@ -75,17 +75,15 @@ contains
                 rounding(i) = (abs(w(i)) + abs(w(i - 1)))/link%length + largest
             end associate
         end do
-        do i = 2, n
-            if (kind(i - 1) /= hinge .and. rounding(i - 1) < rounding(i)) then
-                psi(i) = psi(i - 1) - bend(i - 1)
-                rounding(i) = rounding(i - 1)
-            end if
-        end do
-        do i = n - 1, 1, -1
-            if (kind(i) /= hinge .and. rounding(i + 1) < rounding(i)) then
-                psi(i) = psi(i + 1) + bend(i)
-                rounding(i) = rounding(i + 1)
-            end if
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of link k, across node j
+                k = i - way
+                j = min(i, k)
+                if (kind(j) == hinge .or. .not. rounding(k) < rounding(i)) cycle
+                psi(i) = psi(k) - way*bend(j)
+                rounding(i) = rounding(k)
+            end do
         end do
     end subroutine end_rotations
 

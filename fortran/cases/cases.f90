@@ -3,18 +3,18 @@
 module gapbeam_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
-    use gapbeam_link, only: link_type, piece_load_type, condense_loads
+    use gapbeam_link, only: link_type, piece_load_type, condense_loads, no_load
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme, detail_type
-    use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_live
+    use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_live
     use gapbeam_units, only: moment_unit
     use gapbeam_law, only: both
-    use gapbeam_assembled_model, only: assembled_type, is_stretch
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_supports, only: is_room
-    use gapbeam_assemble_loads, only: spread_load, assemble_loads
-    use gapbeam_assemble_units, only: load_in_units, support_in_units
+    use gapbeam_assemble_loads, only: find_loaded, put_load, assemble_loads
+    use gapbeam_assemble_units, only: support_in_units
     use gapbeam_case_types, only: case_solutions_type
     implicit none
     private
@@ -38,9 +38,6 @@ module gapbeam_cases
         type(node_share_type), allocatable :: of_nodes(:)
     end type case_loads_type
 
-    !> No load on a piece
-    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
-
 contains
 
     !> Condense the loads of a beam one by one
@@ -52,7 +49,7 @@ contains
         type(piece_load_type), allocatable :: on_pieces(:)
         integer, allocatable :: link_of(:)
         real(wp), allocatable :: work(:)
-        integer :: i, k, shares, at_nodes, stat
+        integer :: i, k, first, last, node, shares, at_nodes, stat
 
         allocate (on_pieces(size(assembled%pieces)), work(size(assembled%pieces)), link_of(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
@@ -66,17 +63,9 @@ contains
         shares = 0
         at_nodes = 0
         do k = 1, size(assembled%model%loads)
-            associate (a => assembled%load_from(k), b => assembled%load_to(k), load => assembled%model%loads(k))
-                if (load%kind == gapbeam_axial_force) cycle
-                if (is_stretch(load) .and. a == b) cycle
-                if (is_stretch(load)) then
-                    shares = shares + link_of(b) - link_of(a + 1) + 1
-                else if (assembled%node_of_point(a) >= 0) then
-                    at_nodes = at_nodes + 1
-                else
-                    shares = shares + 1
-                end if
-            end associate
+            call find_loaded(assembled, k, first, last, node)
+            if (first <= last) shares = shares + link_of(last) - link_of(first) + 1
+            if (node >= 0) at_nodes = at_nodes + 1
         end do
         allocate (loads%of_links(shares), loads%of_nodes(at_nodes), stat=stat)
         if (stat /= 0) then
@@ -86,29 +75,16 @@ contains
         shares = 0
         at_nodes = 0
         do k = 1, size(assembled%model%loads)
-            associate (a => assembled%load_from(k), b => assembled%load_to(k), load => assembled%model%loads(k))
-                if (load%kind == gapbeam_axial_force) cycle
-                if (is_stretch(load) .and. a == b) cycle
-                if (is_stretch(load)) then
-                    call spread_load(assembled, load, a, b, on_pieces)
-                    do i = a + 1, b
-                        call load_in_units(on_pieces(i), assembled%units)
-                    end do
-                    do i = link_of(a + 1), link_of(b)
-                        call condense(i)
-                    end do
-                    on_pieces(a + 1:b) = no_load
-                else if (assembled%node_of_point(a) >= 0) then
-                    at_nodes = at_nodes + 1
-                    loads%of_nodes(at_nodes) = at_node(assembled, k)
-                else
-                    if (load%kind == gapbeam_force) on_pieces(a)%force = load%value
-                    if (load%kind == gapbeam_couple) on_pieces(a)%couple = load%value
-                    call load_in_units(on_pieces(a), assembled%units)
-                    call condense(link_of(a))
-                    on_pieces(a) = no_load
-                end if
-            end associate
+            call put_load(assembled, k, first, last, node, on_pieces)
+            if (node >= 0) then
+                at_nodes = at_nodes + 1
+                loads%of_nodes(at_nodes) = at_node(assembled, k, node)
+            end if
+            if (first > last) cycle
+            do i = link_of(first), link_of(last)
+                call condense(i)
+            end do
+            on_pieces(first:last) = no_load
         end do
 
     contains
@@ -130,12 +106,12 @@ contains
     end subroutine split_loads
 
     !> What a load does to the node it is at
-    pure function at_node(assembled, load) result(share)
+    pure function at_node(assembled, load, node) result(share)
         type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: load
+        integer, intent(in) :: load, node
         type(node_share_type) :: share
 
-        share = node_share_type(load, assembled%node_of_point(assembled%load_from(load)), 0.0_wp, 0.0_wp)
+        share = node_share_type(load, node, 0.0_wp, 0.0_wp)
         associate (given => assembled%model%loads(load), units => assembled%units)
             if (given%kind == gapbeam_force) share%force = scale(given%value, -units%force)
             if (given%kind == gapbeam_couple) share%couple = scale(given%value, -moment_unit(units))

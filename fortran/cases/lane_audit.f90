@@ -185,22 +185,16 @@ contains
         real(wp), intent(in), dimension(lanes, 0:n) :: couple, ml, mr
         real(wp), intent(inout) :: excess(lanes)
         real(wp) :: most(lanes)
-        integer :: i, l
+        integer :: i
 
         most(:) = larger(larger(excess, abs(ml(:, 0))), abs(mr(:, n)))
         do i = 0, n
             if (beam%restraint(i) > 0) cycle
             if (beam%with_couples) then
-                !$omp simd
-                do l = 1, lanes
-                    most(l) = larger(most(l), abs(ml(l, i) - mr(l, i) + couple(l, i)) &
-                                       - audit_unit*(abs(mr(l, i)) + abs(couple(l, i))))
-                end do
+                most(:) = larger(most, abs(ml(:, i) - mr(:, i) + couple(:, i)) &
+                                   - audit_unit*(abs(mr(:, i)) + abs(couple(:, i))))
             else
-                !$omp simd
-                do l = 1, lanes
-                    most(l) = larger(most(l), abs(ml(l, i) - mr(l, i)))
-                end do
+                most(:) = larger(most, abs(ml(:, i) - mr(:, i)))
             end if
             if (beam%hinge(i) > 0.5_wp) most(:) = larger(larger(most, abs(ml(:, i))), abs(mr(:, i)))
         end do

@@ -9,7 +9,7 @@ module gapbeam_lane_certificate
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_tolerances, only: unit => rounding_unit, largest_error_share, greatest_squared
     use gapbeam_lane_row_errors, only: find_sizes, limit_range
-    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
+    use gapbeam_lane_residual, only: find_rests
     use gapbeam_lane_reactions, only: complete
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_measures, only: measure_pack
@@ -51,13 +51,8 @@ contains
                           pack%spring, pack%force)
         pack%spare(:, :) = pack%reaction
         call complete(beam, n, pack, poor)
-        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
-                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
-        if (size(beam%restrained) > 0) then
-            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
-                                         pack%left_rest, pack%turn_rest)
-        end if
-        call find_wrong_levels(n, pack%known_rest, poor)
+        call find_rests(beam, pack)
+        poor(:) = poor + count(abs(pack%known_rest) > 0.0_wp, 2)   ! a known deflection is another
         call find_sizes(beam, n, rounding, pack%left, pack%right, pack%force, pack%couple, pack%load_size, pack%turn_size, &
                         pack%held, pack%spring, pack%w, pack%ml, pack%mr, pack%left_rest, pack%turn_rest, pack%force_rest, &
                         pack%dw, pack%dl, pack%dr)
@@ -72,21 +67,6 @@ contains
         ! A link that hangs between a hinge and the end of the beam has no neighbour that knows its rotation
         poor(:) = poor + merge(1.0_wp, 0.0_wp, found(:, 7) > greatest_squared .or. wrong)
     end subroutine certify_pack
-
-    !> Cases with a known deflection that is another
-    pure subroutine find_wrong_levels(n, known_rest, poor)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: known_rest(lanes, 0:n)
-        real(wp), intent(inout) :: poor(lanes)
-        integer :: i, l
-
-        do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                poor(l) = poor(l) + merge(1.0_wp, 0.0_wp, abs(known_rest(l, i)) > 0.0_wp)
-            end do
-        end do
-    end subroutine find_wrong_levels
 
     !> Errors of the shears and rotations of links as they are found for fields: by their own ends, or through a neighbour
     pure subroutine bound_links(beam, n, rounding, right, turn_size, held, spring, force, w, ml, mr, couple, room, moves)

@@ -88,7 +88,9 @@ contains
             turned(:, k) = pack%closed(:, beam%place(k))
         end do
         associate (closed => solutions%closed)
-            call give_whole_columns(m, turned, size(closed, 1), size(closed, 2), closed, numbers)
+            call give_whole_eight(m, turned, closed(:, numbers(1)), closed(:, numbers(2)), closed(:, numbers(3)), &
+                                  closed(:, numbers(4)), closed(:, numbers(5)), closed(:, numbers(6)), closed(:, numbers(7)), &
+                                  closed(:, numbers(8)))
         end associate
     end subroutine give_pack
 
@@ -119,19 +121,6 @@ contains
                         columns(:, numbers(4)), columns(:, numbers(5)), columns(:, numbers(6)), columns(:, numbers(7)), &
                         columns(:, numbers(8)))
     end subroutine give_columns
-
-    !> Whole numbers likewise
-    pure subroutine give_whole_columns(rows, from, leading, cases, columns, numbers)
-        integer, intent(in) :: rows
-        real(wp), intent(in) :: from(lanes, rows)
-        integer, intent(in) :: leading, cases
-        integer, intent(inout) :: columns(leading, cases)
-        integer, intent(in) :: numbers(lanes)
-
-        call give_whole_eight(rows, from, columns(1, numbers(1)), columns(1, numbers(2)), columns(1, numbers(3)), &
-                              columns(1, numbers(4)), columns(1, numbers(5)), columns(1, numbers(6)), columns(1, numbers(7)), &
-                              columns(1, numbers(8)))
-    end subroutine give_whole_columns
 
     !> One argument a column, as compilers turn only what does not overlap
     pure subroutine take_eight(rows, a, b, c, d, e, f, g, h, to)

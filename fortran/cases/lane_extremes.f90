@@ -10,7 +10,7 @@ module gapbeam_lane_extremes
     use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_fields, only: recover_pack
-    use gapbeam_lane_values, only: find_values, deflection_at, rotation_at, shares_in_lanes
+    use gapbeam_lane_values, only: find_values, shares_in_lanes
     use gapbeam_lane_roots, only: find_open, count_turns, find_only_root, find_roots
     implicit none
     private
@@ -22,6 +22,8 @@ module gapbeam_lane_extremes
     !> Pieces of eight cases that wait for their roots to be found
     type :: queue_type
         integer :: waiting = 0, lane(lanes) = 1, piece(lanes) = 1
+        !> Coefficients of the derivative of the field
+        real(wp) :: derivative(lanes, 0:4) = 0.0_wp
     end type queue_type
 
 contains
@@ -126,7 +128,7 @@ contains
                 s = merge(1.0_wp, 0.0_wp, abs(change) > larger(abs(qa), abs(qb)))
                 x = length*(qa/divisor(l))
                 s = merge(x, 0.0_wp, s > 0.5_wp)
-                x = starts(l, j, 4) - s*(qa - 0.5_wp*(s*(change/length)))
+                x = shear_at(s, length, qa, qb, starts(l, j, 4))
                 call consider(x, real(j, wp), s, best(l, 1), best(l, 2), best(l, 3), best(l, 4), best(l, 5), best(l, 6))
             end do
         end do
@@ -185,7 +187,8 @@ contains
         integer, intent(in) :: n, d
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), left(lanes, n)
         real(wp), intent(inout) :: best(lanes, 6)
-        real(wp) :: c(lanes, 0:4), share(lanes, state_count + 1), roots(lanes, 4), there(lanes, 4), open(lanes), length, x, s
+        real(wp) :: c(lanes, 0:4), own(lanes, 0:4), share(lanes, state_count + 1), roots(lanes, 4), there(lanes, 4), open(lanes)
+        real(wp) :: length, x, s
         logical :: is_term(state_count, derived_count)
         integer :: j, l, m
 
@@ -195,7 +198,9 @@ contains
             share(:, :) = shares_in_lanes(pieces, j, d)
             c(:, :) = 0.0_wp
             do m = 1, state_count
-                if (is_term(m, d)) call add_derivative(pieces, n, j, m, loads, starts, share(:, m), c)
+                if (.not. is_term(m, d)) cycle
+                call find_derivative(pieces, n, j, m, loads, starts, own)
+                c(:, :) = c + spread(share(:, m), 2, 5)*own
             end do
             call find_open(length, left(:, j), c, best(:, 1), best(:, 4), open)
             if (.not. any(open > 0.5_wp)) cycle
@@ -210,37 +215,43 @@ contains
         end do
     end subroutine search_derived
 
-    !> Add a share of the derivative of deflection, rotation, moment or shear along a piece
-    pure subroutine add_derivative(pieces, n, j, k, loads, starts, share, c)
+    !> Coefficients of the derivative of deflection, rotation, moment or shear along a piece
+    pure subroutine find_derivative(pieces, n, j, k, loads, starts, c)
         type(lane_pieces_type), intent(in) :: pieces
         !> Pieces; the piece and the field
         integer, intent(in) :: n, j, k
-        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4), share(lanes)
-        real(wp), intent(inout) :: c(lanes, 0:4)
-        real(wp) :: own(0:4), slope
-        integer :: l, m
+        real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
+        real(wp), intent(out) :: c(lanes, 0:4)
+        real(wp) :: length, f, g
+        integer :: l
 
-        do l = 1, lanes
-            m = min(l, stiffness_lanes)
-            associate (length => pieces%length(j), f => pieces%flexibility(m, j), g => pieces%shear_flexibility(m, j), &
-                       load => loads(l, j, :), start => starts(l, j, :))
-                slope = (load(2) - load(1))/length
-                select case (k)
-                case (deflection)
-                    call derive_deflection(length, f, g, load(1), load(2), load(3), start(2), start(3), start(4), own(0), own(1), &
-                                           own(2), own(3), own(4))
-                case (rotation)
-                    call derive_rotation(length, f, load(1), load(2), load(3), start(3), start(4), own(0), own(1), own(2), &
-                                         own(3), own(4))
-                case (moment)
-                    own(:) = [start(4), -load(1), -slope/2, 0.0_wp, 0.0_wp]
-                case default
-                    own(:) = [-load(1), -slope, 0.0_wp, 0.0_wp, 0.0_wp]
-                end select
-            end associate
-            c(l, :) = c(l, :) + share(l)*own
-        end do
-    end subroutine add_derivative
+        length = pieces%length(j)
+        select case (k)
+        case (deflection)
+            !$omp simd private(f, g)
+            do l = 1, lanes
+                f = pieces%flexibility(min(l, stiffness_lanes), j)
+                g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
+                call derive_deflection(length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
+                                       starts(l, j, 3), starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
+            end do
+        case (rotation)
+            c(:, 4) = 0.0_wp
+            !$omp simd private(f)
+            do l = 1, lanes
+                f = pieces%flexibility(min(l, stiffness_lanes), j)
+                call derive_rotation(length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 3), &
+                                     starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3))
+            end do
+        case (moment)
+            c(:, 3:) = 0.0_wp
+            call derive_moment(length, loads(:, j, 1), loads(:, j, 2), starts(:, j, 4), c(:, 0), c(:, 1), c(:, 2))
+        case default
+            c(:, 0) = -loads(:, j, 1)
+            c(:, 1) = (loads(:, j, 1) - loads(:, j, 2))/length
+            c(:, 2:) = 0.0_wp
+        end select
+    end subroutine find_derivative
 
     !> Deflection or rotation inside pieces
     subroutine search_inside(pieces, n, k, loads, starts, room, best)
@@ -250,7 +261,7 @@ contains
         real(wp), intent(inout) :: best(lanes, 6)
         type(queue_type) :: queues(2)
         real(wp), dimension(lanes) :: most, least, open, turns
-        real(wp) :: c(lanes, 0:4), x, length, f, g
+        real(wp) :: c(lanes, 0:4), x, length
         integer :: j, l, m
 
         most(:) = best(:, 1)
@@ -266,22 +277,7 @@ contains
         do j = 1, n
             if (k == rotation .and. .not. (any(pieces%flexibility(:, j) > 0.0_wp) .or. any(abs(loads(:, j, 3)) > 0.0_wp))) cycle
             length = pieces%length(j)
-            if (k == rotation) then
-                !$omp simd private(f)
-                do l = 1, lanes
-                    f = pieces%flexibility(min(l, stiffness_lanes), j)
-                    call derive_rotation(length, f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 3), &
-                                         starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
-                end do
-            else
-                !$omp simd private(f, g)
-                do l = 1, lanes
-                    f = pieces%flexibility(min(l, stiffness_lanes), j)
-                    g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
-                    call derive_deflection(length, f, g, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), &
-                                           starts(l, j, 3), starts(l, j, 4), c(l, 0), c(l, 1), c(l, 2), c(l, 3), c(l, 4))
-                end do
-            end if
+            call find_derivative(pieces, n, j, k, loads, starts, c)
             call find_open(length, starts(:, j, k), c, most, least, open)
             if (.not. any(open > 0.5_wp)) cycle
             call count_turns(length, c, turns)
@@ -291,6 +287,7 @@ contains
                     queue%waiting = queue%waiting + 1
                     queue%lane(queue%waiting) = l
                     queue%piece(queue%waiting) = j
+                    queue%derivative(queue%waiting, :) = c(l, :)
                 end associate
                 do m = one_root, some_roots
                     if (queues(m)%waiting == lanes) call take_values_at_roots(pieces, n, k, m, loads, starts, queues(m), best)
@@ -310,30 +307,19 @@ contains
         real(wp), intent(in) :: loads(lanes, n, 5), starts(lanes, n, 4)
         type(queue_type), intent(inout) :: queue
         real(wp), intent(inout) :: best(lanes, 6)
-        real(wp) :: c(lanes, 0:4), length(lanes), roots(lanes, 4), there(lanes, 4), x, f, g
+        real(wp) :: length(lanes), roots(lanes, 4), there(lanes, 4), x, f, g
         integer :: i, l, m
 
         do i = 1, lanes
             ! The last ones repeat the first
             m = merge(i, 1, i <= queue%waiting)
-            associate (j => queue%piece(m), l => queue%lane(m))
-                length(i) = pieces%length(j)
-                f = pieces%flexibility(min(l, stiffness_lanes), j)
-                g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
-                if (k == rotation) then
-                    call derive_rotation(length(i), f, loads(l, j, 1), loads(l, j, 2), loads(l, j, 3), &
-                                         starts(l, j, 3), starts(l, j, 4), c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
-                else
-                    call derive_deflection(length(i), f, g, loads(l, j, 1), &
-                                           loads(l, j, 2), loads(l, j, 3), starts(l, j, 2), starts(l, j, 3), starts(l, j, 4), &
-                                           c(i, 0), c(i, 1), c(i, 2), c(i, 3), c(i, 4))
-                end if
-            end associate
+            length(i) = pieces%length(queue%piece(m))
+            queue%derivative(i, :) = queue%derivative(m, :)
         end do
         if (kind == one_root) then
-            call find_only_root(c, length, roots(:, 1), there(:, 1))
+            call find_only_root(queue%derivative, length, roots(:, 1), there(:, 1))
         else
-            call find_roots(c, length, roots, there)
+            call find_roots(queue%derivative, length, roots, there)
         end if
         do i = 1, queue%waiting
             l = queue%lane(i)
@@ -357,42 +343,6 @@ contains
         queue%waiting = 0
     end subroutine take_values_at_roots
 
-    !> Coefficients of the derivative of the rotation along a piece
-    elemental subroutine derive_rotation(length, f, qa, qb, kappa, m, v, c0, c1, c2, c3, c4)
-        !> Length, 1/EI; loads, moment and shear at the left end
-        real(wp), intent(in) :: length, f, qa, qb, kappa, m, v
-        real(wp), intent(out) :: c0, c1, c2, c3, c4
-
-        c0 = kappa - f*m
-        c1 = -f*v
-        c2 = f*qa/2
-        c3 = f*((qb - qa)/length)/6
-        c4 = 0.0_wp
-    end subroutine derive_rotation
-
-    !> The same of the deflection
-    elemental subroutine derive_deflection(length, f, g, qa, qb, kappa, turn, m, v, c0, c1, c2, c3, c4)
-        !> Length, 1/EI, 1/GA; loads, rotation, moment and shear at the left end
-        real(wp), intent(in) :: length, f, g, qa, qb, kappa, turn, m, v
-        real(wp), intent(out) :: c0, c1, c2, c3, c4
-        real(wp) :: slope
-
-        slope = (qb - qa)/length
-        c0 = turn + g*v
-        c1 = kappa - f*m - g*qa
-        c2 = -f*v/2 - g*slope/2
-        c3 = f*qa/6
-        c4 = f*slope/24
-    end subroutine derive_deflection
-
-    !> The moment at a distance from the left end of a piece: fields_at of gapbeam_element
-    elemental function moment_at(s, length, qa, qb, m, v) result(x)
-        real(wp), intent(in) :: s, length, qa, qb, m, v
-        real(wp) :: x
-
-        x = m + s*(v - s*(qa/2 + s*((qb - qa)/length)/6))
-    end function moment_at
-
     !> Compare a value with the extremes so far
     elemental subroutine consider(x, piece, s, most, most_piece, most_at, least, least_piece, least_at)
         !> The value, its piece, and the distance from its left end
@@ -415,6 +365,8 @@ contains
         least_at = merge(s, c, x < a)
     end subroutine consider
 
+    include 'beam/fields_along.inc'
+    include 'beam/derivatives_along.inc'
     include 'cases/larger.inc'
 
 end module gapbeam_lane_extremes

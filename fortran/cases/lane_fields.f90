@@ -62,7 +62,7 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: faa, fab, sum_a, sum_b, bending
         real(wp) :: turn_a, turn_b, m, z, psi, size, other, other_size, crosses
-        integer :: i, l
+        integer :: i, j, k, l, way
 
         do i = 1, n
             !$omp simd private(faa, fab, sum_a, sum_b, bending, turn_a, turn_b, m, z)
@@ -83,30 +83,22 @@ contains
                     + larger(larger(abs(turn_a), abs(turn_b)), bending*larger(abs(m), abs(z)))
             end do
         end do
-        do i = 2, n
-            crosses = 1.0_wp - beam%hinge(i - 1)
-            !$omp simd private(psi, size, other, other_size)
-            do l = 1, lanes
-                psi = room(l, i, 1)
-                size = room(l, i, 3)
-                other = room(l, i - 1, 1) - room(l, i - 1, 2)
-                other_size = room(l, i - 1, 3)
-                other_size = merge(other_size, size, crosses > 0.5_wp)
-                room(l, i, 1) = merge(other, psi, other_size < size)
-                room(l, i, 3) = merge(other_size, size, other_size < size)
-            end do
-        end do
-        do i = n - 1, 1, -1
-            crosses = 1.0_wp - beam%hinge(i)
-            !$omp simd private(psi, size, other, other_size)
-            do l = 1, lanes
-                psi = room(l, i, 1)
-                size = room(l, i, 3)
-                other = room(l, i + 1, 1) + room(l, i, 2)
-                other_size = room(l, i + 1, 3)
-                other_size = merge(other_size, size, crosses > 0.5_wp)
-                room(l, i, 1) = merge(other, psi, other_size < size)
-                room(l, i, 3) = merge(other_size, size, other_size < size)
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of link k, across node j
+                k = i - way
+                j = min(i, k)
+                crosses = 1.0_wp - beam%hinge(j)
+                !$omp simd private(psi, size, other, other_size)
+                do l = 1, lanes
+                    psi = room(l, i, 1)
+                    size = room(l, i, 3)
+                    other = room(l, k, 1) - way*room(l, j, 2)
+                    other_size = room(l, k, 3)
+                    other_size = merge(other_size, size, crosses > 0.5_wp)
+                    room(l, i, 1) = merge(other, psi, other_size < size)
+                    room(l, i, 3) = merge(other_size, size, other_size < size)
+                end do
             end do
         end do
     end subroutine find_rotations
@@ -201,7 +193,7 @@ contains
         real(wp), intent(inout) :: work(lanes, number, 3)
         real(wp), intent(inout) :: starts(lanes, number, 4)
         real(wp), dimension(lanes) :: high, low, before, turn_high, turn_low, slip_high, slip_low
-        real(wp) :: x0, x1, xi, at_end, behind, inside, p, f, g, m0, m1, right
+        real(wp) :: x0, x1, xi, at_end, behind, inside, p, f, g, m0, m1, right, to_left, to_right
         integer :: j, l, first, last
 
         first = pieces%last(i - 1) + 1
@@ -244,7 +236,7 @@ contains
             ! The point at the right end of the link is a node, which has its loads itself
             behind = length - x1
             inside = merge(1.0_wp, 0.0_wp, j < last)
-            !$omp simd private(f, g, m0, m1, right)
+            !$omp simd private(f, g, m0, m1, right, to_left, to_right)
             do l = 1, lanes
                 f = pieces%flexibility(min(l, stiffness_lanes), j)
                 g = pieces%shear_flexibility(min(l, stiffness_lanes), j)
@@ -258,8 +250,9 @@ contains
                 before(l) = right
                 right = right + inside*(loads(l, j, 4)*behind - loads(l, j, 5))
                 m1 = (1 - at_end)*(mr(l, i - 1) + (high(l) + low(l))) + at_end*(ml(l, i) + right)
-                work(l, j, 2) = f*(p*((2*m0 + m1)/6 + p**2*(8*loads(l, j, 1) + 7*loads(l, j, 2))/360)) - loads(l, j, 3)*p/2
-                work(l, j, 3) = f*(p*((m0 + 2*m1)/6 + p**2*(7*loads(l, j, 1) + 8*loads(l, j, 2))/360)) - loads(l, j, 3)*p/2
+                call moment_integrals(p, m0, m1, loads(l, j, 1), loads(l, j, 2), to_left, to_right)
+                work(l, j, 2) = f*to_left - loads(l, j, 3)*p/2
+                work(l, j, 3) = f*to_right - loads(l, j, 3)*p/2
                 call add(turn_high(l), turn_low(l), work(l, j, 2) + work(l, j, 3))
                 call add(slip_high(l), slip_low(l), g*(m1 - m0))
                 call add(high(l), low(l), inside*loads(l, j, 4)*x1)
@@ -320,25 +313,8 @@ contains
         end do
     end subroutine check_range
 
-    !> Moment of a piece's own load about the left end of the link, the piece beginning at x0
-    elemental function load_moment(x0, l, qa, qb) result(moment)
-        real(wp), intent(in) :: x0, l, qa, qb
-        real(wp) :: moment
-
-        moment = l*(x0*(qa + qb)/2 + l*(qa + 2*qb)/6)
-    end function load_moment
-
-    !> A term for a sum that keeps its rounding error (Knuth's two-sum, which needs no branch)
-    elemental subroutine add(high, low, term)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: term
-        real(wp) :: z, t
-
-        z = high + term
-        t = z - high
-        low = low + ((high - (z - t)) + (term - t))
-        high = z
-    end subroutine add
+    include 'beam/moments_along.inc'
+    include 'elimination/add.inc'
 
     include 'cases/larger.inc'
 

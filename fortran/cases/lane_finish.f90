@@ -5,7 +5,7 @@ module gapbeam_lane_finish
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_sweeps, only: sweep_three_moments, sweep_chain
     use gapbeam_lane_two_sided_sweep, only: pass_both_ends, correct_both_ends
-    use gapbeam_lane_residual, only: find_rest, find_rest_at_restraints
+    use gapbeam_lane_residual, only: find_rests
     use gapbeam_lane_reactions, only: complete, doubt_corrections
     use gapbeam_lane_search, only: apply_scheme
     implicit none
@@ -53,14 +53,9 @@ contains
             end if
         end if
         if (method == by_both_ends) call copy_moments(n, pack%ml, pack%mr)
-        call find_rest(beam, pack%links, n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
-                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
-        if (size(beam%restrained) > 0) then
-            call find_rest_at_restraints(beam, pack%links, n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
-                                         pack%left_rest, pack%turn_rest)
-            if (method == by_both_ends) pack%turn_rest(:, n) = pack%turn_rest(:, n) + pack%left_rest(:, n)
-        end if
+        call find_rests(beam, pack)
         if (method == by_both_ends) then
+            if (beam%restraint(n) > 0) pack%turn_rest(:, n) = pack%turn_rest(:, n) + pack%left_rest(:, n)
             call correct_both_ends(beam, pack%links, n, pack%turn_rest, pack%force_rest, pack%held, pack%known_rest, pack%room, &
                                    pack%dw, pack%dl)
             call copy_moments(n, pack%dl, pack%dr)

@@ -65,15 +65,11 @@ contains
         real(wp), intent(in) :: power, own
         real(wp), intent(in) :: stiffness(lanes)
         real(wp), intent(out) :: flexibility(lanes)
-        integer :: l
 
         if (span == 0) then
             flexibility(:) = own
         else
-            !$omp simd
-            do l = 1, lanes
-                flexibility(l) = 1/(stiffness(l)*power)
-            end do
+            flexibility(:) = 1/(stiffness*power)
         end if
     end subroutine invert
 
@@ -89,16 +85,11 @@ contains
             m = flexibility(l)*length
             shear = shear_flexibility(l)/length
             link(l, link_bending) = m
-            link(l, link_sum_a) = m*(1 - centre)
-            link(l, link_sum_b) = m*centre
-            both = m*(centre**2 + spread) + shear
-            link(l, link_faa) = both
-            link(l, link_fbb) = both
-            link(l, link_fab) = m*(centre*(1 - centre) - spread) - shear
-            link(l, link_determinant) = m*(m*spread + shear)
+            call condense_centre(m, centre, spread, shear, link(l, link_sum_a), link(l, link_sum_b), link(l, link_faa), &
+                                 link(l, link_fab), link(l, link_fbb), link(l, link_determinant))
             none = merge(0.0_wp, 1.0_wp, m > 0.0_wp)
             link(l, link_fixity) = (1.0_wp - none)/(m + none)
-            both = both + both
+            both = link(l, link_faa) + link(l, link_fbb)
             link(l, link_reach) = merge(m, both, m > both)*length
         end do
     end subroutine condense
@@ -111,7 +102,7 @@ contains
         real(wp), intent(in), contiguous :: length(:), before(:), flexibility(:, :), shear_flexibility(:, :)
         real(wp), intent(inout) :: link(lanes, link_numbers)
         real(wp), dimension(lanes) :: bending, bending_low, first, first_low, slip, slip_low, second, second_low, centres
-        real(wp) :: m, shear, none, middle, spreading, x, p
+        real(wp) :: m, shear, none, middle, spreading, both, x, p
         integer :: j, l
 
         bending(:) = 0.0_wp
@@ -143,12 +134,9 @@ contains
         do j = 1, size(length)
             p = length(j)
             x = before(j) + p/2
-            !$omp simd
-            do l = 1, lanes
-                call add(second(l), second_low(l), flexibility(l, j)*p*((x - centres(l))**2 + p**2/12))
-            end do
+            call add(second, second_low, flexibility(:, j)*p*((x - centres)**2 + p**2/12))
         end do
-        !$omp simd private(m, shear, none, middle, spreading, x)
+        !$omp simd private(m, shear, none, middle, spreading, both)
         do l = 1, lanes
             m = bending(l) + bending_low(l)
             none = merge(0.0_wp, 1.0_wp, m > 0.0_wp)
@@ -156,15 +144,11 @@ contains
             spreading = (second(l) + second_low(l))/(m + none)/whole**2
             shear = (slip(l) + slip_low(l))/whole**2
             link(l, link_bending) = m
-            link(l, link_sum_a) = m*(1 - middle)
-            link(l, link_sum_b) = m*middle
-            link(l, link_faa) = m*((1 - middle)**2 + spreading) + shear
-            link(l, link_fab) = m*(middle*(1 - middle) - spreading) - shear
-            link(l, link_fbb) = m*(middle**2 + spreading) + shear
-            link(l, link_determinant) = m*(m*spreading + shear)
+            call condense_centre(m, middle, spreading, shear, link(l, link_sum_a), link(l, link_sum_b), link(l, link_faa), &
+                                 link(l, link_fab), link(l, link_fbb), link(l, link_determinant))
             link(l, link_fixity) = (1.0_wp - none)/(m + none)
-            x = (m*((1 - middle)**2 + spreading) + shear) + (m*(middle**2 + spreading) + shear)
-            link(l, link_reach) = merge(m, x, m > x)*whole
+            both = link(l, link_faa) + link(l, link_fbb)
+            link(l, link_reach) = merge(m, both, m > both)*whole
         end do
     end subroutine condense_pieces
 
@@ -173,14 +157,10 @@ contains
         !> As in lane_spans_type
         real(wp), intent(in) :: terms(10), sizes(2), flexibility(lanes), bending(lanes)
         real(wp), intent(inout) :: to_link(lanes, 6)
-        integer :: l
 
-        !$omp simd
-        do l = 1, lanes
-            to_link(l, 1) = 0.0_wp + (flexibility(l)*terms(1) - terms(3))
-            to_link(l, 2) = 0.0_wp + (flexibility(l)*terms(2) - terms(3))
-            to_link(l, 6) = sizes(1) + bending(l)*sizes(2)
-        end do
+        to_link(:, 1) = 0.0_wp + (flexibility*terms(1) - terms(3))
+        to_link(:, 2) = 0.0_wp + (flexibility*terms(2) - terms(3))
+        to_link(:, 6) = sizes(1) + bending*sizes(2)
     end subroutine load
 
     !> What a load does to a link of several pieces: condense_loads
@@ -233,16 +213,7 @@ contains
         end do
     end subroutine load_pieces
 
-    !> A term for a sum that keeps its rounding error (Knuth's two-sum, which needs no branch)
-    elemental subroutine add(high, low, term)
-        real(wp), intent(inout) :: high, low
-        real(wp), intent(in) :: term
-        real(wp) :: z, t
-
-        z = high + term
-        t = z - high
-        low = low + ((high - (z - t)) + (term - t))
-        high = z
-    end subroutine add
+    include 'beam/elastic_centre.inc'
+    include 'elimination/add.inc'
 
 end module gapbeam_lane_links

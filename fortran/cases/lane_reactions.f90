@@ -10,7 +10,6 @@ module gapbeam_lane_reactions
     private
     public :: complete, find_shears, doubt_corrections
 
-
 contains
 
     !> Reactions, and whether the scheme is beyond doubt
@@ -48,14 +47,13 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: moment, turn, by_shear, by_deflection, share, s, d, inverse, fixity, reach
         real(wp), dimension(lanes) :: shear, deflection
-        integer :: i, l
+        integer :: i, l, way
 
         do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                room(l, i, 3) = load_size(l, i)
-                room(l, i, 4) = abs(w(l, i))
-            end do
+            room(:, i, 1) = 0.0_wp
+            room(:, i, 2) = 0.0_wp
+            room(:, i, 3) = load_size(:, i)
+            room(:, i, 4) = abs(w(:, i))
         end do
         do i = 1, n
             inverse = beam%inverse(i)
@@ -73,30 +71,20 @@ contains
                 room(l, i, 4) = larger(room(l, i, 4), by_deflection)
             end do
         end do
-        shear(:) = 0.0_wp
-        deflection(:) = 0.0_wp
-        do i = 0, n
-            !$omp simd private(share)
-            do l = 1, lanes
-                share = 1.0_wp - 0.5_wp*held(l, i)
-                shear(l) = larger(room(l, i, 3), share*shear(l))
-                deflection(l) = larger(room(l, i, 4), share*deflection(l))
-                room(l, i, 1) = shear(l)
-                room(l, i, 2) = deflection(l)
-            end do
-        end do
-        shear(:) = 0.0_wp
-        deflection(:) = 0.0_wp
-        do i = n, 0, -1
-            !$omp simd private(share, s, d)
-            do l = 1, lanes
-                share = 1.0_wp - 0.5_wp*held(l, i)
-                shear(l) = larger(room(l, i, 3), share*shear(l))
-                deflection(l) = larger(room(l, i, 4), share*deflection(l))
-                s = room(l, i, 1)
-                d = room(l, i, 2)
-                room(l, i, 1) = larger(s, shear(l))
-                room(l, i, 2) = larger(d, deflection(l))
+        do way = 1, -1, -2
+            shear(:) = 0.0_wp
+            deflection(:) = 0.0_wp
+            do i = merge(0, n, way == 1), merge(n, 0, way == 1), way
+                !$omp simd private(share, s, d)
+                do l = 1, lanes
+                    share = 1.0_wp - 0.5_wp*held(l, i)
+                    shear(l) = larger(room(l, i, 3), share*shear(l))
+                    deflection(l) = larger(room(l, i, 4), share*deflection(l))
+                    s = room(l, i, 1)
+                    d = room(l, i, 2)
+                    room(l, i, 1) = larger(s, shear(l))
+                    room(l, i, 2) = larger(d, deflection(l))
+                end do
             end do
         end do
     end subroutine find_sizes
@@ -108,44 +96,31 @@ contains
         real(wp), intent(in), dimension(lanes, 0:n) :: held, spring, force, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         real(wp) :: by_spring, change, passed, v, e, other, error
-        integer :: i, l
+        integer :: i, j, k, l, way
 
         do i = 1, n
-            !$omp simd
-            do l = 1, lanes
-                room(l, i, 5) = (ml(l, i) - mr(l, i - 1))*beam%inverse(i)
-                room(l, i, 6) = epsilon(1.0_wp)*(abs(ml(l, i)) + abs(mr(l, i - 1)))*beam%inverse(i)
-            end do
+            room(:, i, 5) = (ml(:, i) - mr(:, i - 1))*beam%inverse(i)
+            room(:, i, 6) = epsilon(1.0_wp)*(abs(ml(:, i)) + abs(mr(:, i - 1)))*beam%inverse(i)
         end do
-        do i = 2, n
-            !$omp simd private(by_spring, change, passed, v, e, other, error)
-            do l = 1, lanes
-                by_spring = spring(l, i - 1)*w(l, i - 1)
-                change = by_spring - force(l, i - 1)
-                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i - 1)))
-                v = room(l, i, 5)
-                e = room(l, i, 6)
-                other = room(l, i - 1, 5) + change
-                ! No way past a rigid support
-                error = room(l, i - 1, 6) + passed
-                error = merge(e, error, held(l, i - 1) > 0.5_wp)
-                room(l, i, 5) = merge(other, v, error < e)
-                room(l, i, 6) = merge(error, e, error < e)
-            end do
-        end do
-        do i = n - 1, 1, -1
-            !$omp simd private(by_spring, change, passed, v, e, other, error)
-            do l = 1, lanes
-                by_spring = spring(l, i)*w(l, i)
-                change = by_spring - force(l, i)
-                passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, i)))
-                v = room(l, i, 5)
-                e = room(l, i, 6)
-                other = room(l, i + 1, 5) - change
-                error = room(l, i + 1, 6) + passed
-                error = merge(e, error, held(l, i) > 0.5_wp)
-                room(l, i, 5) = merge(other, v, error < e)
-                room(l, i, 6) = merge(error, e, error < e)
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of link k, across node j
+                k = i - way
+                j = min(i, k)
+                !$omp simd private(by_spring, change, passed, v, e, other, error)
+                do l = 1, lanes
+                    by_spring = spring(l, j)*w(l, j)
+                    change = by_spring - force(l, j)
+                    passed = epsilon(1.0_wp)*(abs(by_spring) + abs(force(l, j)))
+                    v = room(l, i, 5)
+                    e = room(l, i, 6)
+                    other = room(l, k, 5) + way*change
+                    ! No way past a rigid support
+                    error = room(l, k, 6) + passed
+                    error = merge(e, error, held(l, j) > 0.5_wp)
+                    room(l, i, 5) = merge(other, v, error < e)
+                    room(l, i, 6) = merge(error, e, error < e)
+                end do
             end do
         end do
         room(:, 0, 5:6) = 0.0_wp

@@ -3,13 +3,25 @@ module gapbeam_lane_residual
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: cache_block
     use gapbeam_tolerances, only: splitter
-    use gapbeam_lane_types, only: lanes, lane_beam_type, link_numbers, link_faa, link_fab, link_fbb
+    use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb
     use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
-    public :: find_rest, find_rest_at_restraints, find_rest_along
+    public :: find_rests, find_rest_along
 
 contains
+
+    !> Residuals of the solutions of eight cases
+    pure subroutine find_rests(beam, pack)
+        type(lane_beam_type), intent(in) :: beam
+        !> As the scheme sees it; residuals out
+        type(pack_type), intent(inout) :: pack
+
+        call find_rest(beam, pack%links, beam%n, pack%left, pack%right, pack%force, pack%held, pack%known, pack%spring, pack%w, &
+                       pack%ml, pack%mr, pack%turn_rest, pack%force_rest, pack%known_rest)
+        call find_rest_at_restraints(beam, pack%links, beam%n, pack%left, pack%right, pack%couple, pack%w, pack%ml, pack%mr, &
+                                     pack%left_rest, pack%turn_rest)
+    end subroutine find_rests
 
     !> Residuals of all rows
     pure subroutine find_rest(beam, links, n, left, right, force, held, known, spring, w, ml, mr, turn_rest, force_rest, &

@@ -126,11 +126,8 @@ contains
         turn(:) = 0.0_wp
         force(:) = 0.0_wp
         do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                turn(l) = turn(l) + (left_off(l, i) + turn_off(l, i))
-                force(l) = force(l) + force_off(l, i)
-            end do
+            turn(:) = turn + (left_off(:, i) + turn_off(:, i))
+            force(:) = force + force_off(:, i)
         end do
         do l = 1, lanes
             keep = merge(1.0_wp, 0.0_wp, min(turn(l), force(l)) >= smallest_squared .and. &

@@ -79,11 +79,8 @@ contains
         do j = 1, size(beam%node)
             i = beam%node(j)
             k = beam%node_load(j)
-            !$omp simd
-            do l = 1, lanes
-                force(l, i) = force(l, i) + factors(l, k)*beam%to_node(1, j)
-                couple(l, i) = couple(l, i) + factors(l, k)*beam%to_node(2, j)
-            end do
+            force(:, i) = force(:, i) + factors(:, k)*beam%to_node(1, j)
+            couple(:, i) = couple(:, i) + factors(:, k)*beam%to_node(2, j)
         end do
         shear(:, :) = force - room(:, :, 2)
         load_size(:, :) = abs(force) + room(:, :, 3)
@@ -183,15 +180,8 @@ contains
         integer, intent(in) :: n
         real(wp), intent(in), dimension(lanes, 0:n) :: shear, stiffness, rigid, contact, closed
         real(wp), intent(out), dimension(lanes, 0:n) :: held, known, spring, force
-        integer :: i, l
 
-        do i = 0, n
-            !$omp simd
-            do l = 1, lanes
-                call put_support(closed(l, i), shear(l, i), stiffness(l, i), rigid(l, i), contact(l, i), held(l, i), &
-                                 known(l, i), spring(l, i), force(l, i))
-            end do
-        end do
+        call put_support(closed, shear, stiffness, rigid, contact, held, known, spring, force)
     end subroutine apply_scheme
 
     !> Will an acting support or a restraint hold each end in all cases, once what is wrong is changed, and a support some node
@@ -268,13 +258,10 @@ contains
         real(wp), intent(in) :: idle(lanes)
         !> 1 where wrong in, where to be changed out
         real(wp), intent(inout) :: wrong(lanes, 0:n)
-        integer :: i, l
+        integer :: i
 
         do i = modulo(solve, 2), n, 2
-            !$omp simd
-            do l = 1, lanes
-                wrong(l, i) = wrong(l, i)*merge(0.0_wp, 1.0_wp, idle(l) > non_monotone_steps)
-            end do
+            wrong(:, i) = wrong(:, i)*merge(0.0_wp, 1.0_wp, idle > non_monotone_steps)
         end do
     end subroutine keep_every_other
 

@@ -10,7 +10,6 @@ module gapbeam_lane_shared
     private
     public :: keep_loads, join_supports, find_levels, find_wrong_beside, wait_beside, share_forces
 
-
 contains
 
     !> Keep the loads at the nodes, to which join_supports adds

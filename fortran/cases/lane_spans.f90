@@ -4,7 +4,7 @@ module gapbeam_lane_spans
     use gapbeam_limits, only: most_stiffness_power, most_stiffness_unit, most_load_terms
     use gapbeam_tolerances, only: proximal_ratio
     use gapbeam_element, only: moment_integrals
-    use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end
+    use gapbeam_link, only: piece_type, piece_load_type, along_type, next_piece, moments_about_right_end, no_load
     use gapbeam_law_adapters, only: least_stiffness
     use gapbeam_units, only: turning_unit, rotation_unit
     use gapbeam_assembled_model, only: assembled_type, in_bending, in_shear
@@ -14,9 +14,6 @@ module gapbeam_lane_spans
     implicit none
     private
     public :: span_room_type, fits_spans, prepare_spans, take_spans, proximal_weight_of
-
-    !> No load on a piece
-    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
     !> What eight cases with spans of their own need
     type :: span_room_type

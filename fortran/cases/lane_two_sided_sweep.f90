@@ -139,24 +139,17 @@ contains
         !> Those of the middle node in, all out
         real(wp), intent(inout) :: w(lanes, 0:n), m(lanes, 0:n)
         real(wp) :: moment, deflection
-        integer :: l, i
+        integer :: l, i, way
 
-        do i = middle - 1, 0, -1
-            !$omp simd private(moment, deflection)
-            do l = 1, lanes
-                moment = m(l, i + 1)
-                deflection = w(l, i + 1)
-                m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
-                w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
-            end do
-        end do
-        do i = middle + 1, n
-            !$omp simd private(moment, deflection)
-            do l = 1, lanes
-                moment = m(l, i - 1)
-                deflection = w(l, i - 1)
-                m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
-                w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
+        do way = -1, 1, 2
+            do i = middle + way, merge(0, n, way == -1), way
+                !$omp simd private(moment, deflection)
+                do l = 1, lanes
+                    moment = m(l, i - way)
+                    deflection = w(l, i - way)
+                    m(l, i) = room(l, i, 1) + room(l, i, 2)*moment - room(l, i, 3)*deflection
+                    w(l, i) = room(l, i, 4) + room(l, i, 5)*moment + room(l, i, 6)*deflection
+                end do
             end do
         end do
     end subroutine go_back
@@ -214,12 +207,9 @@ contains
         i = first
         begin = merge(first, first + step, beam%restraint(first) > 0)
         h = beam%inverse(merge(1, n, way == 1))
-        !$omp simd
-        do l = 1, lanes
-            room(l, i, 4) = (force(l, i)*(1.0_wp - held(l, i)) + known(l, i))/room(l, i, 7)
-            passed(l, 1) = h*room(l, i, 4)
-            passed(l, 2) = 0.0_wp
-        end do
+        room(:, i, 4) = (force(:, i)*(1.0_wp - held(:, i)) + known(:, i))/room(:, i, 7)
+        passed(:, 1) = h*room(:, i, 4)
+        passed(:, 2) = 0.0_wp
         if (begin == first) passed(:, 1) = 0.0_wp
         do i = begin, last, step
             link = merge(i + 1, i, way == 1)

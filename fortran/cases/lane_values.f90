@@ -8,7 +8,7 @@ module gapbeam_lane_values
     use gapbeam_lane_fields, only: recover_pack
     implicit none
     private
-    public :: fields_of_pack, find_values, deflection_at, rotation_at, shares_in_lanes
+    public :: fields_of_pack, find_values, shares_in_lanes
 
 contains
 
@@ -120,35 +120,17 @@ contains
             case (of_moment)
                 !$omp simd
                 do l = 1, lanes
-                    values(l, i) = starts(l, j, 3) + s*(starts(l, j, 4) - s*(loads(l, j, 1)/2 &
-                        + s*((loads(l, j, 2) - loads(l, j, 1))/length)/6))
+                    values(l, i) = moment_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 3), starts(l, j, 4))
                 end do
             case default
                 !$omp simd
                 do l = 1, lanes
-                    values(l, i) = starts(l, j, 4) - s*(loads(l, j, 1) + s*((loads(l, j, 2) - loads(l, j, 1))/length)/2)
+                    values(l, i) = shear_at(s, length, loads(l, j, 1), loads(l, j, 2), starts(l, j, 4))
                 end do
             end select
         end do
     end subroutine find_state
 
-    !> The deflection at a distance from the left end of a piece: fields_at of gapbeam_element
-    elemental function deflection_at(s, length, f, g, qa, qb, kappa, w, turn, m, v) result(x)
-        !> The distance; length, 1/EI, 1/GA; loads, and fields at the left end
-        real(wp), intent(in) :: s, length, f, g, qa, qb, kappa, w, turn, m, v
-        real(wp) :: x
-        real(wp) :: slope
-
-        slope = (qb - qa)/length
-        x = w + s*(turn + s*(kappa/2 - f*(m/2 + s*(v/6 - s*(qa/24 + s*slope/120))))) + g*(s*(v - s*(qa/2 + s*slope/6)))
-    end function deflection_at
-
-    !> The rotation likewise
-    elemental function rotation_at(s, length, f, qa, qb, kappa, turn, m, v) result(x)
-        real(wp), intent(in) :: s, length, f, qa, qb, kappa, turn, m, v
-        real(wp) :: x
-
-        x = turn + s*(kappa - f*(m + s*(v/2 - s*(qa/6 + s*((qb - qa)/length)/24))))
-    end function rotation_at
+    include 'beam/fields_along.inc'
 
 end module gapbeam_lane_values

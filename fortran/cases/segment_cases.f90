@@ -7,7 +7,7 @@ module gapbeam_segment_cases
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
-    use gapbeam_law, only: both, is_rigid, has_laws
+    use gapbeam_law, only: both, has_laws
     use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
@@ -73,13 +73,13 @@ contains
         units = scale(1.0_wp, [assembled%units%deflection, moment_unit(assembled%units), assembled%units%force])
         with_own_supports = .not. associated(numbers%supports)
         associate (room => segments%room)
-            if (with_own_supports .and. .not. segments%with_own_supports) call take_supports(assembled, room)
+            if (with_own_supports .and. .not. segments%with_own_supports) call take_supports(assembled, room, lost)
             segments%with_own_supports = with_own_supports
             do j = 1, size(which)
                 i = which(j)
                 if (is_stopped(assembled%beam%watch)) exit
                 lost = .false.
-                if (.not. with_own_supports) call take_values(assembled, numbers%supports(:, :, i), room, lost)
+                if (.not. with_own_supports) call take_supports(assembled, room, lost, numbers%supports(:, :, i))
                 if (lost) cycle
                 call add_loads(loads, numbers%factors(:, i), segments%beam%n, room, couples)
                 if (couples) cycle
@@ -191,62 +191,42 @@ contains
         end associate
     end subroutine add_loads
 
-    !> The supports of the beam
-    pure subroutine take_supports(assembled, room)
+    !> The supports of the beam, or those of a case (replace_supports of gapbeam_cases)
+    pure subroutine take_supports(assembled, room, lost, values)
         type(assembled_type), intent(in) :: assembled
-        type(segment_room_type), intent(inout) :: room
-        integer :: k
-
-        call forget_supports(room)
-        do k = 1, size(assembled%beam%supports)
-            associate (s => assembled%beam%supports(k))
-                room%contact(s%node) = s%contact
-                if (is_rigid(s)) then
-                    room%rigid(s%node) = 1.0_wp
-                else
-                    room%stiffness(s%node) = s%stiffness
-                end if
-            end associate
-        end do
-    end subroutine take_supports
-
-    !> No supports
-    pure subroutine forget_supports(room)
-        type(segment_room_type), intent(inout) :: room
-
-        room%stiffness(:) = 0.0_wp
-        room%rigid(:) = 0.0_wp
-        room%contact(:) = 0.0_wp
-        room%closed(:) = 0.0_wp
-    end subroutine forget_supports
-
-    !> The supports of a case, see replace_supports of gapbeam_cases
-    pure subroutine take_values(assembled, values, room, lost)
-        type(assembled_type), intent(in) :: assembled
-        real(wp), intent(in) :: values(:, :)
         type(segment_room_type), intent(inout) :: room
         !> Is a number out of range
         logical, intent(out) :: lost
+        !> As in case_numbers_type
+        real(wp), intent(in), optional :: values(:, :)
         real(wp) :: stiffness
         integer :: k
         logical :: lost_stiffness, lost_level
 
         lost = .false.
-        call forget_supports(room)
+        room%stiffness(:) = 0.0_wp
+        room%rigid(:) = 0.0_wp
+        room%contact(:) = 0.0_wp
+        room%closed(:) = 0.0_wp
         do k = 1, size(assembled%beam%supports)
-            associate (s => assembled%beam%supports(k), given => values(:, assembled%normal(k)), &
-                       i => assembled%beam%supports(k)%node)
-                call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
-                                      lost_stiffness, lost_level)
-                lost = lost .or. lost_stiffness .or. lost_level
-                if (given(3) > huge(1.0_wp)) then
+            associate (s => assembled%beam%supports(k), i => assembled%beam%supports(k)%node)
+                stiffness = s%stiffness
+                room%contact(i) = s%contact
+                if (present(values)) then
+                    associate (given => values(:, assembled%normal(k)))
+                        call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
+                                              lost_stiffness, lost_level)
+                        lost = lost .or. lost_stiffness .or. lost_level
+                    end associate
+                end if
+                if (stiffness > huge(1.0_wp)) then
                     room%rigid(i) = 1.0_wp
                 else
                     room%stiffness(i) = stiffness
                 end if
             end associate
         end do
-    end subroutine take_values
+    end subroutine take_supports
 
     !> Where the search starts
     pure subroutine take_start(assembled, closed, room)

@@ -13,7 +13,6 @@ module gapbeam_segment_finish
     private
     public :: solve_long_beam, audit_long_beam
 
-
 contains
 
     !> Find the contact state of a case and its solution
@@ -96,9 +95,7 @@ contains
         integer, dimension(lanes) :: first, step, begin
         integer :: l, s
 
-        do l = 1, lanes
-            call node_of(beam, l, first(l), step(l), begin(l))
-        end do
+        call node_of(beam, [(l, l=1, lanes)], first, step, begin)
         do s = 1, beam%columns
             do l = 1, lanes
                 if (s < begin(l)) cycle
@@ -118,9 +115,7 @@ contains
         integer, dimension(lanes) :: first, step, begin
         integer :: l, s
 
-        do l = 1, lanes
-            call node_of(beam, l, first(l), step(l), begin(l))
-        end do
+        call node_of(beam, [(l, l=1, lanes)], first, step, begin)
         do s = 1, beam%columns
             do l = 1, lanes
                 if (s < begin(l)) cycle
@@ -195,7 +190,7 @@ contains
         real(wp), intent(inout), dimension(0:n + 1) :: change, passed
         real(wp) :: by_spring, shear, error
         logical :: better
-        integer :: i
+        integer :: i, j, way
 
         do i = 0, n + 1, n + 1
             v(i) = 0.0_wp
@@ -213,19 +208,16 @@ contains
         end do
         shear = v(1)
         error = e(1)
-        do i = 2, n
-            better = error + passed(i - 1) < e(i)
-            shear = merge(shear + change(i - 1), v(i), better)
-            error = merge(error + passed(i - 1), e(i), better)
-            v(i) = shear
-            e(i) = error
-        end do
-        do i = n - 1, 1, -1
-            better = error + passed(i) < e(i)
-            shear = merge(shear - change(i), v(i), better)
-            error = merge(error + passed(i), e(i), better)
-            v(i) = shear
-            e(i) = error
+        do way = 1, -1, -2
+            do i = merge(2, n - 1, way == 1), merge(n, 1, way == 1), way
+                ! By that of the link before, across node j
+                j = min(i, i - way)
+                better = error + passed(j) < e(i)
+                shear = merge(shear + way*change(j), v(i), better)
+                error = merge(error + passed(j), e(i), better)
+                v(i) = shear
+                e(i) = error
+            end do
         end do
     end subroutine find_shears
 

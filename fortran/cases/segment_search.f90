@@ -83,9 +83,7 @@ contains
         integer, dimension(lanes) :: first, step, begin
         integer :: l, s, i
 
-        do l = 1, lanes
-            call node_of(beam, l, first(l), step(l), begin(l))
-        end do
+        call node_of(beam, [(l, l=1, lanes)], first, step, begin)
         ! Column by column: what is written lies together
         do s = 1, beam%columns
             do l = 1, lanes

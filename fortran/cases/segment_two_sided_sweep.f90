@@ -73,65 +73,50 @@ contains
         real(wp), intent(inout) :: passed(lanes, 5, kept_columns), eliminated(lanes, 6, columns)
         !> Has it ended there
         logical, intent(out) :: as_before
-        real(wp), dimension(lanes) :: phi, beta, delta, e, p, differs
-        real(wp) :: a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next
+        real(wp) :: flow(lanes, 5), a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next
         integer :: s, l, k
 
         as_before = .false.
-        phi(:) = entry(:, 1)
-        beta(:) = entry(:, 2)
-        delta(:) = entry(:, 3)
-        e(:) = entry(:, 4)
-        p(:) = entry(:, 5)
+        flow(:, :) = entry
         do s = 1, columns
             !$omp simd private(a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next)
             do l = 1, lanes
                 associate (h => link(l, 1, s), near => link(l, 2, s), far => link(l, 3, s), cross => link(l, 4, s), &
                            sum_near => link(l, 5, s), sum_far => link(l, 6, s), bending => link(l, 7, s), &
                            determinant => link(l, 8, s), stiff => row(l, 1, s), free => row(l, 2, s), turn => row(l, 3, s), &
-                           load => row(l, 4, s), phi => phi(l), beta => beta(l), delta => delta(l), e => e(l), p => p(l), &
-                           moment => eliminated(l, 1, s), moment_m => eliminated(l, 2, s), moment_w => eliminated(l, 3, s), &
-                           deflection => eliminated(l, 4, s), deflection_m => eliminated(l, 5, s), &
-                           deflection_w => eliminated(l, 6, s))
+                           load => row(l, 4, s), phi => flow(l, 1), beta => flow(l, 2), delta => flow(l, 3), e => flow(l, 4), &
+                           p => flow(l, 5), moment => eliminated(l, 1, s), moment_m => eliminated(l, 2, s), &
+                           moment_w => eliminated(l, 3, s), deflection => eliminated(l, 4, s), &
+                           deflection_m => eliminated(l, 5, s), deflection_w => eliminated(l, 6, s))
                     include 'elimination/node_step.inc'
                 end associate
             end do
             do k = 1, 2
                 if (s /= start(k)) cycle
                 l = merge(1, half + 1, k == 1)
-                call begin_at_end(link(l, :, s), row(l, :, s), eliminated(l, :, s), phi(l), beta(l), delta(l), e(l), p(l))
+                call begin_at_end(link(l, :, s), row(l, :, s), eliminated(l, :, s), flow(l, :))
             end do
             if (s > kept_columns) cycle
             if (again) then
-                differs(:) = abs(passed(:, 1, s) - phi) + abs(passed(:, 2, s) - beta) + abs(passed(:, 3, s) - delta) &
-                    + abs(passed(:, 4, s) - e) + abs(passed(:, 5, s) - p)
-                as_before = .not. sum(differs) > 0.0_wp
+                as_before = .not. sum(abs(passed(:, :, s) - flow)) > 0.0_wp
                 if (as_before) return
             end if
-            passed(:, 1, s) = phi
-            passed(:, 2, s) = beta
-            passed(:, 3, s) = delta
-            passed(:, 4, s) = e
-            passed(:, 5, s) = p
+            passed(:, :, s) = flow
         end do
-        leaves(:, 1) = phi
-        leaves(:, 2) = beta
-        leaves(:, 3) = delta
-        leaves(:, 4) = e
-        leaves(:, 5) = p
-
+        leaves(:, :) = flow
     end subroutine go_inward
 
     !> The end of the beam, whatever has been passed on before
-    pure subroutine begin_at_end(link, row, eliminated, phi, beta, delta, e, p)
+    pure subroutine begin_at_end(link, row, eliminated, flow)
         real(wp), intent(in) :: link(:), row(:)
         real(wp), intent(inout) :: eliminated(:)
-        real(wp), intent(out) :: phi, beta, delta, e, p
+        real(wp), intent(inout) :: flow(:)
         real(wp) :: softness
 
         associate (h => link(1), far => link(3), stiff => row(1), free => row(2), load => row(4), moment => eliminated(1), &
                    moment_m => eliminated(2), moment_w => eliminated(3), deflection => eliminated(4), &
-                   deflection_m => eliminated(5), deflection_w => eliminated(6))
+                   deflection_m => eliminated(5), deflection_w => eliminated(6), phi => flow(1), beta => flow(2), &
+                   delta => flow(3), e => flow(4), p => flow(5))
             include 'elimination/node_start.inc'
         end associate
     end subroutine begin_at_end

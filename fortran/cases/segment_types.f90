@@ -95,7 +95,7 @@ contains
     end subroutine new_segments
 
     !> Node of column 1 of a segment, the step to that of column 2, and the first column that is a node
-    pure subroutine node_of(beam, l, first, step, begin)
+    elemental subroutine node_of(beam, l, first, step, begin)
         type(segment_beam_type), intent(in) :: beam
         !> Segment
         integer, intent(in) :: l

@@ -180,13 +180,8 @@ contains
             doubtful(k) = .false.
             if (.not. is_watched_in(supports, closed, k)) cycle
             associate (i => supports(k)%node)
-                if (supports(k)%breakpoint == 0) then
-                    call margin_of(supports(k), closed(k), answers(i)%deflection, deflection_size(i), reaction(k), &
-                                   reaction_error(k), margin, rounding)
-                else
-                    call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, &
-                                          reaction_error, margin, rounding)
-                end if
+                call margin_in_scheme(supports, closed, k, answers(i)%deflection, deflection_size(i), reaction, reaction_error, &
+                                      margin, rounding)
             end associate
             doubtful(k) = abs(margin) <= width*rounding
             in_doubt = in_doubt .or. (doubtful(k) .and. rounding > 0.0_wp) .or. margin < -width*rounding

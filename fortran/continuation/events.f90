@@ -1,21 +1,26 @@
 !> The load followed from event to event: every change of the contact state at its load factor.
+!>
+!> With smooth laws the path is followed on their polylines, which see every event; its factor is then put onto the laws.
 module gapbeam_events
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: changes_at_a_time
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_laws, only: is_smooth
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type
-    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns
+    use gapbeam_pieces, only: acting_type, acts_in, as_one_piece, what_happens, no_change, gapbeam_turns
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
     use gapbeam_state, only: solve_state, detail_of, name_range
     use gapbeam_memory, only: for_following
+    use gapbeam_smooth_state, only: solve_on_laws
+    use gapbeam_smooth_events, only: find_on_laws
     implicit none
     private
-    public :: event_type, follow_events, add_event
+    public :: event_type, follow_events, follow_some_events, add_event
 
     !> A change of the contact state
     type :: event_type
@@ -53,12 +58,11 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(outcome_type) :: outcome
         type(path_type) :: path
-        logical, allocatable :: now(:)
         real(wp) :: at
         integer :: solves, k, stat
 
         number = 0
-        allocate (events(2*size(state%closed) + 8), now(size(state%closed)), stat=stat)
+        allocate (events(2*size(state%closed) + 8), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -67,22 +71,17 @@ contains
         call solve_state(assembled, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return
         at = 0.0_wp
-        now(:) = state%closed
         solves = state%solves
         do while (at < factor)
-            call reserve_for(for_following, assembled%beam, detail_of(assembled), error)
-            if (allocated(error)) return
-            call follow_path(assembled%beam, detail_of(assembled), factor, changes_at_a_time, at, state%closed, state%undecided, &
-                             path, outcome, error)
+            call follow_some_events(assembled, factor, changes_at_a_time, at, state%closed, state%undecided, path, outcome, error)
             call end_if_stopped(assembled%beam%watch, error)
-            call name_range(assembled, error)
             if (allocated(error)) then
                 error%message = "at load factor "//trim(shown(at))//": "//error%message
                 return
             end if
             solves = solves + path%solves
             do k = 1, path%count
-                call note(path%factor(k), path%support(k), path%event(k))
+                call note(path%factor(k), path%support(k), path%event(k), path%condition(k))
                 if (allocated(error)) return
             end do
             if (outcome%status == gapbeam_no_equilibrium) then
@@ -94,26 +93,18 @@ contains
                 return
             end if
         end do
-        call solve_state(assembled, factor, rule_given, state, error)
+        call solve_on_laws(assembled, factor, rule_given, state, error)
         if (.not. allocated(error)) state%solves = state%solves + solves
 
     contains
 
         !> Note what happens to a support. What changes at factor 0 is no event, unless the beam turns there
-        subroutine note(when, which, what)
+        subroutine note(when, which, change, condition)
             real(wp), intent(in) :: when
-            integer, intent(in) :: which, what
-            type(acting_type) :: before, after
-            integer :: change
+            integer, intent(in) :: which, change, condition
 
-            before = acts_in(assembled, assembled%normal(which), now)
-            if (what /= gapbeam_turns) now(which) = .not. now(which)
-            after = acts_in(assembled, assembled%normal(which), now)
-            change = what
-            if (assembled%beam%supports(which)%breakpoint > 0 .and. what /= gapbeam_turns) change = what_happens(before, after)
-            if (change == no_change .or. (.not. when > 0.0_wp .and. what /= gapbeam_turns)) return
-            call add_event(event_type(when, assembled%normal(which), merge(what, after%condition, what == gapbeam_turns), change), &
-                           events, number, stat)
+            if (change == no_change .or. (.not. when > 0.0_wp .and. change /= gapbeam_turns)) return
+            call add_event(event_type(when, assembled%normal(which), condition, change), events, number, stat)
             if (stat /= 0) call no_memory(error)
         end subroutine note
 
@@ -139,5 +130,87 @@ contains
         number = number + 1
         events(number) = event
     end subroutine add_event
+
+    !> Follow the load from a factor on, as follow_path; what changes is named, and on smooth laws at its factor on these
+    subroutine follow_some_events(assembled, limit, most, factor, closed, marginal, path, outcome, error)
+        type(assembled_type), intent(in), target :: assembled
+        !> As for follow_path
+        real(wp), intent(in) :: limit
+        integer, intent(in) :: most
+        real(wp), intent(inout) :: factor
+        logical, intent(inout) :: closed(:), marginal(:)
+        !> With the conditions, and the events of event_type in place of what the supports do, no_change where that is none
+        type(path_type), intent(out) :: path
+        type(outcome_type), intent(out) :: outcome
+        !> As for follow_path, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: now(:)
+        logical :: curved
+        real(wp) :: at
+        integer :: k, stat
+
+        call reserve_for(for_following, assembled%beam, detail_of(assembled), error)
+        if (allocated(error)) return
+        allocate (now, source=closed, stat=stat)
+        if (stat == 0) then
+            call follow_path(assembled%beam, detail_of(assembled), limit, most, factor, closed, marginal, path, outcome, error)
+            if (.not. allocated(error)) allocate (path%condition(path%count), stat=stat)
+        end if
+        if (stat /= 0) call no_memory(error)
+        if (.not. allocated(error)) then
+            curved = any(is_smooth(assembled%model%supports%law))
+            do k = 1, path%count
+                at = path%factor(k)
+                call name_change(assembled, curved, k, now, path, error)
+                if (.not. allocated(error)) cycle
+                factor = at
+                exit
+            end do
+        end if
+        call name_range(assembled, error)
+    end subroutine follow_some_events
+
+    !> Name what changes, and find where that is on smooth laws
+    subroutine name_change(assembled, curved, number, now, path, error)
+        type(assembled_type), intent(in), target :: assembled
+        !> Are there smooth laws
+        logical, intent(in) :: curved
+        !> Of the change
+        integer, intent(in) :: number
+        !> The scheme before it in, after it out
+        logical, intent(inout) :: now(:)
+        type(path_type), intent(inout) :: path
+        !> As for find_on_laws
+        type(error_type), allocatable, intent(out) :: error
+        type(acting_type) :: before, after
+
+        associate (which => path%support(number), change => path%event(number))
+            if (change == gapbeam_turns) then
+                path%condition(number) = gapbeam_turns
+                return
+            end if
+            before = now_acts(assembled, which, now)
+            now(which) = .not. now(which)
+            after = now_acts(assembled, which, now)
+            path%condition(number) = after%condition
+            if (assembled%beam%supports(which)%breakpoint > 0) change = what_happens(before, after)
+            if (.not. curved .or. change == no_change .or. .not. path%factor(number) > 0.0_wp) return
+            now(which) = .not. now(which)
+            call find_on_laws(assembled, now, which, path%factor(number), error)
+            now(which) = .not. now(which)
+        end associate
+    end subroutine name_change
+
+    !> What acts of a support of the beam, which may be a breakpoint of a law
+    pure function now_acts(assembled, which, now) result(acting)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: which
+        !> The scheme
+        logical, intent(in) :: now(:)
+        type(acting_type) :: acting
+
+        acting = acts_in(assembled, assembled%normal(which), now)
+        if (is_smooth(assembled%model%supports(assembled%normal(which))%law)) acting = as_one_piece(acting)
+    end function now_acts
 
 end module gapbeam_events

@@ -16,6 +16,8 @@ module gapbeam_path_events
         !> Load factor, support, and what happens to it
         real(wp), allocatable :: factor(:)
         integer, allocatable :: support(:), event(:)
+        !> What the support is from there on, where that is told (gapbeam_events)
+        integer, allocatable :: condition(:)
         !> Linear solves of the whole beam; nodes at which the solution was made anew besides
         integer :: solves = 0, nodes = 0
     end type path_type

@@ -132,30 +132,7 @@ contains
             if (checked) call require(falls .or. .not. (phi < 0.0_wp .or. beta < 0.0_wp .or. delta < 0.0_wp), &
                                       "factor_chain: a negative term")
             associate (node => nodes(i), p => pivots(i))
-                p%floating = floating
-                p%phi = phi
-                p%beta = beta
-                p%delta = delta
-                p%reciprocal = 0.0_wp
-                ! The moment across the node
-                if (node%kind == restrained) then
-                    if (floating) then
-                        phi = node%compliance
-                        floating = .false.
-                    else
-                        divisor = phi + node%compliance
-                        if (.not. divisor > 0.0_wp) then
-                            state = band_needs_pivoting
-                            return
-                        end if
-                        delta = delta + beta**2/divisor
-                        phi = node%compliance*phi/divisor
-                        beta = node%compliance*beta/divisor
-                    end if
-                else if (node%kind == hinge .and. floating) then
-                    state = band_mechanism
-                    return
-                end if
+                include 'elimination/factor_node.inc'
                 p%c = delta + node%stiffness
                 if (i == n) exit
                 associate (link => links(i + 1))

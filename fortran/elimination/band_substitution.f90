@@ -84,28 +84,7 @@ contains
                 rhs(i) = rhs_type()
             end if
             associate (node => nodes(i), v => pivots(i), r => rhs(i))
-                ! Across the node; keep what came from the left for the moment left of the node
-                if (v%floating) then
-                    answers(i)%moment_left = m
-                    m = m + r%couple
-                    if (node%kind == restrained) r%right = r%right - node%compliance*m
-                else
-                    e = e + r%left
-                    r%left = e
-                    select case (node%kind)
-                    case (restrained)
-                        divisor = 1/(v%phi + node%compliance)
-                        p = p + v%beta*(e + node%compliance*r%couple)*divisor
-                        e = node%compliance*(e - v%phi*r%couple)*divisor
-                    case (hinge)
-                        m = 0.0_wp
-                    case default
-                        e = e - v%phi*r%couple
-                        p = p + v%beta*r%couple
-                    end select
-                    r%right = r%right + e
-                end if
-                r%shear = r%shear + p
+                include 'elimination/come_to_node.inc'
                 if (i == n) exit
                 h = links(i + 1)%inverse
                 associate (link => links(i + 1), g => r%shear)
@@ -223,26 +202,7 @@ contains
                         psi_right = h*(w_next - w) + link%faa*m + link%fab*m_next
                     end associate
                 end if
-                ! Moment left of the node
-                if (.not. v%floating) then
-                    select case (node%kind)
-                    case (restrained)
-                        answers(i)%moment_left = (v%beta*w - r%left + node%compliance*(m - r%couple)) &
-                            /(v%phi + node%compliance)
-                    case (hinge)
-                        answers(i)%moment_left = 0.0_wp
-                    case default
-                        answers(i)%moment_left = m - r%couple
-                    end select
-                else if (node%kind == restrained) then
-                    psi_right = node%compliance*((answers(i)%moment_left - m) + r%couple) + r%left
-                else
-                    psi_right = psi_right + r%right + r%left
-                end if
-                answers(i)%deflection = w
-                answers(i)%moment_right = m
-                m_next = answers(i)%moment_left
-                w_next = w
+                include 'elimination/leave_node.inc'
             end associate
         end do
     end subroutine substitute

@@ -49,29 +49,7 @@ contains
         do i = 0, n
             place = i
             associate (node => nodes(i), p => pivots(i))
-                p%floating = floating
-                p%phi = phi
-                p%beta = beta
-                p%delta = delta
-                p%reciprocal = 0.0_wp
-                if (node%kind == restrained) then
-                    if (floating) then
-                        phi = node%compliance
-                        floating = .false.
-                    else
-                        divisor = phi + node%compliance
-                        if (.not. divisor > 0.0_wp) then
-                            state = band_needs_pivoting
-                            return
-                        end if
-                        delta = delta + beta**2/divisor
-                        phi = node%compliance*phi/divisor
-                        beta = node%compliance*beta/divisor
-                    end if
-                else if (node%kind == hinge .and. floating) then
-                    state = band_mechanism
-                    return
-                end if
+                include 'elimination/factor_node.inc'
                 held = is_placed(pivots, i)
                 if (held .and. node%held) then
                     state = band_needs_pivoting
@@ -214,27 +192,7 @@ contains
         p = 0.0_wp
         do i = 0, size(links)
             associate (node => nodes(i), v => pivots(i), r => rhs(i))
-                if (v%floating) then
-                    answers(i)%moment_left = m
-                    m = m + r%couple
-                    if (node%kind == restrained) r%right = r%right - node%compliance*m
-                else
-                    e = e + r%left
-                    r%left = e
-                    select case (node%kind)
-                    case (restrained)
-                        divisor = 1/(v%phi + node%compliance)
-                        p = p + v%beta*(e + node%compliance*r%couple)*divisor
-                        e = node%compliance*(e - v%phi*r%couple)*divisor
-                    case (hinge)
-                        m = 0.0_wp
-                    case default
-                        e = e - v%phi*r%couple
-                        p = p + v%beta*r%couple
-                    end select
-                    r%right = r%right + e
-                end if
-                r%shear = r%shear + p
+                include 'elimination/come_to_node.inc'
                 if (v%kind == end_of_beam) exit
                 associate (link => links(i + 1), g => r%shear)
                     select case (v%kind)
@@ -330,24 +288,7 @@ contains
                         shear_right = push - link%pa*m - link%gaa*w
                     end associate
                 end if
-                if (.not. v%floating) then
-                    select case (node%kind)
-                    case (restrained)
-                        answers(i)%moment_left = (v%beta*w - r%left + node%compliance*(m - r%couple))/(v%phi + node%compliance)
-                    case (hinge)
-                        answers(i)%moment_left = 0.0_wp
-                    case default
-                        answers(i)%moment_left = m - r%couple
-                    end select
-                else if (node%kind == restrained) then
-                    psi_right = node%compliance*((answers(i)%moment_left - m) + r%couple) + r%left
-                else
-                    psi_right = psi_right + r%right + r%left
-                end if
-                answers(i)%deflection = w
-                answers(i)%moment_right = m
-                m_next = answers(i)%moment_left
-                w_next = w
+                include 'elimination/leave_node.inc'
             end associate
         end do
     end subroutine substitute

@@ -23,7 +23,7 @@ module gapbeam_api
     use gapbeam_quantities, only: bounded_count, bending
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
     use gapbeam_api_objects, only: prepared_type, options_type, result_type, certificate_type, require_beam, require_no_ground, &
-        require_no_path, require_no_curves, require_result, require_size, check_call, bad_argument, make_state, summarise
+        require_no_path, require_result, require_size, check_call, bad_argument, make_state, summarise
     implicit none
     private
     public :: prepared_type, options_type, result_type, certificate_type
@@ -184,8 +184,8 @@ contains
         call restore_environment(environment)
     end subroutine solve_beam
 
-    !> Follow the load from factor 0 upwards: every change of the contact state at its exact load factor; not of beams that
-    !> solve_beam refuses; follow_ground is for beams on foundations
+    !> Follow the load from factor 0 upwards: every change of the contact state at its exact load factor, on smooth laws too; not
+    !> of beams that solve_beam refuses; follow_ground is for beams on foundations
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -207,7 +207,6 @@ contains
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
-        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error) .and. .not. factor > 0.0_wp) then
             call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))

@@ -16,12 +16,13 @@ module gapbeam_api_history
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
     use gapbeam_history_events, only: find_events
+    use gapbeam_released_energy, only: find_released_energy
     use gapbeam_query, only: node_places
     use gapbeam_api_objects, only: prepared_type, result_type, require_beam, require_no_ground, &
         require_no_curves, bad_argument, make_state, summarise
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, follow_history, solve_on_path
+    public :: history_type, stretch_type, limit_type, follow_history, solve_on_path, get_released_energy
     public :: gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow
     public :: gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
 
@@ -158,6 +159,37 @@ contains
         if (.not. allocated(error)) call summarise(result)
         call restore_environment(environment)
     end subroutine solve_on_path
+
+    !> Energy that is set free where the load cannot go on and the beam falls to its landing: force times length
+    subroutine get_released_energy(beam, history, limit, energy, error)
+        !> Prepared, and its history
+        type(prepared_type), intent(in) :: beam
+        type(history_type), intent(in) :: history
+        !> Number of the limit, from 1
+        integer, intent(in) :: limit
+        !> 0 in case of an error
+        real(wp), intent(out) :: energy
+        !> gapbeam_bad_input where there is no such limit, it has no landing, or it is met while the dead loads are put on;
+        !> gapbeam_not_prepared; or as for solve_beam
+        type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
+
+        call hold_environment(environment)
+        energy = 0.0_wp
+        call require_beam(beam, error)
+        if (.not. allocated(error)) call require_history(beam, history, error)
+        if (.not. allocated(error)) then
+            if (limit < 1 .or. limit > size(history%limits)) then
+                call bad_argument(error, "limit", "limit: expected 1 to "//trim(whole(size(history%limits)))//", got "// &
+                                 trim(whole(limit)))
+            else if (history%limits(limit)%landing == 0 .or. history%limits(limit)%leg == 0) then
+                call bad_argument(error, "limit", "limit "//trim(whole(limit))//" has no landing, or is met while the dead "// &
+                                 "loads are put on: no energy is known there")
+            end if
+        end if
+        if (.not. allocated(error)) call find_released_energy(beam%lowered, history%path, limit, energy, error)
+        call restore_environment(environment)
+    end subroutine get_released_energy
 
     !> Are the laws on a stretch not those of the beam any more
     pure function differ(stretch, lowered) result(they_do)

@@ -86,14 +86,14 @@ contains
         end if
     end subroutine require_no_path
 
-    !> Refuse a beam with smooth laws of supports, which is solved at load factors
+    !> Refuse a beam with smooth laws of supports where these are not available
     subroutine require_no_curves(beam, error)
         type(prepared_type), intent(in) :: beam
         type(error_type), allocatable, intent(out) :: error
 
         if (size(smooth_supports(beam%lowered)) == 0) return
-        call fatal_error(error, gapbeam_bad_input, "the law of a support is a curve: in this version such a beam is solved at "// &
-                         "load factors only, with solve_beam; give the law by points")
+        call fatal_error(error, gapbeam_bad_input, "the law of a support is a curve: in this version such a beam is solved "// &
+                         "with solve_beam and follow_load only; give the law by points")
         error%table = of_supports
     end subroutine require_no_curves
 

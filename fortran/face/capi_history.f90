@@ -3,7 +3,7 @@ module gapbeam_capi_history
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
-    use gapbeam_api_history, only: solve_on_path
+    use gapbeam_api_history, only: solve_on_path, get_released_energy
     use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, new_history
     use gapbeam_capi_objects, only: get_beam, get_both, report
     implicit none
@@ -183,15 +183,45 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        call find_handle(history, history_tag, handle)
-        if (.not. allocated(error) .and. .not. associated(handle)) then
-            call fatal_error(error, gapbeam_not_prepared, "history is none: make one with gapbeam_follow_history")
-        end if
+        call find_history(history, handle, error)
         if (.not. allocated(error)) then
             call solve_on_path(prepared%beam, handle%history, factor, solved%result, error, stretch + 1)
         end if
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve_on_path
+
+    !> See the header
+    function c_get_released_energy(beam, history, limit, energy, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_released_energy")
+        type(c_ptr), intent(in), value :: beam, history
+        integer(c_int), intent(in), value :: limit
+        real(c_double), intent(inout), optional :: energy
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(handle_type), pointer :: prepared, handle
+        type(error_type), allocatable :: error
+        real(c_double) :: found
+
+        call get_beam(beam, prepared, error)
+        call find_history(history, handle, error)
+        if (.not. allocated(error)) call get_released_energy(prepared%beam, handle%history, limit + 1, found, error)
+        if (.not. allocated(error) .and. present(energy)) energy = found
+        call report(error, status, message, message_size)
+    end function c_get_released_energy
+
+    !> The history behind a handle
+    subroutine find_history(history, handle, error)
+        type(c_ptr), intent(in) :: history
+        type(handle_type), pointer, intent(out) :: handle
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
+
+        call find_handle(history, history_tag, handle)
+        if (.not. allocated(error) .and. .not. associated(handle)) then
+            call fatal_error(error, gapbeam_not_prepared, "history is none: make one with gapbeam_follow_history")
+        end if
+    end subroutine find_history
 
 end module gapbeam_capi_history

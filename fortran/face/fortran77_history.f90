@@ -151,3 +151,31 @@ subroutine ghhsol(beam, hist, nstrch, at, state, info)
     info = info_of(error, 4, ["stretch"], [3])
     if (info == 0) info = solved%result%status
 end subroutine ghhsol
+
+! Energy that is set free where the load cannot go on and the beam falls to its landing: force times length
+subroutine ghheng(beam, hist, nlimit, energy, info)
+    use gapbeam_error, only: error_type
+    use gapbeam_api_history, only: get_released_energy
+    use gapbeam_handles, only: handle_type, history_tag, beam_tag
+    use gapbeam_fortran77_info, only: find, info_of
+    implicit none
+    integer(8), intent(in) :: beam, hist
+    ! Number of the limit
+    integer, intent(in) :: nlimit
+    ! Left as it is where INFO is not 0
+    double precision, intent(inout) :: energy
+    ! -1; -2, also of another beam, or of other loads; -3: no such limit, it has no landing, or it is met while the dead loads are
+    ! put on; 12 to 15, 18
+    integer, intent(out) :: info
+    type(handle_type), pointer :: prepared, followed
+    type(error_type), allocatable :: error
+    double precision :: found
+
+    info = 0
+    call find(beam, 1, beam_tag, prepared, info)
+    call find(hist, 2, history_tag, followed, info)
+    if (info /= 0) return
+    call get_released_energy(prepared%beam, followed%history, nlimit, found, error)
+    info = info_of(error, 3, ["limit"], [3])
+    if (info == 0) energy = found
+end subroutine ghheng

@@ -69,7 +69,7 @@ module gapbeam
         gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
         gapbeam_of_curvature
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
-        gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
+        get_released_energy, gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended
     use gapbeam_api_cases, only: cases_type, prepare_cases, solve_cases, get_nodes
     use gapbeam_api_combinations, only: combine_loads

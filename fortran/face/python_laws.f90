@@ -1,14 +1,14 @@
 ! Laws of supports for Python, in the manner of face/python.f90: what stands in gapbeam_laws
 
-! A curve at a displacement past the gap, 0 or more: force, slope and work; and the scale that it has everywhere
+! A curve at a displacement past the gap, 0 or more: force and slope; and the scale that it has everywhere
 subroutine gblawv(law, param, past, values)
-    use gapbeam_laws, only: law_force, law_slope, law_energy, law_scale
+    use gapbeam_laws, only: law_force, law_slope, law_scale
     implicit none
     integer, intent(in) :: law
     double precision, intent(in) :: param(3), past
-    double precision, intent(out) :: values(4)
+    double precision, intent(out) :: values(3)
 
-    values = [law_force(law, param, past), law_slope(law, param, past), law_energy(law, param, past), law_scale(law, param)]
+    values = [law_force(law, param, past), law_slope(law, param, past), law_scale(law, param)]
 end subroutine gblawv
 
 ! The polyline of a law: displacements and forces of N points
@@ -26,27 +26,3 @@ subroutine gblawp(law, param, n, points)
     points = 0.0d0
     points(:, :n) = found
 end subroutine gblawp
-
-! Load factor at which support or breakpoint NUMBER (from 1) changes its state on the smooth laws, from that on their polylines
-subroutine gblawe(beam, ns, closed, number, factor, status, message)
-    use gapbeam_error, only: error_type
-    use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_smooth_events, only: find_on_laws
-    implicit none
-    integer(8), intent(in) :: beam
-    integer, intent(in) :: ns
-    ! The scheme before, with one entry more than there are supports
-    integer, intent(in) :: closed(ns), number
-    double precision, intent(inout) :: factor
-    integer, intent(out) :: status
-    character(len=240), intent(out) :: message
-    !f2py threadsafe
-    !f2py intent(in, out) :: factor
-    !f2py integer, intent(hide), depend(closed) :: ns = shape(closed, 0)
-    type(handle_type), pointer :: handle
-    type(error_type), allocatable :: error
-
-    handle => handle_of(beam)
-    call find_on_laws(handle%lowered, closed(:ns - 1) /= 0, number, factor, error)
-    call report(error, status, message)
-end subroutine gblawe

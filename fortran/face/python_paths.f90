@@ -1,15 +1,13 @@
 ! Paths of the load for Python, in the manner of face/python.f90, which says what the arguments are
 
-! Follow the load from a factor to LIMIT, from event to event
+! Follow the load from a factor to LIMIT, from event to event; events are on smooth laws, the scheme is on their polylines
 subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at, which, what, motion, solves, nodes, status, &
                   message)
     use gapbeam_error, only: error_type
     use gapbeam_beam_handle, only: handle_type, handle_of, report
-    use gapbeam_memory, only: for_following
     use gapbeam_contact_state, only: outcome_type
-    use gapbeam_extended_precision, only: reserve_for
-    use gapbeam_path, only: follow_path, path_type
-    use gapbeam_state, only: detail_of, name_range
+    use gapbeam_events, only: follow_some_events
+    use gapbeam_path, only: path_type
     implicit none
     ! Number of events after which it stops
     integer, intent(in) :: most
@@ -19,7 +17,8 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     ! Load factor of the state at hand, its scheme, and 1 for supports at zero there; how far it went out
     double precision, intent(inout) :: factor
     integer, intent(inout) :: closed(ns + 1), margin(ns + 1)
-    ! Events: load factor, support (from 1), 0 opens, 1 closes, 3 turns
+    ! Changes of the scheme: load factor, support (from 1), the event as in gapbeam_pieces, -1 where there is none; 3 turns, which
+    ! is no change
     integer, intent(out) :: events
     double precision, intent(out) :: at(most + 6*ns + 8)
     integer, intent(out) :: which(most + 6*ns + 8), what(most + 6*ns + 8)
@@ -44,16 +43,10 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     motion = 0.0d0
     solves = 0
     nodes = 0
-    associate (lowered => handle%lowered)
-        call reserve_for(for_following, lowered%beam, detail_of(lowered), error)
-        if (.not. allocated(error)) then
-            allocate (acting(ns), zero(ns))
-            acting(:) = closed(:ns) /= 0
-            zero(:) = margin(:ns) /= 0
-            call follow_path(lowered%beam, detail_of(lowered), limit, most, factor, acting, zero, path, outcome, error)
-            call name_range(lowered, error)
-        end if
-    end associate
+    allocate (acting(ns), zero(ns))
+    acting(:) = closed(:ns) /= 0
+    zero(:) = margin(:ns) /= 0
+    call follow_some_events(handle%lowered, limit, most, factor, acting, zero, path, outcome, error)
     call report(error, status, message)
     if (allocated(error)) return
     closed(:ns) = merge(1, 0, acting)

@@ -267,6 +267,29 @@ subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     call report(error, status, message)
 end subroutine gbextr
 
+! Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear
+subroutine gbwork(beam, one, fone, other, fother, energy)
+    use gapbeam_beam_handle, only: handle_type, handle_of
+    use gapbeam_state_handle, only: state_handle_type, state_of, fields_handle_type, fields_of
+    use gapbeam_path_energy, only: energy_between
+    implicit none
+    integer(8), intent(in) :: beam
+    ! The states and their fields
+    integer(8), intent(in) :: one, fone, other, fother
+    double precision, intent(out) :: energy
+    !f2py threadsafe
+    type(handle_type), pointer :: handle
+    type(state_handle_type), pointer :: from, to
+    type(fields_handle_type), pointer :: along_from, along_to
+
+    handle => handle_of(beam)
+    from => state_of(one)
+    to => state_of(other)
+    along_from => fields_of(fone)
+    along_to => fields_of(fother)
+    energy = energy_between(handle%lowered, from%state, along_from%starts, to%state, along_to%starts)
+end subroutine gbwork
+
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)
     use gapbeam_fields, only: find_extremes

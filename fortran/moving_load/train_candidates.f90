@@ -8,7 +8,6 @@ module gapbeam_train_candidates
     private
     public :: candidate_type, candidates_type, least_of, raise, upper_bound, offer
 
-
     !> A part of a stretch that may hold an extreme value
     type :: candidate_type
         type(patch_type) :: patch

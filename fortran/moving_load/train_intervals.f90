@@ -2,6 +2,7 @@
 module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_stations, only: last_not_above
     use gapbeam_train, only: train_type, track_type, least_distance
     implicit none
     private
@@ -192,19 +193,8 @@ contains
         type(track_type), intent(in) :: track
         real(wp), intent(in) :: x
         integer :: piece
-        integer :: low, high, middle
 
-        low = 0
-        high = ubound(track%x, 1)
-        do while (high - low > 1)
-            middle = low + (high - low)/2
-            if (track%x(middle) <= x) then
-                low = middle
-            else
-                high = middle
-            end if
-        end do
-        piece = low + 1
+        piece = last_not_above(track%x(:ubound(track%x, 1) - 1), x) + 1
     end function piece_at
 
     !> Sort numbers (Shell 1959)

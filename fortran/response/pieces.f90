@@ -6,7 +6,7 @@ module gapbeam_pieces
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: acting_type, acting_piece, acts_in, what_happens, no_change
+    public :: acting_type, acting_piece, acts_in, as_one_piece, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
@@ -88,6 +88,15 @@ contains
             end associate
         end associate
     end function acts_in
+
+    !> What acts of a smooth law, from the piece of its polyline: the law is one piece
+    elemental function as_one_piece(acting) result(one)
+        type(acting_type), intent(in) :: acting
+        type(acting_type) :: one
+
+        one = acting_type(min(acting%condition, gapbeam_branch + 1), merge(0.0_wp, 1.0_wp, acting%condition == gapbeam_open), &
+                          acting%way)
+    end function as_one_piece
 
     !> The event between two pieces of a law, or none
     pure function what_happens(before, after) result(event)

@@ -10,7 +10,8 @@ module gapbeam_query
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
-    use gapbeam_stations, only: locate
+    use gapbeam_stations, only: locate, last_not_above
+    use gapbeam_assemble_axial, only: axial_node
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range
@@ -221,7 +222,7 @@ contains
         integer, intent(out) :: piece
         real(wp), intent(out) :: distance
         real(wp) :: offset, tolerance, to_right
-        integer :: span, low, high, middle
+        integer :: span, low, high
 
         call locate(x, assembled%ends, span, offset)
         tolerance = position_tolerance*(assembled%ends(span) + offset)
@@ -229,14 +230,7 @@ contains
         low = assembled%end_point(span)
         high = low + 1
         if (span < ubound(assembled%ends, 1)) high = assembled%end_point(span + 1)
-        do while (high - low > 1)
-            middle = low + (high - low)/2
-            if (assembled%point_offset(middle) <= offset) then
-                low = middle
-            else
-                high = middle
-            end if
-        end do
+        low = low + last_not_above(assembled%point_offset(low:high - 1), offset)
         distance = offset - assembled%point_offset(low)
         high = min(low + 1, ubound(assembled%point_span, 1))
         to_right = assembled%point_offset(high) - offset
@@ -261,26 +255,13 @@ contains
         real(wp), intent(in) :: distance
         real(wp), intent(out) :: tension, displacement
         real(wp) :: way
-        integer :: bar, low, high, middle
+        integer :: bar
 
         tension = 0.0_wp
         displacement = 0.0_wp
         if (.not. allocated(assembled%axial%point)) return
-        ! The bar that the piece belongs to: bar i lies between points i - 1 and i
-        associate (point => assembled%axial%point)
-            low = 0
-            high = ubound(point, 1)
-            do while (high - low > 1)
-                middle = low + (high - low)/2
-                if (point(middle) < piece) then
-                    low = middle
-                else
-                    high = middle
-                end if
-            end do
-            bar = high
-            way = assembled%axial%before(piece) + assembled%axial%softness(piece)*(distance/piece_length(assembled, piece))
-        end associate
+        bar = axial_node(assembled%axial%point, piece)
+        way = assembled%axial%before(piece) + assembled%axial%softness(piece)*(distance/piece_length(assembled, piece))
         tension = tensions(bar)
         displacement = displacements(bar - 1) + tension*way
     end subroutine axial_fields

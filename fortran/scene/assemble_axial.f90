@@ -10,7 +10,7 @@ module gapbeam_assemble_axial
     use gapbeam_input_error, only: refuse_range, named, of_supports
     implicit none
     private
-    public :: assemble_axial
+    public :: assemble_axial, axial_node
 
 contains
 
@@ -86,9 +86,9 @@ contains
         end associate
     end subroutine assemble_axial
 
-    !> Node of the axial system at a point
+    !> Node of the axial system at a point, or else the next one to the right, with which the bar there ends
     pure function axial_node(points, point) result(node)
-        !> Points of the nodes, shape (0:n), and one of them
+        !> Points of the nodes, shape (0:n), and the point
         integer, intent(in) :: points(0:), point
         integer :: node
         integer :: high, middle

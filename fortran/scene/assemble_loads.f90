@@ -2,17 +2,17 @@
 module gapbeam_assemble_loads
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_link, only: condense_link, piece_load_type
+    use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
-    use gapbeam_assemble_units, only: change_units, refuse_link
+    use gapbeam_assemble_units, only: change_units, load_in_units, refuse_link
     implicit none
     private
-    public :: assemble_loads, spread_load
+    public :: assemble_loads, find_loaded, put_load
 
 contains
 
@@ -57,8 +57,8 @@ contains
         type(assembled_type), intent(inout) :: assembled
         integer :: i, k
 
-        call clear(assembled%dead)
-        call clear(assembled%live)
+        assembled%dead(:) = no_load
+        assembled%live(:) = no_load
         assembled%beam%force(:, :) = 0.0_wp
         assembled%beam%couple(:, :) = 0.0_wp
         do i = 1, size(assembled%model%loads)
@@ -96,13 +96,6 @@ contains
         end if
     end subroutine add_at_point
 
-    !> No load
-    elemental subroutine clear(load)
-        type(piece_load_type), intent(out) :: load
-
-        load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
-    end subroutine clear
-
     !> A force or couple at the right end of a piece
     elemental subroutine add_to_piece(piece_load, load)
         type(piece_load_type), intent(inout) :: piece_load
@@ -114,6 +107,46 @@ contains
             piece_load%couple = piece_load%couple + load%value
         end if
     end subroutine add_to_piece
+
+    !> Where a load acts across the beam
+    pure subroutine find_loaded(assembled, k, first, last, node)
+        type(assembled_type), intent(in) :: assembled
+        !> Its number
+        integer, intent(in) :: k
+        !> On which pieces, last before first if on none; at which node, -1 at none
+        integer, intent(out) :: first, last, node
+
+        associate (load => assembled%model%loads(k), a => assembled%load_from(k))
+            first = a + 1
+            last = assembled%load_to(k)
+            node = -1
+            if (is_stretch(load)) return
+            last = a
+            if (load%kind == gapbeam_axial_force) return
+            node = assembled%node_of_point(a)
+            if (node < 0) first = a
+        end associate
+    end subroutine find_loaded
+
+    !> Put a load with factor 1 on the pieces that it acts on, in the engine's units
+    pure subroutine put_load(assembled, k, first, last, node, on_pieces)
+        !> As for find_loaded
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: k
+        integer, intent(out) :: first, last, node
+        !> Of all pieces, without loads in
+        type(piece_load_type), intent(inout) :: on_pieces(:)
+
+        call find_loaded(assembled, k, first, last, node)
+        associate (load => assembled%model%loads(k))
+            if (is_stretch(load)) then
+                call spread_load(assembled, load, first - 1, last, on_pieces)
+            else if (first == last) then
+                call add_to_piece(on_pieces(first), load)
+            end if
+        end associate
+        call load_in_units(on_pieces(first:last), assembled%units)
+    end subroutine put_load
 
     !> A distributed load or an imposed curvature, from point a to point b, on the pieces between
     pure subroutine spread_load(assembled, load, a, b, piece_loads)

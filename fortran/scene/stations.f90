@@ -11,7 +11,7 @@ module gapbeam_stations
     use gapbeam_scene, only: span_type
     implicit none
     private
-    public :: place_span_ends, locate, merge_stations
+    public :: place_span_ends, locate, last_not_above, merge_stations
 
 contains
 
@@ -50,20 +50,9 @@ contains
         !> The span, 0..n, and the distance from its left end
         integer, intent(out) :: span
         real(wp), intent(out) :: offset
-        integer :: low, high, middle
 
-        low = 0
-        high = ubound(ends, 1)
-        ! The last end that is not right of x, but never the right end of the beam
-        do while (high - low > 1)
-            middle = low + (high - low)/2
-            if (ends(middle) <= x) then
-                low = middle
-            else
-                high = middle
-            end if
-        end do
-        span = low
+        ! Never the right end of the beam
+        span = last_not_above(ends(:ubound(ends, 1) - 1), x)
         offset = x - ends(span)
         if (ends(span + 1) - x <= position_tolerance*abs(x)) then
             span = span + 1
@@ -72,6 +61,24 @@ contains
             offset = 0.0_wp
         end if
     end subroutine locate
+
+    !> The last of values in order that is not above a number, counted from 0; 0 also if none is
+    pure function last_not_above(values, x) result(low)
+        real(wp), intent(in) :: values(0:), x
+        integer :: low
+        integer :: high, middle
+
+        low = 0
+        high = size(values)
+        do while (high - low > 1)
+            middle = low + (high - low)/2
+            if (values(middle) <= x) then
+                low = middle
+            else
+                high = middle
+            end if
+        end do
+    end function last_not_above
 
     !> Points from left to right, places that differ by rounding only taken as one
     pure subroutine merge_stations(ends, span, offset, anchors, order, chosen, point, number)

@@ -334,6 +334,12 @@ class CBeam:
         )
         return status, message.value.decode()
 
+    def released(self, limit):
+        """Status of gapbeam_get_released_energy for the history followed last, and the energy."""
+        energy = c.c_double(0.0)
+        status = self.c.gapbeam_get_released_energy(self.handle, self.history, limit, c.byref(energy), None, c.c_size_t(0))
+        return status, energy.value
+
     def history_motion(self):
         """Places of the nodes and their displacements where the history ends in a motion, or None."""
         n = self.c.gapbeam_count_nodes(self.handle)
@@ -574,6 +580,11 @@ class F77Beam:
     def solve_on_path(self, stretch, factor):
         """INFO of GHHSOL for the history followed last."""
         return self.call("ghhsol", self.beam, self.history, stretch + 1, float(factor), self.state)
+
+    def released(self, limit):
+        """INFO and energy of GHHENG for the history followed last."""
+        energy = np.zeros(1)
+        return self.call("ghheng", self.beam, self.history, limit + 1, energy), float(energy[0])
 
     def at_supports(self):
         """As CBeam.at_supports."""

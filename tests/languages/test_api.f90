@@ -8,8 +8,9 @@ program test_api
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
-        gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, gapbeam_plastic, gapbeam_branch, &
-        gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, gapbeam_limit_jump, &
+        gapbeam_status_message, law_point_type, history_type, follow_history, solve_on_path, get_released_energy, gapbeam_plastic, &
+        gapbeam_branch, gapbeam_open, gapbeam_yields, gapbeam_breaks, gapbeam_unloads, gapbeam_opens, gapbeam_limit_stop, &
+        gapbeam_limit_jump, &
         gapbeam_law_tanh, gapbeam_limit_follow, gapbeam_arrived, gapbeam_limit_point, gapbeam_path_ended, gapbeam_mechanism
     implicit none
     integer :: status
@@ -413,13 +414,14 @@ contains
         call refuse(model, 3, 2, "gap: expected 0 or more")
     end subroutine hardening_law
 
-    !> A law by name that is a curve: its force is the load less what the beam takes, and events are refused
+    !> A law by name that is a curve: its force is the load less what the beam takes, and it closes where its gap does
     subroutine smooth_law()
         type(model_type) :: model
         type(prepared_type) :: beam
         type(result_type) :: result
         type(error_type), allocatable :: error
         type(event_type), allocatable :: events(:)
+        type(history_type) :: history
         real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
         integer :: condition(3)
 
@@ -432,7 +434,17 @@ contains
         call check_close(deflection(2), 5*3*4.0_wp**4/(384*100) - reaction(2)*4.0_wp**3/(48*100), "and of the beam")
         call check(condition(2) == gapbeam_branch + 1, "a curve is one piece")
         call follow_load(beam, 1.0_wp, options_type(), events, result, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its events are refused")
+        call check(result%status == 0 .and. size(events) == 0, "nothing happens to it")
+        call check_close(result%factor, 1.0_wp, "to the end of the load")
+        model%supports(2)%gap = 0.01_wp
+        call prepare_model(model, beam, error)
+        call follow_load(beam, 1.0_wp, options_type(), events, result, error)
+        call check(size(events) == 1, "it closes")
+        call check(events(1)%support == 2 .and. events(1)%state == gapbeam_branch + 1, "and has one piece then")
+        call check_close(events(1)%factor, 0.01_wp/(5*3*4.0_wp**4/(384*100)), "where the beam comes to it")
+        call follow_history(beam, [1.0_wp], 0, history, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its history is refused")
+        model%supports(2)%gap = 0.0_wp
         model%supports(2)%parameter(2) = 0.0_wp
         call refuse(model, 3, 2, "law.limit: expected a finite number above 0, got 0")
         model%supports(2)%law = 6
@@ -451,7 +463,7 @@ contains
         type(certificate_type) :: certificate
         type(error_type), allocatable :: error
         type(event_type), allocatable :: events(:)
-        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3), energy
         integer :: condition(3)
         logical :: undecided(3)
 
@@ -489,6 +501,10 @@ contains
         call solve_on_path(beam, history, 0.5_wp, result, error, stretch=history%limits(1)%landing)
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(deflection(2), 1.1_wp, "the landing")
+        call get_released_energy(beam, history, 1, energy, error)
+        call check_close(energy, 0.5_wp, "the energy of the beam alone, of stiffness 1, that it moves by 1")
+        call get_released_energy(beam, history, 2, energy, error)
+        call check(error%code == gapbeam_bad_input .and. .not. abs(energy) > 0.0_wp, "there is one limit")
         call solve_on_path(beam, history, 0.5_wp, result, error, stretch=99)
         call check(error%code == gapbeam_bad_input, "no such stretch")
 

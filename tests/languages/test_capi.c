@@ -383,6 +383,7 @@ static void laws_and_histories(void)
               && gapbeam_get_limits(NULL, factor, kind, leg, before, landing) == GAPBEAM_NOT_PREPARED
               && gapbeam_get_history_motion(NULL, x, w) == GAPBEAM_NOT_PREPARED, "nothing of no history");
     check(gapbeam_solve_on_path(beam, NULL, -1, 0.5, state, NULL, 0) == GAPBEAM_NOT_PREPARED, "no state on it");
+    check(gapbeam_get_released_energy(beam, NULL, 0, w, NULL, 0) == GAPBEAM_NOT_PREPARED, "no energy either");
 
     check(gapbeam_follow_history(beam, 1, one, GAPBEAM_LIMIT_STOP, &history, NULL, 0) == GAPBEAM_SOLVED, "followed");
     check(gapbeam_get_history_info(history, &info) == GAPBEAM_SOLVED && info.ending == GAPBEAM_PATH_ENDED, "it stops");
@@ -394,6 +395,9 @@ static void laws_and_histories(void)
     check_close(factor[0], 0.5, "the support breaks there");
     check(support[0] == 1 && what[0] == GAPBEAM_BRANCH + 2 && change[0] == GAPBEAM_BREAKS && stretch[0] == 1, "that one");
     check(gapbeam_get_history_motion(history, x, w) == GAPBEAM_NOT_PREPARED, "no free motion");
+    check(gapbeam_get_released_energy(beam, history, 1, w, NULL, 0) == GAPBEAM_BAD_INPUT, "no such limit");
+    check(gapbeam_get_released_energy(beam, history, 0, w, NULL, 0) == GAPBEAM_SOLVED, "energy");
+    check_close(w[0], 0.5, "that the beam sets free");
     check(gapbeam_get_stretches(history, from, to, leg, direction, stable, NULL, NULL, skipped) == GAPBEAM_SOLVED, "stretches");
     check(from[0] == 0.0 && fabs(to[0] - 0.5) < 1e-15 && leg[0] == 0 && direction[0] == 1 && stable[0] && !skipped[0], "the first");
     check(direction[1] == -1 && !stable[1] && skipped[1], "the second");

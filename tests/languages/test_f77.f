@@ -270,8 +270,8 @@ C     keeps a set
       INTEGER*8 BEAM, STATE, HIST
       INTEGER ISUP(3,3), ILOAD(3,1), ILAW(3), IUNL(3), IS(6,9), IE(4,9)
       INTEGER IL(4,2), N(6), K(3), INFO, IENT, KNOWN, IU(3)
-      EXTERNAL GHCERT, GHEVNT, GHFREE, GHHGET, GHHIST, GHHMOT, GHHSOL,
-     +         GHPRLW
+      EXTERNAL GHCERT, GHEVNT, GHFREE, GHHENG, GHHGET, GHHIST, GHHMOT,
+     +         GHHSOL, GHPRLW
       EXTERNAL GHSOLV, GHSTAT, GHSUPP
       CALL TWO(SPAN, ISUP, SUP, ILOAD, ALOAD)
       SPAN(2,1) = 4/3.0D0
@@ -356,6 +356,11 @@ C     keeps a set
       CALL GHSUPP(BEAM, STATE, V, K, INFO)
       CALL CLOSE(V(2,2), 1.1D0, 'without the support')
       CALL CHECK(K(2) .EQ. 13, 'which is broken')
+      CALL GHHENG(BEAM, HIST, 2, D(1), INFO)
+      CALL EXPECT(INFO, -3, 'there is one limit')
+      CALL GHHENG(BEAM, HIST, 1, D(1), INFO)
+      CALL EXPECT(INFO, 0, 'the energy')
+      CALL CLOSE(D(1), 0.5D0, 'that the beam sets free')
       CALL GHFREE(BEAM, INFO)
       ALAW(1,2) = 1.0D0
       ALAW(2,2) = 1.0D0

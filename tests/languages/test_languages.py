@@ -250,6 +250,13 @@ def test_laws_agree(library, family):
             assert (status, message, info) == (0, "", 0)
             assert_same_history(found, result.path)
             assert_same_history(found_f77, result.path)
+            for k, limit in enumerate(result.limits):
+                (status, energy), (info, same) = beam.released(k), f77.released(k)
+                if limit.leg < 0 or limit.landing is None:
+                    assert (status, info) == (11, -3)
+                else:
+                    assert (status, info) == (0, 0)
+                    assert [energy, same] == pytest.approx([limit.released] * 2, rel=1e-14)
             motion = beam.history_motion()
             assert (motion is None) == (result.path.motion is None)
             if motion is not None:
@@ -429,11 +436,12 @@ NAMED = [
     {"type": "power", "d0": 0.01, "limit": 30.0, "n": 2.0}, {"type": "plastic", "stiffness": 4e3, "limit": 6.0},
     {"type": "hardening", "stiffness": 400.0, "limit": 20.0, "slope": 4e3},
 ]  # fmt: skip
+SMOOTH = {"tanh", "hyperbolic", "cubic", "power"}
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_laws_of_supports_by_name_agree(library, seed):
-    """Curves are met with the same digits, and their beams are refused where the load is followed."""
+    """Curves are met with the same digits, and so are the events on them."""
     rng = np.random.default_rng(seed)
     sides = rng.choice(["both", "below", "above"], size=6).tolist()
     supports = [
@@ -454,6 +462,18 @@ def test_laws_of_supports_by_name_agree(library, seed):
     for one in (beam, f77):
         reaction, deflection, opening, *_ = one.at_supports()
         np.testing.assert_array_equal([reaction, deflection, opening], [step.reaction, step.deflection, step.opening])
+    path = python_result({**scene, "analysis": {"follow": "events"}})
+    (status, message, events), (info, same) = beam.follow(1.0), f77.follow(1.0)
+    if isinstance(path, EngineError):
+        assert status > 10
+        assert info > 10
+        assert message in str(path)
+        return
+    assert (status, info) == (0, 0)
+    assert events == same
+    assert [(factor, k) for factor, k, _ in events] == [(event.factor, event.support) for event in path.events]
+    smooth = {k for k, support in enumerate(scene["supports"]) if support.get("law", {}).get("type") in SMOOTH}
+    assert {state for _, k, state in events if k in smooth} <= {0, 3, 11}
 
 
 def test_wrong_laws_of_supports_by_name_are_refused(library):
@@ -468,7 +488,7 @@ def test_wrong_laws_of_supports_by_name_are_refused(library):
         assert (f77.info_, f77.entry[0]) == (-16, 2)
     scene["supports"][1]["law"] = NAMED[0]
     beam, _ = library.prepare(scene)
-    status, words, events = beam.follow(1.0)
+    status, words, history = beam.follow_history([1.0], "stop")
     assert status != 0
     assert "law" in words
-    assert events == []
+    assert history is None

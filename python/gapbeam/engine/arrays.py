@@ -177,7 +177,7 @@ class Stretch:
     supports : numpy.ndarray of int
         Their supports, from 0.
     events : numpy.ndarray of int
-        What happens to them, as in gapbeam_path.
+        What happens to them, as in gapbeam_pieces, or -1: a change of the scheme that is no event.
     motion : numpy.ndarray
         As in `Solution`.
     solves : int

@@ -277,7 +277,6 @@ gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_solve, lambda beam, links, *_: SHORT if beam.has_curves else links)
 gbpath = interruptible(_engine.gbpath)
-gblawe = interruptible(_engine.gblawe)
 gbhist = interruptible(_engine.gbhist)
 gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
@@ -293,6 +292,7 @@ gbextr = interruptible(
     lambda beam, pieces, stretches, *_: _on_ground(beam, stretches) if stretches else pieces,
 )
 gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
+gbwork = interruptible(lambda beam, pieces, *about: _engine.gbwork(beam, *about), lambda beam, pieces, *_: pieces)
 gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
 gbgdif = interruptible(
     lambda stretches, *about: _engine.gbgdif(*about), lambda stretches, most, beam, *_: _on_ground(beam, stretches)

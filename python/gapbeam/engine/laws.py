@@ -17,15 +17,14 @@ class CurveValues(NamedTuple):
 
     Attributes
     ----------
-    force, slope, work : float
-        Force, its slope, and the work up to there.
+    force, slope : float
+        Force and its slope.
     scale : float
         A displacement that is typical of the law.
     """
 
     force: float
     slope: float
-    work: float
     scale: float
 
 

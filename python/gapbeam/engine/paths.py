@@ -8,12 +8,15 @@ from ..base.errors import check_status
 from . import calls as _engine
 from .arrays import GroundChanges, History, Stretch, extended
 from .beam import RULES, Beam
+from .states import Solution
 
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
 """Ways to go on at a limit and how a path ends, as in gapbeam_history."""
 TURNS = 3
-"""The event in which the beam turns, as in gapbeam_path; others change the scheme."""
+"""The event in which the beam turns; all others change the scheme."""
+NO_EVENT = -1
+"""A change of the scheme that is none: along one straight line, or one smooth law."""
 
 
 def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.ndarray, most: int) -> Stretch:
@@ -49,34 +52,6 @@ def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.n
     check_status(status, message, f"at load factor {factor:.15g}: ")
     events = factors[:count], which[:count] - 1, what[:count]
     return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
-
-
-def factor_on_laws(beam: Beam, factor: float, closed: np.ndarray, support: int) -> float:
-    """Load factor at which a support changes its state, on the smooth laws of others.
-
-    Parameters
-    ----------
-    beam : Beam
-        With smooth laws.
-    factor : float
-        The same with their polylines.
-    closed : numpy.ndarray of int
-        The scheme before.
-    support : int
-        Number of the support or breakpoint in the engine.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    EngineError
-        The laws are not met.
-    """
-    found, status, message = _engine.gblawe(beam.handle, extended(closed), support + 1, factor)
-    check_status(status, message)
-    return found
 
 
 def follow_history(beam: Beam, factors: np.ndarray, at_limit: str, most: int) -> History:
@@ -144,3 +119,21 @@ def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
         at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
         float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
     )  # fmt: skip
+
+
+def energy_between(one: Solution, other: Solution) -> float:
+    """Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear.
+
+    Parameters
+    ----------
+    one, other : Solution
+        The states, with the same loads.
+
+    Returns
+    -------
+    float
+        Force times length.
+    """
+    beam = one.state.beam
+    states = (part for solution in (one, other) for part in (solution.state.handle, solution.state.fields))
+    return float(_engine.gbwork(beam.handle, beam.pieces, *states))

@@ -28,7 +28,7 @@ def test_all_routines_are_there():
         "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gblaws "
         "gbsget gbsdro gbcert gbreco gbfdro gbfind gbvalu gbextr gblarg "
         "gbshar gbroom gbleav gbcase gbone gbgget gbgrun gbgdif gbgpth gbgpte gbcomb gbcext gbccrt "
-        "gbtmak gbtget gbtdro gbtenv gbtcur gbtinf gbstop gbtole gblawv gblawp gblawe"
+        "gbtmak gbtget gbtdro gbtenv gbtcur gbtinf gbstop gbtole gblawv gblawp gbwork"
     )
     assert set(ROUTINES) == set(names.split())
 

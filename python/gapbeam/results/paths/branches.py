@@ -12,10 +12,9 @@ from ...base.errors import EngineError, Status
 from ...base.records import Pickled, read_only
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
-from ...engine.paths import ENDINGS, follow_history
+from ...engine.paths import ENDINGS, energy_between, follow_history
 from ...engine.tolerances import MOST_PATH_SEGMENTS
 from ..state.breakpoints import piece_of, what_happens
-from ..state.energy import bulge, work_of_loads
 from ..state.step import Step
 from .branch_segments import BranchSegment, Limit, OtherWay
 from .curved import CurvedPath
@@ -54,7 +53,6 @@ class BranchPath(Pickled):
     """
 
     def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float, curved: CurvedPath | None = None):
-        self._scene = scene
         self._beam = beam
         self._curved = curved
         self._dead = beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
@@ -169,11 +167,8 @@ class BranchPath(Pickled):
             if last == landing - 1:
                 start, stop = float(h.along[first - 1, 1]), factor
             if start != stop:
-                ends = [self._step(k, at) for k, at in ((first, start), (last, stop))]
-                case = "live" if h.about[first, 0] else "dead"
-                work = [work_of_loads(self._scene, case, self._beam_at(first), step) for step in ends]
-                found += (stop - start) * sum(work) / 2 - bulge(self._beam, *(step.solution for step in ends))
-        return float(found)
+                found += energy_between(self._step(first, start).solution, self._step(last, stop).solution)
+        return found
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
         """Give the scheme of a segment, as `Path.closed`."""

@@ -11,9 +11,9 @@ import numpy as np
 from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
-from ...engine.paths import TURNS, factor_on_laws, follow_stretch
+from ...engine.paths import NO_EVENT, TURNS, follow_stretch
 from ...engine.tolerances import CHANGES_AT_A_TIME
-from ..state.breakpoints import EVENTS, piece_of, what_happens
+from ..state.breakpoints import EVENTS
 from ..state.step import Step
 
 if TYPE_CHECKING:
@@ -174,27 +174,13 @@ class Path:
     def _name_events(self) -> np.ndarray:
         """List the events, and tell which changes are any."""
         beam = self._beam
-        laws = beam.laws if beam.has_laws else {}
-        counted = np.ones(len(self._factors), dtype=bool)
-        closed = self._closed.copy()
+        counted = self._events != NO_EVENT
         places, numbers = beam.node_x[beam.places.support_nodes].tolist(), beam.numbers.tolist()
         columns = (self._factors.tolist(), self._supports.tolist(), self._events.tolist())
-        for i, (factor, k, event) in enumerate(zip(*columns, strict=True)):
+        for factor, k, event in zip(*columns, strict=True):
             # What changes at factor 0 is no event, unless the beam turns there
-            name = EVENTS[event]
-            if event != TURNS:
-                if numbers[k] in laws:
-                    before = piece_of(beam, numbers[k], closed, beam.breakpoints)
-                if beam.curves and factor > 0.0:
-                    factor = factor_on_laws(beam, factor, closed, k)
-                closed[k] ^= 1
-                if numbers[k] in laws:
-                    name = what_happens(before, piece_of(beam, numbers[k], closed, beam.breakpoints))
-                counted[i] = bool(name)
-                if name:
-                    self._factors[i] = factor
-            if (factor > 0.0 or event == TURNS) and name:
-                self.events.append(Event(factor, numbers[k], places[k], name))
+            if event != NO_EVENT and (factor > 0.0 or event == TURNS):
+                self.events.append(Event(factor, numbers[k], places[k], EVENTS[event]))
         # What is between two events along smooth laws happens at no factor of its own
         self._factors = np.maximum.accumulate(np.where(counted, self._factors, 0.0)) if beam.curves else self._factors
         return counted
