@@ -23,9 +23,7 @@ contact/find_zones: find_zones
 contact/ground_energy: find_least_energy
 contact/mesh_zones: zones_of_mesh
 continuation/ground_zones: ground_runs
-elimination/band: factor_chain
 elimination/elements: sweep
-elimination/foundation_chain: factor_foundation_chain
 moving_load/train_bounds: find_bounds
 moving_load/train_curves: find_curves
 moving_load/train_elimination: substitute
@@ -40,13 +38,14 @@ scene/assemble_foundations: assemble_foundations
 """)
 """Procedures of more lines, those inside counted with their host. None may be added: what is cut is taken out."""
 MANY_ARGUMENTS = listed("""
+beam/derivatives_along: derive_deflection derive_rotation
+beam/fields_along: deflection_at
 beam/link: recover_link
 beam/recover: recover_beam
 cases/lane_audit: audit_along audit_beside audit_nodes check_link check_restraint
 cases/lane_certificate: bound_fields bound_links
 cases/lane_columns: give_eight
 cases/lane_error_ellipses: find_results
-cases/lane_extremes: derive_deflection derive_rotation
 cases/lane_fields: recover recover_link
 cases/lane_finish: solve
 cases/lane_reactions: find_reactions find_sizes
@@ -56,7 +55,6 @@ cases/lane_search: add_loads find_wrong
 cases/lane_shared: find_wrong_beside share_forces
 cases/lane_sweeps: pass_restraint sweep_chain sweep_three_moments
 cases/lane_two_sided_sweep: go_inward pass_both_ends put_inward
-cases/lane_values: deflection_at
 cases/segment_finish: find_reactions find_shears find_sizes
 contact/law: share_forces
 contact/signs: judge judge_elastic
@@ -72,7 +70,7 @@ response/query: fields_in_pieces
 """)
 """Procedures of more arguments outside `fortran/face`. None may be added."""
 LONG_FILES = listed("""
-cases/lane_extremes
+
 """)
 """Files of more lines. None may be added."""
 BEGINS = re.compile(r"(?!end\b)(?:[\w()=,* ]* )?(?:subroutine|function) +(\w+) *(?:\(([^()]*)\))?", re.I)
