@@ -5,7 +5,7 @@ module gapbeam_limits
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: most_path_segments, changes_at_a_time, most_extreme_ties
+    public :: most_path_segments, changes_at_a_time, most_extreme_ties, most_train_states
     public :: most_steps_on_curves, most_taylor_terms, most_panels, most_waiting_patches, most_nodes_solved, least_solves
     public :: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, last_non_monotone_solves
     public :: law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, few_guess_changes
@@ -30,8 +30,11 @@ module gapbeam_limits
     !> through the engine, by gapbeam.results.paths
     integer, parameter :: changes_at_a_time = 1000
     !> Places and positions listed at which an extreme under trains is reached; beams with many equal spans have more. Read by
-    !> moving_load/train_ties and, through the engine, by gapbeam.results.trains
+    !> moving_load/train_peaks, moving_load/train_ties and, through the engine, by gapbeam.results.trains
     integer, parameter :: most_extreme_ties = 16
+    !> States beyond which a train on the ground or on smooth laws is refused: they would take minutes. Read by
+    !> moving_load/train_grid
+    integer, parameter :: most_train_states = 20000
 
     !
     ! A stretch of beam

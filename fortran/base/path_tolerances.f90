@@ -18,7 +18,7 @@ module gapbeam_path_tolerances
     real(wp), parameter :: train_slack = 2.0_wp**(-26)
     !> Values under trains nearer to the largest than this share of the largest absolute value are equal to it; tuned: rounding of
     !> the influence polynomials stays below 2**-44. Read by moving_load/train_candidates, moving_load/train_curves,
-    !> moving_load/train_envelope, moving_load/train_extremes
+    !> moving_load/train_envelope, moving_load/train_extremes, moving_load/train_peaks
     real(wp), parameter :: train_equal = 2.0_wp**(-40)
 
     !

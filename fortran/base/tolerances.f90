@@ -48,8 +48,9 @@ module gapbeam_tolerances
     real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
     !> Positions whose difference is at most this share of the larger one are the same place: sums of some sixty spans may be so
-    !> far off. Read by moving_load/train, response/query, scene/assemble_laws, scene/assemble_supports, scene/check,
-    !> scene/check_foundations, scene/stations and, through the engine, by gapbeam.scene.places
+    !> far off. Read by moving_load/train, moving_load/train_on_beam, response/query, scene/assemble_laws,
+    !> scene/assemble_supports, scene/check, scene/check_foundations, scene/stations and, through the engine, by
+    !> gapbeam.scene.places
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
     !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off.
     !> Read by response/query, scene/check and, through the engine, by gapbeam.scene.trains

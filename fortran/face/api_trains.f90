@@ -10,25 +10,27 @@
 !>
 !> The position of a train is that of its first axle. All loads of the beam stay, dead and live ones in full
 module gapbeam_api_trains
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment, restore_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_words, only: shown, whole
-    use gapbeam_scene, only: gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_words, only: whole
     use gapbeam_query, only: find_pieces
-    use gapbeam_train, only: train_type, uniform_type, track_type, new_track
+    use gapbeam_train, only: train_type, track_type, new_track
     use gapbeam_train_traversal, only: traversal_type, gapbeam_moves_freely => not_unique
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_ties, only: extreme_type
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
+    use gapbeam_train_runs, only: runs_type, follow_train_on_ground
+    use gapbeam_train_run_extremes, only: fields_of_runs, supports_of_runs
+    use gapbeam_train_lines, only: find_lines
+    use gapbeam_smooth_laws, only: smooth_supports
+    use gapbeam_search, only: rule_block
     use gapbeam_quantities, only: quantity_count, bending, bending_count, needs_axial, needs_ground, quantity_names
     use gapbeam_api_quantities, only: require_quantities
-    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_no_curves, require_size, bad_argument
+    use gapbeam_api_train_loads, only: moving_train_type, train_gap_type, check_train, put_axles, find_gaps, lost_in
+    use gapbeam_api_objects, only: prepared_type, require_beam, require_no_path, require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
@@ -36,26 +38,6 @@ module gapbeam_api_trains
 
     !> Fields of get_train_extremes and get_train_curves: the first so many of those of bending
     integer, parameter :: field_count = 4
-
-    !> Loads that move together
-    type :: moving_train_type
-        !> Distances of the axles behind the first one, 0 or more, and their forces, down, both of one size
-        real(wp), allocatable :: distance(:), force(:)
-        !> Uniform load over the length of the train, down
-        real(wp) :: q = 0.0_wp
-        !> Does it go to the left; its axles then stand to the right of the first one
-        logical :: to_the_left = .false.
-        !> Positions, in ascending order; gapbeam_unchanged: from the first axle on the beam, to the last
-        real(wp) :: from = gapbeam_unchanged, to = gapbeam_unchanged
-    end type moving_train_type
-
-    !> Positions that are not solved
-    type :: train_gap_type
-        real(wp) :: from = 0.0_wp, to = 0.0_wp
-        !> gapbeam_no_equilibrium, gapbeam_moves_freely where the beam can move without work of the loads, gapbeam_indeterminate or
-        !> gapbeam_not_converged
-        integer :: reason = gapbeam_no_equilibrium
-    end type train_gap_type
 
     !> A largest or smallest value, and where it is; of a support x is 0
     type :: train_extreme_type
@@ -81,13 +63,15 @@ module gapbeam_api_trains
         type(train_type) :: train
         type(track_type) :: track
         type(traversal_type) :: passage
+        !> On the ground, or with smooth laws, instead of these two
+        type(runs_type), allocatable :: runs
     end type passing_type
 
 contains
 
     !> Move a train over a beam: every change of the contact state at its exact position
     subroutine follow_train(beam, train, passing, error)
-        !> Prepared; without foundations and laws whose state depends on the loading history
+        !> Prepared; without laws whose state depends on the loading history
         type(prepared_type), intent(in) :: beam
         type(moving_train_type), intent(in) :: train
         type(passing_type), intent(out) :: passing
@@ -99,20 +83,31 @@ contains
 
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
-        if (.not. allocated(error)) call require_no_curves(beam, error)
-        if (.not. allocated(error)) call require_no_more(beam%lowered, error)
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)
         if (allocated(error)) return
         call hold_environment(environment)
         call put_axles(train, passing%train, error)
-        if (.not. allocated(error)) call new_track(beam%lowered, passing%track, error)
-        if (.not. allocated(error)) call pass_train(beam%lowered, passing%track, passing%train, from, to, passing%passage, error)
-        if (.not. allocated(error)) call find_events(beam%lowered, passing%passage, train%to_the_left, passing%events, error)
-        if (.not. allocated(error)) call find_gaps(passing%passage, train%to_the_left, passing%gaps, error)
-        if (.not. allocated(error)) then
+        if (allocated(error)) then
+            continue
+        else if (allocated(beam%lowered%layers) .or. size(smooth_supports(beam%lowered)) > 0) then
+            allocate (passing%runs)
+            call follow_train_on_ground(beam%lowered, passing%train, rule_block, from, to, train%to_the_left, passing%runs, error)
+            if (.not. allocated(error)) then
+                passing%events = passing%runs%events
+                passing%gaps = lost_in(passing%runs)
+                passing%solves = passing%runs%solves
+            else if (error%code == gapbeam_bad_input) then
+                error%message = "the train "//error%message
+            end if
+        else
+            call new_track(beam%lowered, passing%track, error)
+            if (.not. allocated(error)) call pass_train(beam%lowered, passing%track, passing%train, from, to, passing%passage, &
+                                                        error)
+            if (.not. allocated(error)) call find_events(beam%lowered, passing%passage, train%to_the_left, passing%events, error)
+            if (.not. allocated(error)) call find_gaps(passing%passage, train%to_the_left, passing%gaps, error)
             passing%solves = passing%passage%solves
-            passing%fingerprint = beam%lowered%fingerprint
         end if
+        if (.not. allocated(error)) passing%fingerprint = beam%lowered%fingerprint
         call restore_environment(environment)
     end subroutine follow_train
 
@@ -148,12 +143,20 @@ contains
         !> As for get_train_extremes; gapbeam_bad_input also for other quantities
         type(error_type), allocatable, intent(out) :: error
         type(envelope_type) :: envelope
+        type(extreme_type), allocatable :: found(:, :)
         integer :: k
 
         call require_passing(beam, passing, error)
-        if (.not. allocated(error)) call require_bending(quantities, error)
+        if (.not. allocated(error)) call require_fields(beam, quantities, error)
         if (.not. allocated(error)) call require_size(size(quantities), [size(values, 2)], error)
-        if (.not. allocated(error)) call envelope_of(beam, passing, envelope, error)
+        if (allocated(error)) return
+        if (allocated(passing%runs)) then
+            allocate (found(2, size(quantities)))
+            call fields_of_runs(beam%lowered, passing%runs, quantities, found, error)
+            if (.not. allocated(error)) values(:, :) = first_tie(found)
+            return
+        end if
+        call envelope_of(beam, passing, envelope, error)
         if (allocated(error)) return
         do k = 1, size(quantities)
             values(:, k) = first_tie(envelope%fields(:, findloc(bending, quantities(k), 1)))
@@ -169,8 +172,14 @@ contains
         type(environment_type) :: environment
 
         call hold_environment(environment)
-        passing%track%beam%watch = beam%lowered%beam%watch
-        call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
+        if (allocated(passing%runs)) then
+            allocate (envelope%supports(2, 4, size(beam%lowered%model%supports)))
+            call fields_of_runs(beam%lowered, passing%runs, bending, envelope%fields, error)
+            if (.not. allocated(error)) call supports_of_runs(beam%lowered, passing%runs, envelope%supports, error)
+        else
+            passing%track%beam%watch = beam%lowered%beam%watch
+            call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
+        end if
         call restore_environment(environment)
     end subroutine envelope_of
 
@@ -207,10 +216,14 @@ contains
         integer :: i, k, side, stat
 
         call require_passing(beam, passing, error)
-        if (.not. allocated(error)) call require_bending(quantities, error)
+        if (.not. allocated(error)) call require_fields(beam, quantities, error)
         if (.not. allocated(error)) call require_size(size(quantities), [size(value, 2), size(position, 2)], error)
         if (.not. allocated(error)) call require_size(size(x), [size(value, 3), size(position, 3)], error)
         if (allocated(error)) return
+        if (allocated(passing%runs)) then
+            call curves_of_runs(beam, passing, quantities, x, value, position, error)
+            return
+        end if
         allocate (found(2, bending_count, size(x), 2), found_at(2, bending_count, size(x), 2), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -239,8 +252,45 @@ contains
         end do
     end subroutine get_train_quantity_curves
 
-    !> Refuse quantities that are not of bending, which trains do not have
-    subroutine require_bending(quantities, error)
+    !> The same on the ground, or with smooth laws
+    subroutine curves_of_runs(beam, passing, quantities, x, value, position, error)
+        !> As for get_train_quantity_curves
+        type(prepared_type), intent(in) :: beam
+        type(passing_type), intent(inout) :: passing
+        integer, intent(in) :: quantities(:)
+        real(wp), intent(in) :: x(:)
+        real(wp), intent(out) :: value(:, :, :), position(:, :, :)
+        type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: distance(:), found(:, :, :), found_at(:, :, :)
+        integer :: i, k, n, stat
+
+        n = size(x)
+        call find_pieces(beam%lowered, x, .false., piece, distance, error)
+        if (allocated(error)) return
+        allocate (found(2, size(quantities), 2*n), found_at(2, size(quantities), 2*n), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        call hold_environment(environment)
+        call find_lines(beam%lowered, passing%runs, quantities, [x, x], [(k > n, k=1, 2*n)], found, found_at, error)
+        call restore_environment(environment)
+        if (allocated(error)) return
+        value(:, :, :) = found(:, :, :n)
+        position(:, :, :) = found_at(:, :, :n)
+        do i = 1, 2
+            where (merge(1.0_wp, -1.0_wp, i == 1)*(found(i, :, n + 1:) - found(i, :, :n)) > 0.0_wp)
+                value(i, :, :) = found(i, :, n + 1:)
+                position(i, :, :) = found_at(i, :, n + 1:)
+            end where
+        end do
+    end subroutine curves_of_runs
+
+    !> Refuse quantities that trains do not have: those along the axis, and of the ground where there is none
+    subroutine require_fields(beam, quantities, error)
+        type(prepared_type), intent(in) :: beam
         integer, intent(in) :: quantities(:)
         type(error_type), allocatable, intent(out) :: error
         integer :: k
@@ -249,125 +299,12 @@ contains
         do k = 1, size(quantities)
             if (allocated(error)) return
             if (.not. any(quantities(k) == [needs_axial, needs_ground])) cycle
+            if (allocated(beam%lowered%layers) .and. any(quantities(k) == needs_ground)) cycle
             call bad_argument(error, "quantities", "quantities("//trim(whole(k))//"): a train has no "// &
                               trim(quantity_names(quantities(k))))
             error%entry = k
         end do
-    end subroutine require_bending
-
-    !> Refuse beams over which no train is followed
-    subroutine require_no_more(lowered, error)
-        type(assembled_type), intent(in) :: lowered
-        type(error_type), allocatable, intent(out) :: error
-
-        if (allocated(lowered%layers)) then
-            call fatal_error(error, gapbeam_bad_input, "trains on a foundation are followed in Python only: "// &
-                             "give positions as loads, or springs as supports")
-        end if
-    end subroutine require_no_more
-
-    !> Refuse a train that makes no sense, and find its positions
-    subroutine check_train(lowered, train, from, to, error)
-        type(assembled_type), intent(in) :: lowered
-        type(moving_train_type), intent(in) :: train
-        real(wp), intent(out) :: from, to
-        type(error_type), allocatable, intent(out) :: error
-        character(len=4), parameter :: names(3) = ["q   ", "from", "to  "]
-        real(wp) :: end, longest
-        logical :: finite(3)
-        integer :: i
-
-        from = 0.0_wp
-        to = 0.0_wp
-        if (.not. (allocated(train%distance) .and. allocated(train%force))) then
-            call fatal_error(error, gapbeam_bad_input, "train: distance or force is not allocated")
-            return
-        end if
-        if (size(train%distance) /= size(train%force) .or. size(train%force) == 0) then
-            call fatal_error(error, gapbeam_bad_input, "train: expected as many forces as distances, 1 or more, got "// &
-                             trim(whole(size(train%force)))//" and "//trim(whole(size(train%distance))))
-            return
-        end if
-        do i = 1, size(train%distance)
-            if (.not. (ieee_is_finite(train%distance(i)) .and. train%distance(i) >= 0.0_wp)) then
-                call bad_argument(error, "distance", "distance("//trim(whole(i))//"): expected a distance behind "// &
-                                 "the first axle, 0 or more, got "//trim(shown(train%distance(i))))
-            else if (.not. ieee_is_finite(train%force(i))) then
-                call bad_argument(error, "force", "force("//trim(whole(i))//"): expected a finite number, got "// &
-                                 trim(shown(train%force(i))))
-            end if
-            if (allocated(error)) return
-        end do
-        finite = ieee_is_finite([train%q, train%from, train%to])
-        if (.not. all(finite)) then
-            call bad_argument(error, names(findloc(finite, .false., 1)), "train: q, from and to must be finite")
-            return
-        end if
-        end = point_x(lowered, size(lowered%pieces))
-        longest = maxval(train%distance)
-        from = train%from
-        to = train%to
-        if (.not. from > gapbeam_unchanged) from = merge(-longest, 0.0_wp, train%to_the_left)
-        if (.not. to > gapbeam_unchanged) to = merge(end, end + longest, train%to_the_left)
-        if (from <= to) return
-        call bad_argument(error, "to", "the positions from "//trim(shown(from))//" to "//trim(shown(to))// &
-                         " are none: from must be at most to")
-    end subroutine check_train
-
-    !> Axles as distances from the position, to the right
-    subroutine put_axles(given, train, error)
-        type(moving_train_type), intent(in) :: given
-        type(train_type), intent(out) :: train
-        type(error_type), allocatable, intent(out) :: error
-        real(wp) :: longest
-        integer :: stat
-
-        associate (n => size(given%force))
-            allocate (train%offset(n), train%force(n), train%uniform(merge(1, 0, abs(given%q) > 0.0_wp)), stat=stat)
-        end associate
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        longest = maxval(given%distance)
-        train%offset(:) = merge(given%distance, -given%distance, given%to_the_left)
-        train%force(:) = given%force
-        train%uniform(:) = uniform_type(given%q, merge(0.0_wp, -longest, given%to_the_left), &
-                                        merge(longest, 0.0_wp, given%to_the_left))
-    end subroutine put_axles
-
-    !> Stretches that are not solved, joined where they are alike
-    subroutine find_gaps(passage, backwards, gaps, error)
-        type(traversal_type), intent(in) :: passage
-        logical, intent(in) :: backwards
-        type(train_gap_type), allocatable, intent(out) :: gaps(:)
-        type(error_type), allocatable, intent(out) :: error
-        type(train_gap_type) :: found(passage%number)
-        integer :: k, last, number, stat
-
-        number = 0
-        last = 0
-        do k = 1, passage%number
-            if (passage%status(k) == gapbeam_solved) cycle
-            if (last == k - 1 .and. number > 0) then
-                if (passage%status(k) == passage%status(last) .and. passage%motion_of(k) == passage%motion_of(last)) then
-                    found(number)%to = passage%to(k)
-                    last = k
-                    cycle
-                end if
-            end if
-            number = number + 1
-            found(number) = train_gap_type(passage%from(k), passage%to(k), passage%status(k))
-            last = k
-        end do
-        allocate (gaps(number), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        gaps(:) = found(:number)
-        if (backwards) gaps(:) = found(number:1:-1)
-    end subroutine find_gaps
+    end subroutine require_fields
 
     !> The first one of those that tie
     elemental function first_tie(extreme) result(found)

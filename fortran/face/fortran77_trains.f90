@@ -61,8 +61,8 @@ subroutine ghtran(beam, naxle, axle, q, left, from, to, pass, number, info)
     integer(8), intent(out) :: pass
     ! Numbers of events and gaps; linear solves
     integer, intent(inout) :: number(3)
-    ! -1, also of a beam on a foundation, or whose state depends on the loading history; -2, -3, -4, -5, -6; -7, also where there is
-    ! no position from FROM to TO; 12 to 15, 18
+    ! -1, also of a beam whose state depends on the loading history; -2, -3, -4, -5, -6; -7, also where there is no position from
+    ! FROM to TO; 12 to 15, 18
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, passed
     type(moving_train_type) :: train

@@ -11,10 +11,14 @@ module gapbeam_train_events
     public :: train_event_type, find_events
 
     !> A change of the contact state: position of the train, number of the support in the model, what it is from there on and what
-    !> happens (gapbeam_pieces)
+    !> happens (gapbeam_pieces); on the ground also of a zone of contact
     type :: train_event_type
         real(wp) :: position = 0.0_wp
         integer :: support = 0, state = 0, change = no_change
+        !> Of a zone, which is of no support: number of the foundation in the model, the first of the branches of its law that make
+        !> up the zone, and its place
+        integer :: foundation = 0, branch = 1
+        real(wp) :: x = 0.0_wp
     end type train_event_type
 
 contains

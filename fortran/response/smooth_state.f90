@@ -47,7 +47,7 @@ module gapbeam_smooth_state
 contains
 
     !> Solve at one load factor; without smooth laws as solve_state
-    subroutine solve_on_laws(assembled, factor, rule, state, error)
+    subroutine solve_on_laws(assembled, factor, rule, state, error, near)
         !> As for solve_state
         type(assembled_type), intent(in), target :: assembled
         real(wp), intent(in) :: factor
@@ -56,7 +56,10 @@ contains
         type(state_type), intent(inout) :: state
         !> As for solve_state; or tangents that do not settle
         type(error_type), allocatable, intent(out) :: error
+        !> Deflections of the beam at its smooth laws (smooth_supports) in a state nearby, at which tangents begin if that leads on
+        real(wp), intent(in), optional :: near(:)
         integer, allocatable :: numbers(:)
+        logical, allocatable :: start(:)
         integer :: how
 
         allocate (numbers, source=smooth_supports(assembled))
@@ -66,11 +69,63 @@ contains
             ! A scheme that is known holds on the laws, not on what is in their place
             if (rule == rule_given) how = rule_extended
         end if
+        if (size(numbers) > 0 .and. present(near)) then
+            allocate (start(size(state%closed)))
+            start(:) = state%closed
+            call begin_with_tangents(assembled, numbers, near, state)
+            if (allocated(state%laws)) then
+                call solve_state(assembled, factor, how, state, error)
+                if (is_unique()) call follow_tangents(assembled, numbers, factor, how, state, error)
+                if (is_unique()) then
+                    call open_and_close(assembled, numbers, state)
+                    return
+                end if
+                if (allocated(error)) deallocate (error)
+                deallocate (state%laws)
+                state%closed(:) = start
+            end if
+        end if
         call solve_state(assembled, factor, how, state, error)
         if (size(numbers) == 0 .or. allocated(error) .or. state%status /= gapbeam_solved) return
         call follow_tangents(assembled, numbers, factor, how, state, error)
         if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
+
+    contains
+
+        !> Is there one state so far
+        pure function is_unique()
+            logical :: is_unique
+
+            is_unique = .not. allocated(error)
+            if (is_unique) is_unique = state%status == gapbeam_solved .and. .not. state%indifferent
+        end function is_unique
+
     end subroutine solve_on_laws
+
+    !> Put the tangents at given deflections in place of the laws, if all of them have one
+    pure subroutine begin_with_tangents(assembled, numbers, deflection, state)
+        type(assembled_type), intent(in) :: assembled
+        !> Supports of the model with smooth laws, and deflections of the beam there
+        integer, intent(in) :: numbers(:)
+        real(wp), intent(in) :: deflection(:)
+        !> Its laws: not allocated if one has no tangent
+        type(state_type), intent(inout) :: state
+        real(wp) :: past, force, slope
+        integer :: j, way
+
+        state%laws = assembled%beam%supports
+        do j = 1, size(numbers)
+            associate (s => assembled%model%supports(numbers(j)))
+                call past_the_gap(s, deflection(j), past, way)
+                call force_and_slope(s, past, force, slope)
+                if (slope > huge(slope)) then
+                    deallocate (state%laws)
+                    return
+                end if
+                call put_line(assembled, numbers(j), deflection(j), force*way, slope, state%laws)
+            end associate
+        end do
+    end subroutine begin_with_tangents
 
     !> From a state near the laws to the state on them
     subroutine follow_tangents(assembled, numbers, factor, rule, state, error)

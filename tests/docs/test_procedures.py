@@ -30,6 +30,7 @@ moving_load/train_elimination: substitute
 moving_load/train_envelope: find_envelope
 moving_load/train_extremes: find_extreme
 moving_load/train_link_bounds: bound_link
+moving_load/train_runs: read_way
 precision/audit: audit_beam
 precision/ground_audit: audit_ground
 precision/ground_solver: solve_on_ground

@@ -13,6 +13,7 @@ program test_api_trains
     call a_far_end_lifts()
     call it_tips()
     call everything_refused()
+    call on_the_ground()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -123,10 +124,41 @@ contains
         call check(error%code == gapbeam_bad_input, "an array too short")
         call get_train_curves(beam, passing, [2.5_wp], value, position, error)
         call check(error%code == gapbeam_bad_input .and. index(error%message, "outside the beam") > 0, "off the beam")
-        model%foundations = [foundation_type(k=1.0_wp)]
-        call prepare_model(model, beam, error)
-        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[1.0_wp]), passing, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "foundation") > 0, "on a foundation")
     end subroutine everything_refused
+
+    !> A force on a long beam on ground that holds both ways: P/(4 b), P b/2 and P b/(2 k) below it, b = (k/4 EI)**(1/4); and from
+    !> one end to the other of a beam on ground that cannot pull
+    subroutine on_the_ground()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(error_type), allocatable :: error
+        type(train_extreme_type) :: fields(2, 4), supports(2, 4, 1)
+        real(wp), parameter :: b = (6.4_wp/400.0_wp)**0.25_wp
+        real(wp) :: value(2, 4, 1), position(2, 4, 1)
+
+        model%spans = [span_type(90.0_wp, EI=100.0_wp)]
+        model%foundations = [foundation_type(k=6.4_wp)]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[8.0_wp], from=44.5_wp, to=45.5_wp), passing, error)
+        call check(.not. allocated(error), "it passes on the ground")
+        call check(size(passing%events) == 0 .and. size(passing%gaps) == 0, "nothing changes")
+        call get_train_extremes(beam, passing, fields, supports(:, :, :0), error)
+        call check_close([fields(1, 3)%value, fields(1, 1)%value], [2/b, 4*b/6.4_wp], "under the force", relative=1e-13_wp)
+        call get_train_quantity_extremes(beam, passing, [gapbeam_of_pressure], fields(:, :1), error)
+        call check_close(fields(1, 1)%value, 4*b, "pressure", relative=1e-13_wp)
+        call get_train_curves(beam, passing, [45.1_wp], value, position, error)
+        call check_close([value(1, 3, 1), position(1, 3, 1)], [2/b, 45.1_wp], "curves", relative=1e-13_wp)
+        model%spans = [span_type(12.0_wp, EI=200.0_wp)]
+        model%foundations = [foundation_type(k=60.0_wp, side=gapbeam_below)]
+        model%supports = [support_type(x=7.0_wp, side=gapbeam_below, stiffness=300.0_wp, gap=0.01_wp)]
+        model%loads = [uniform_load(0.5_wp, 0.0_wp, 12.0_wp, case=gapbeam_dead)]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp, 1.5_wp], force=[10.0_wp, 10.0_wp]), passing, error)
+        call check(.not. allocated(error), "it passes on one-sided ground")
+        call check(count(passing%events%support == 1) > 0 .and. count(passing%events%foundation == 1) > 0, "what changes")
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check(supports(1, 1, 1)%value > 0.0_wp .and. abs(supports(2, 1, 1)%value) <= 0.0_wp, "the stop is met and left")
+    end subroutine on_the_ground
 
 end program test_api_trains

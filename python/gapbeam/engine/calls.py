@@ -219,6 +219,9 @@ class TrainHandle(Owned, drop=_engine.gbtdro):
     """A train in the compiled layer, which is freed with the last reference to this number."""
 
 
+class RunsHandle(Owned, drop=_engine.gbrdro):
+    """A train on the ground or on smooth laws in the compiled layer, which is freed with the last reference to this number."""
+
 
 def parts(count: int) -> Iterator[slice]:
     """Cut a long sequence into parts, for what numpy and json do in one instruction.
@@ -294,9 +297,6 @@ gbextr = interruptible(
 gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
 gbwork = interruptible(lambda beam, pieces, *about: _engine.gbwork(beam, *about), lambda beam, pieces, *_: pieces)
 gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
-gbgdif = interruptible(
-    lambda stretches, *about: _engine.gbgdif(*about), lambda stretches, most, beam, *_: _on_ground(beam, stretches)
-)
 gbcomb = interruptible(_engine.gbcomb)
 gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))
 gbccrt = interruptible(_engine.gbccrt)
@@ -306,6 +306,10 @@ gbtget = _engine.gbtget
 gbtenv = interruptible(_engine.gbtenv)
 gbtcur = interruptible(_engine.gbtcur)
 gbtinf = interruptible(_engine.gbtinf)
+gbrmak = interruptible(_engine.gbrmak)
+gbrget = _engine.gbrget
+gbrext = interruptible(_engine.gbrext)
+gbrcur = interruptible(_engine.gbrcur)
 _short_cases = interruptible(_engine.gbcase, lambda *_: 0)
 _long_cases = interruptible(_engine.gbcase)
 

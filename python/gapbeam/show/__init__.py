@@ -1,1 +1,1 @@
-"""Pictures, reports and files behind the verbs of results."""
+"""Pictures, reports and files of verbs of results."""

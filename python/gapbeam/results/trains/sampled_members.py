@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...engine.quantities import FIELDS
+from ...engine.runs import OF_FIELD, OF_FREE_SPAN, OF_RESULTANT, OF_SUPPORT
+from ...engine.trains import SIDES
 from ..envelopes.envelope import AT_SUPPORTS
-from ..state.ground import size_of
-from .lines import Lines
+from ..state.ground import FreeSpan
 from .members import Member, TrainExtreme, fields_of
-from .peaks import Peak, find_peaks
-from .states import Placed
 
 if TYPE_CHECKING:
     from ..state.step import Step
@@ -40,59 +39,35 @@ class SampledMember(Member):
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
-        column, sign = FIELDS.index(quantity), 1.0 - 2.0 * i
-        limits = [Peak(sign * one.value, one.state, one) for one in self._traversal.limits] if quantity == "shear" else []
-        found = find_peaks(self._traversal, lambda state: sign * float(state.extremes[0][i, column]), limits)
-        ties = []
-        for peak in found:
-            if peak.limit is not None:
-                x, side, position = peak.limit.x, peak.limit.side, peak.limit.position
-            else:
-                x = float(peak.state.extremes[1][i, column])
-                side, position = _side(peak.state, x, column, sign * peak.value), self._traversal.shown_position(peak.state)
-            ties.append(TrainExtreme(self, quantity, sign * peak.value, x, side, None, position))
-        return ties
+        values, sides = self._traversal.engine.extremes(OF_FIELD, FIELDS.index(quantity), 0, i)
+        return [
+            TrainExtreme(self, quantity, value, x, SIDES[side], None, position)
+            for (value, x, position, *_), side in zip(values.tolist(), sides.tolist(), strict=True)
+        ]
 
     def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_supports`."""
-        row, sign = AT_SUPPORTS.index(quantity), 1.0 - 2.0 * i
-        found = find_peaks(self._traversal, lambda state: sign * float(state.at_supports[row, support]))
-        return [
-            TrainExtreme(self, quantity, sign * peak.value, None, None, support, self._traversal.shown_position(peak.state))
-            for peak in found
-        ]
+        values, _ = self._traversal.engine.extremes(OF_SUPPORT, support, AT_SUPPORTS.index(quantity), i)
+        return [TrainExtreme(self, quantity, value, None, None, support, position) for value, _, position, *_ in values.tolist()]
 
     def of_foundations(self, foundation: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_foundations`."""
-        sign = 1.0 - 2.0 * i
-
-        def value(state: Placed) -> float:
-            if quantity == "resultant":
-                return sign * float(state.resultants[foundation])
-            return size_of(state.free_span(foundation, quantity), quantity)
-
-        found = []
-        for peak in find_peaks(self._traversal, value):
-            span = None if quantity == "resultant" else peak.state.free_span(foundation, quantity)
-            if quantity == "resultant" or span is not None:
-                position = self._traversal.shown_position(peak.state)
-                found.append(TrainExtreme(self, quantity, sign * peak.value, None, None, None, position, foundation, span))
-        return found
+        if quantity == "resultant":
+            values, _ = self._traversal.engine.extremes(OF_RESULTANT, foundation, 0, i)
+            found = [(value, position, None) for value, _, position, *_ in values.tolist()]
+        else:
+            values, _ = self._traversal.engine.extremes(OF_FREE_SPAN, foundation, ("length", "sag").index(quantity), i)
+            found = [
+                (value, position, FreeSpan(foundation, from_, to, sag))
+                for value, _, position, from_, to, sag in values.tolist() if to > from_
+            ]  # fmt: skip
+        return [TrainExtreme(self, quantity, value, None, None, None, at, foundation, span) for value, at, span in found]
 
     def curves(self, x: np.ndarray, left: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As `Member.curves`."""
         beam = self._traversal.loads.beam
-        lines = Lines(self._traversal, x, left | (x >= beam.places.end), [FIELDS.index(name) for name in fields_of(beam)])
-        return lines.best, lines.at
+        return self._traversal.engine.curves([FIELDS.index(name) for name in fields_of(beam)], x, left | (x >= beam.places.end))
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`."""
         return self._train.state(extreme.position, self.direction)
-
-
-def _side(state: Placed, x: float, column: int, value: float) -> str | None:
-    """On which side of a place a field has a value; None where it does not jump."""
-    right, left = state.values(np.array([x, x]), np.array([False, True]))[column].tolist()
-    if abs(right - left) <= 2.0**-40 * abs(value):
-        return None
-    return "left" if abs(left - value) < abs(right - value) else "right"

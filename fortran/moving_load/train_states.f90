@@ -1,0 +1,212 @@
+!> States of a beam on the ground, or on smooth laws, under a train at one position after another, each looked for near another one.
+module gapbeam_train_states
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
+        gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_laws, only: is_smooth
+    use gapbeam_scene, only: gapbeam_both
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_start, only: ground_start_type, start_from
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_state, only: solve_state, ground_of
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, deflection_at, reaction_at
+    use gapbeam_smooth_state, only: solve_on_laws
+    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_branch
+    use gapbeam_ground_changes, only: zone_type, find_zones, same_zones
+    use gapbeam_train, only: train_type
+    use gapbeam_train_traversal, only: not_unique
+    use gapbeam_train_on_beam, only: put_train
+    use gapbeam_carried_zones, only: carry_zones
+    implicit none
+    private
+    public :: kept_type, box_type, solve_at, put_near, take_undecided, alike, same_units
+
+    !> The state at a position
+    type :: kept_type
+        real(wp) :: position = 0.0_wp
+        !> Which axles act
+        logical, allocatable :: acts(:)
+        !> gapbeam_solved, gapbeam_no_equilibrium, not_unique, or the code of an error that leaves other positions their answers
+        integer :: status = -1
+        !> The beam with the train on it, and what was solved
+        type(assembled_type), allocatable :: placed
+        type(state_type), allocatable :: state
+        !> On the ground its zones, and where the search for other states may begin
+        type(zone_type), allocatable :: zones(:)
+        type(ground_start_type) :: start
+        !> What acts of every support of the model, and whether that is decided
+        type(acting_type), allocatable :: acting(:)
+        logical, allocatable :: decided(:)
+        !> Largest (1) and smallest (2) value of every quantity, and their places, once they have been asked for
+        real(wp), allocatable :: extremes(:, :), places(:, :)
+    end type kept_type
+
+    !> Room for one
+    type :: box_type
+        type(kept_type), allocatable :: of
+    end type box_type
+
+contains
+
+    !> Solve at a position
+    subroutine solve_at(assembled, train, rule, position, acts, kept, solves, error, near)
+        !> The beam
+        type(assembled_type), intent(in) :: assembled
+        type(train_type), intent(in) :: train
+        !> rule_block or rule_single
+        integer, intent(in) :: rule
+        real(wp), intent(in) :: position
+        !> Which axles act
+        logical, intent(in) :: acts(:)
+        type(kept_type), intent(out) :: kept
+        !> Linear solves so far
+        integer, intent(inout) :: solves
+        !> As for solve_state, but for what leaves other positions their answers
+        type(error_type), allocatable, intent(out) :: error
+        !> A state nearby
+        type(kept_type), intent(in), optional :: near
+        type(ground_start_type) :: start
+        logical :: known
+
+        kept%position = position
+        kept%acts = acts
+        allocate (kept%placed, kept%state)
+        call put_train(assembled, train, position, acts, kept%placed, error)
+        if (.not. allocated(error)) call new_state(kept%placed, kept%state, error)
+        if (allocated(error)) return
+        known = .false.
+        if (present(near)) known = same_units(near, kept%placed)
+        if (.not. allocated(assembled%layers)) then
+            known = known .and. allocated(near%state)
+            if (known) known = near%status == gapbeam_solved
+            if (known) then
+                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, deflections(near))
+            else
+                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
+            end if
+        else
+            if (known) call put_near(near, kept%placed, ground_of(kept%placed), start, known)
+            if (known) then
+                call solve_state(kept%placed, 1.0_wp, rule, kept%state, error, start)
+            else
+                call solve_state(kept%placed, 1.0_wp, rule, kept%state, error)
+            end if
+        end if
+        if (allocated(error)) then
+            if (all(error%code /= [gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite])) return
+            kept%status = error%code
+            deallocate (error)
+            return
+        end if
+        solves = solves + kept%state%solves
+        kept%status = kept%state%status
+        if (kept%status == gapbeam_no_equilibrium) return
+        if (kept%state%indifferent) then
+            kept%status = not_unique
+            return
+        end if
+        call describe(kept)
+        if (.not. allocated(kept%state%ground)) return
+        call start_from(kept%state%ground, kept%state%closed, kept%start)
+        call find_zones(kept%placed, kept%state%ground, kept%zones, error)
+    end subroutine solve_at
+
+    !> Is a beam in the units of a state
+    pure function same_units(kept, placed) result(same)
+        type(kept_type), intent(in) :: kept
+        type(assembled_type), intent(in) :: placed
+        logical :: same
+
+        same = allocated(kept%placed)
+        if (.not. same) return
+        associate (a => kept%placed%units, b => placed%units)
+            same = a%length == b%length .and. a%force == b%force .and. a%deflection == b%deflection
+        end associate
+    end function same_units
+
+    !> Zones of a state as a start for another position
+    subroutine put_near(near, placed, ground, start, known)
+        type(kept_type), intent(in) :: near
+        !> The beam at that position, and its ground
+        type(assembled_type), intent(in) :: placed
+        type(ground_type), intent(in) :: ground
+        type(ground_start_type), intent(out) :: start
+        !> Has the state any
+        logical, intent(out) :: known
+
+        known = allocated(near%start%closed)
+        if (known) call carry_zones(near%placed, near%start, placed, ground, start)
+    end subroutine put_near
+
+    !> Deflections at the smooth laws
+    pure function deflections(kept) result(found)
+        type(kept_type), intent(in) :: kept
+        real(wp), allocatable :: found(:)
+        integer :: j
+
+        associate (numbers => smooth_supports(kept%placed))
+            allocate (found(size(numbers)))
+            do j = 1, size(numbers)
+                found(j) = deflection_at(kept%placed, kept%state%deflection, numbers(j))
+            end do
+        end associate
+    end function deflections
+
+    !> What acts of every support
+    pure subroutine describe(kept)
+        type(kept_type), intent(inout) :: kept
+        real(wp) :: past
+        integer :: k, last, s, way
+        logical :: held
+
+        associate (placed => kept%placed, supports => kept%placed%beam%supports, models => kept%placed%model%supports)
+            allocate (kept%acting(size(models)), kept%decided(size(models)))
+            kept%acting(:) = acting_type(gapbeam_open, 0.0_wp, 0)
+            kept%decided(:) = .true.
+            k = 1
+            do while (k <= size(supports))
+                last = k
+                if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
+                s = placed%normal(k)
+                if (is_smooth(models(s)%law)) then
+                    call past_the_gap(models(s), deflection_at(placed, kept%state%deflection, s), past, way)
+                    held = past > 0.0_wp .or. (models(s)%side == gapbeam_both .and. .not. abs(models(s)%gap) > 0.0_wp)
+                    if (models(s)%side /= gapbeam_both .or. .not. held) way = 1
+                    held = held .and. abs(reaction_at(placed, kept%state%reaction, s)) > 0.0_wp
+                    kept%acting(s) = acting_type(merge(gapbeam_branch + 1, gapbeam_open, held), merge(1.0_wp, 0.0_wp, held), way)
+                else
+                    kept%acting(s) = acting_piece(supports(k:last), models(s)%side, kept%state%closed(k:last))
+                    kept%decided(s) = .not. any(kept%state%undecided(k:last))
+                end if
+                k = last + 1
+            end do
+        end associate
+    end subroutine describe
+
+    !> What is not decided is as it was before
+    pure subroutine take_undecided(kept, before)
+        type(kept_type), intent(inout) :: kept
+        type(kept_type), intent(in) :: before
+
+        if (kept%status /= gapbeam_solved .or. before%status /= gapbeam_solved) return
+        where (.not. kept%decided .and. before%decided)
+            kept%acting = before%acting
+            kept%decided = .true.
+        end where
+    end subroutine take_undecided
+
+    !> Does the same hold the beam, or not: the same supports, and as many zones with ends of the same kind
+    pure function alike(one, other)
+        type(kept_type), intent(in) :: one, other
+        logical :: alike
+
+        alike = one%status == other%status
+        if (.not. alike .or. one%status /= gapbeam_solved) return
+        alike = all((one%acting%condition == other%acting%condition .and. one%acting%way == other%acting%way) &
+                    .or. .not. (one%decided .and. other%decided))
+        if (alike .and. allocated(one%zones)) alike = same_zones(one%zones, other%zones)
+    end function alike
+
+end module gapbeam_train_states
