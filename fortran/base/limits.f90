@@ -109,7 +109,7 @@ module gapbeam_limits
     integer, parameter :: most_mesh_rounds = 200
     !> As above; tuned. Read by contact/ground_energy
     integer, parameter :: most_node_rounds = 512
-    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy
+    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy, contact/law_energy, response/smooth_energy
     integer, parameter :: most_line_steps = 60
     !> Forces and slopes of nodes that are asked for: where stiffnesses lie hundreds of powers of ten apart no mesh settles. Read
     !> by contact/ground_energy

@@ -40,7 +40,7 @@ module gapbeam_train_problem
         !> Numbers of the states next to it
         integer :: below = 0, above = 0
         real(wp) :: at = 0.0_wp
-        !> Places of what changes, as far as they are known
+        !> Places of what changes, if any are known
         real(wp), allocatable :: place(:)
     end type crossing_type
 

@@ -226,7 +226,7 @@ contains
                 if (last > 0 .and. last /= number) then
                     if (.not. alike(problem%boxes(max(last, 1))%of, kept)) then
                         if (size(run) > 0 .and. last > 0) call end_run()
-                        call add_events(crossing_type(last, number, kept%position, [real(wp) ::]))
+                        call add_events(crossing_type(last, number, kept%position))
                     end if
                 end if
             end associate
@@ -311,6 +311,7 @@ contains
         type(zone_change_type), allocatable :: changes(:)
         real(wp) :: x
         integer :: k, number, what
+        logical :: measured
 
         allocate (found(0))
         do k = 1, size(before%acting)
@@ -324,7 +325,9 @@ contains
             call compare_zones(before%zones, after%zones, changes, number)
             do k = 1, number
                 x = changes(k)%x
-                if (size(crossing%place) > 0) then
+                measured = allocated(crossing%place)
+                if (measured) measured = size(crossing%place) > 0
+                if (measured) then
                     associate (there => crossing%place(minloc(abs(crossing%place - x), 1)))
                         if (abs(there - x) <= changes(k)%to - changes(k)%from .or. abs(there - x) <= next_to*(1 + abs(x))) x = there
                     end associate
