@@ -10,7 +10,7 @@ module gapbeam_limits
     public :: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, last_non_monotone_solves
     public :: law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, few_guess_changes
     public :: steps_between_guesses, subdomain_rounds, few_wrong_supports, long_beam_links, least_margin_nodes, nodes_apart
-    public :: most_corrections, most_moves, most_refinements, most_mesh_rounds, most_node_rounds, most_line_steps
+    public :: most_corrections, most_moves, most_refinements, most_mesh_rounds, most_node_rounds, most_line_steps, most_law_steps
     public :: most_nodes_asked, least_mesh_parts, most_first_parts, most_mesh_parts, mesh_cuts, most_zone_rounds
     public :: most_polishing, parts_of_stretch, most_root_steps, most_examined, most_flips, most_tie_solves, last_try
     public :: last_if_tied, most_edge_nodes, most_stiffer, most_motion_steps, most_at_once, short_beam_links, most_looks
@@ -20,9 +20,9 @@ module gapbeam_limits
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents
 
-    !> Tangents in place of smooth laws of supports, at most; some five do. Read by continuation/smooth_events,
-    !> response/smooth_state
-    integer, parameter :: most_tangents = 60
+    !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
+    !> continuation/smooth_events, response/smooth_state
+    integer, parameter :: most_tangents = 100
     !> Segments after which a path through a history is cut off: without a history there are finitely many, with one a beam may
     !> flip to and fro without end. Read by face/api_history and, through the engine, by gapbeam.results.paths
     integer, parameter :: most_path_segments = 20000
@@ -68,6 +68,8 @@ module gapbeam_limits
     integer, parameter :: last_non_monotone_solves = 2
     !> The same with laws, which go on by one piece at a time then; tuned. Read by contact/search
     integer, parameter :: law_non_monotone_solves = 40
+    !> Newton steps with a line search for laws that go to and fro; ten to thirty are usual. Read by contact/search
+    integer, parameter :: most_law_steps = 200
     !> The same after the last guess; tuned. Read by contact/search
     integer, parameter :: final_non_monotone_solves = 16
     !> When reactions times openings have fallen to rounding_product, so many changes of a guess in a step show that rounding has
@@ -107,7 +109,7 @@ module gapbeam_limits
     integer, parameter :: most_mesh_rounds = 200
     !> As above; tuned. Read by contact/ground_energy
     integer, parameter :: most_node_rounds = 512
-    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy
+    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy, contact/law_energy, response/smooth_energy
     integer, parameter :: most_line_steps = 60
     !> Forces and slopes of nodes that are asked for: where stiffnesses lie hundreds of powers of ten apart no mesh settles. Read
     !> by contact/ground_energy

@@ -5,17 +5,19 @@ module gapbeam_memory
     implicit none
     private
     public :: reserve_memory, enough_memory
-    public :: for_solving, for_refining, for_following, for_following_closely, for_certifying, for_fields, for_ground
+    public :: for_solving, for_refining, for_following, for_following_closely, for_certifying, for_fields, for_ground, &
+        for_assembling, for_laws
 
     !> What the memory is for: to solve a beam; the same again in quadruple precision; to follow the load; the same in quadruple
-    !> precision; to certify a state; to go into the links, condense loads, or solve along the axis; to solve on the ground
+    !> precision; to certify a state; to go into the links, condense loads, or solve along the axis; to solve on the ground; to
+    !> check a scene (of spans, supports, and all else that is in lists); to make and meet laws by name (pieces are these laws)
     integer, parameter :: for_solving = 1, for_refining = 2, for_following = 3, for_following_closely = 4, for_certifying = 5, &
-        for_fields = 6, for_ground = 7
+        for_fields = 6, for_ground = 7, for_assembling = 8, for_laws = 9
     !> Bytes it takes for every link, every support and every piece: one and a half times the most that was measured, of beams in
     !> which the search goes through part after part (test_memory.c and test_memory.py show that it is enough); on
     !> the ground of beams on uneven ground with a law of three pieces, which went through it at every point
-    integer(int64), parameter :: per_link(7) = [2800, 5400, 5400, 9600, 6400, 48, 25600], &
-        per_support(7) = [200, 600, 500, 1000, 600, 0, 1000], per_piece(7) = [0, 350, 0, 350, 600, 100, 0]
+    integer(int64), parameter :: per_link(9) = [2800, 5400, 5400, 9600, 6400, 48, 25600, 64, 600], &
+        per_support(9) = [200, 600, 500, 1000, 600, 0, 1000, 64, 600], per_piece(9) = [0, 350, 0, 350, 600, 100, 0, 300, 5000]
     !> Bytes for small arrays and the allocator itself
     integer(int64), parameter :: besides = 65536
 

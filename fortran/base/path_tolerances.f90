@@ -58,14 +58,15 @@ module gapbeam_path_tolerances
     ! Trains
     !
     !> Share of what is left of an interval of positions at which the contact state beyond a change is looked for first; tuned.
-    !> Read by moving_load/train_path
+    !> Read by moving_load/train_search
     real(wp), parameter :: first_train_share = 2.0_wp**(-20)
-    !> Largest share of an interval that is left out where nothing else leads on; tuned. Read by moving_load/train_path
+    !> Largest share of an interval that is left out where nothing else leads on; tuned. Read by moving_load/train_search
     real(wp), parameter :: most_train_share = 2.0_wp**(-24)
-    !> What is a sliver of an interval of positions; tuned. Read by moving_load/train_path
+    !> What is a sliver of an interval of positions; tuned. Read by moving_load/train_search
     real(wp), parameter :: sliver = 2.0_wp**(-16)
     !> The nearest place at which a contact state is looked for, as a share of what is left of the interval: rounding of its
-    !> polynomials. Read by moving_load/train_margins, moving_load/train_path
+    !> polynomials. Read by moving_load/train_margins, moving_load/train_passage,
+    !> moving_load/train_path
     real(wp), parameter :: least_train_share = 2.0_wp**(-42)
     !> Values under trains that are the same differ by no more than this share of the largest on the beam: rounding of products of
     !> influence polynomials. Read by moving_load/train_curves, moving_load/train_extremes

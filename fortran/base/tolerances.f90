@@ -59,7 +59,7 @@ module gapbeam_tolerances
     !> scene/support_laws
     real(wp), parameter :: cubic_rounding = 2.0_wp**(-50)
     !> Relative change of a displacement on a smooth law, or of the load factor of an event there, below which another tangent
-    !> changes nothing. Read by continuation/smooth_events, response/smooth_state
+    !> changes nothing. Read by continuation/smooth_events, response/smooth_state, response/smooth_tangents
     real(wp), parameter :: settled_on_laws = 4*epsilon(1.0_wp)
 
     !> Powers of two of the units of a case up to which its numbers stay doubles: their range is 2**1023. Read by
@@ -203,11 +203,11 @@ module gapbeam_tolerances
     !> contact/ground_energy
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was ends a line search (Nocedal and Wright 2006, 3.1); tuned.
-    !> Read by contact/ground_energy
+    !> Read by contact/ground_energy, contact/law_energy, response/smooth_energy
     real(wp), parameter :: flat_energy = 0.1_wp
-    !> A motion goes so many times the length of the beam at first; tuned. Read by contact/ground_energy
+    !> A motion goes so many times the length of the beam at first; tuned. Read by contact/ground_energy, response/smooth_energy
     real(wp), parameter :: first_way = 1e-6_wp
-    !> And so many times at last: then nothing stops it. Read by contact/ground_energy
+    !> And so many times at last: then nothing stops it. Read by contact/ground_energy, response/smooth_energy
     real(wp), parameter :: last_way = 1e14_wp
     !> Ends that are moved by rounding alone move by less than this share of the stretches beside them; tuned. Read by
     !> contact/zones

@@ -174,7 +174,8 @@ contains
                 ! A beam that nothing stops goes so far on weak springs that rounding hides what is open. That nothing stops it
                 ! is a proof in any scheme
                 call find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
-                call follow_unbounded_motions(stopped)
+                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, &
+                                              stopped)
                 if (.not. stopped) return
             end if
             if (.not. settled) call settle(beam, rule_least_index, .false., closed, work, settled, error)
@@ -207,44 +208,52 @@ contains
                     return
                 end if
             else
-                call follow_unbounded_motions(stopped)
+                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, &
+                                              stopped)
                 if (.not. stopped) return
             end if
             work%reference = displaced
         end do
         call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the contact state "// &
                          "could not be settled: give it a support that holds both ways, or check the loads")
-
-    contains
-
-        !> Let every part that the loads move go as far as its next open support
-        subroutine follow_unbounded_motions(stopped)
-            !> Has each one; if not, this is no equilibrium, and the outcome says so
-            logical, intent(out) :: stopped
-            integer :: r
-
-            stopped = .true.
-            do r = 1, size(unbounded)
-                associate (from => unbounded(r)%first, to => unbounded(r)%last)
-                    way = distance_to_contact(beam%supports, beam%order(beam%first(from):beam%first(to + 1) - 1), closed, &
-                                              direction, displaced, no_speed)
-                    stopped = way < huge(way)
-                    if (.not. stopped) then
-                        outcome%status = gapbeam_no_equilibrium
-                        direction(:from - 1) = 0.0_wp
-                        direction(to + 1:) = 0.0_wp
-                        outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
-                        call prefer_rotation_mode(beam, factor, direction)
-                        allocate (outcome%motion(0:size(beam%links)))
-                        outcome%motion(:) = direction
-                        return
-                    end if
-                    displaced(from:to) = displaced(from:to) + way*direction(from:to)
-                end associate
-            end do
-        end subroutine follow_unbounded_motions
-
     end subroutine proximal_iteration
+
+    !> Let every part that the loads move go as far as its next open support
+    subroutine follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, stopped)
+        type(beam_type), intent(in) :: beam
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        !> By find_unbounded_motions
+        type(unbounded_motion_type), intent(in) :: unbounded(:)
+        logical, intent(in) :: in_doubt
+        !> Deflections of the nodes, and the motions of all parts, shape (0:n)
+        real(wp), intent(inout) :: displaced(0:), direction(0:)
+        type(outcome_type), intent(inout) :: outcome
+        !> Has each one; if not, this is no equilibrium, and the outcome says so
+        logical, intent(out) :: stopped
+        real(wp) :: way
+        integer :: r
+
+        stopped = .true.
+        do r = 1, size(unbounded)
+            associate (from => unbounded(r)%first, to => unbounded(r)%last)
+                way = distance_to_contact(beam%supports, beam%order(beam%first(from):beam%first(to + 1) - 1), closed, &
+                                          direction, displaced, no_speed)
+                stopped = way < huge(way)
+                if (.not. stopped) then
+                    outcome%status = gapbeam_no_equilibrium
+                    direction(:from - 1) = 0.0_wp
+                    direction(to + 1:) = 0.0_wp
+                    outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
+                    call prefer_rotation_mode(beam, factor, direction)
+                    allocate (outcome%motion(0:size(beam%links)))
+                    outcome%motion(:) = direction
+                    return
+                end if
+                displaced(from:to) = displaced(from:to) + way*direction(from:to)
+            end associate
+        end do
+    end subroutine follow_unbounded_motions
 
     !> Are there no loads, couples and imposed curvatures
     pure function is_unloaded(work) result(unloaded)

@@ -17,6 +17,7 @@ module gapbeam_ground_energy
     use gapbeam_law_kinematics, only: find_level_forces
     use gapbeam_model, only: beam_type, node_support_type, order_supports, softest
     use gapbeam_kinematics, only: work_of_loads
+    use gapbeam_line_search, only: bracket_type, place_inside, narrow
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: find_contact_state, outcome_type
@@ -26,12 +27,6 @@ module gapbeam_ground_energy
     implicit none
     private
     public :: find_least_energy
-
-    !> Where a slope that never falls goes through zero: places, the slopes there, and which end was replaced last
-    type :: bracket_type
-        real(wp) :: low, high, at_low, at_high
-        integer :: last = 0
-    end type bracket_type
 
 contains
 
@@ -261,35 +256,5 @@ contains
         end subroutine follow_motion
 
     end subroutine find_least_energy
-
-    !> Where a straight line between the ends of a bracket is zero, or its middle
-    pure function place_inside(bracket) result(t)
-        type(bracket_type), intent(in) :: bracket
-        real(wp) :: t
-
-        associate (b => bracket)
-            t = (b%high*b%at_low - b%low*b%at_high)/(b%at_low - b%at_high)
-            if (.not. (t > b%low .and. t < b%high)) t = b%low + (b%high - b%low)/2
-        end associate
-    end function place_inside
-
-    !> Take a value inside a bracket for one of its ends; the other counts half if it stays twice (Illinois method, Dowell and
-    !> Jarratt 1971)
-    pure subroutine narrow(bracket, t, at)
-        type(bracket_type), intent(inout) :: bracket
-        real(wp), intent(in) :: t, at
-
-        if (at <= 0.0_wp) then
-            bracket%low = t
-            bracket%at_low = at
-            if (bracket%last == 1) bracket%at_high = bracket%at_high/2
-            bracket%last = 1
-        else
-            bracket%high = t
-            bracket%at_high = at
-            if (bracket%last == 2) bracket%at_low = bracket%at_low/2
-            bracket%last = 2
-        end if
-    end subroutine narrow
 
 end module gapbeam_ground_energy

@@ -21,6 +21,19 @@ module gapbeam_kinematics
         real(wp), allocatable :: displacement(:)
     end type motion_type
 
+    !> Motions that are found, and the one that is followed from left to right
+    type :: followed_type
+        !> Places of the nodes, which of them are held, and how they move, shape (0:n)
+        real(wp), allocatable :: x(:), y(:)
+        logical, allocatable :: fixed(:)
+        !> Does the left end of the body at hand move, by y there; node from which on y is that of this motion
+        logical :: moving = .true.
+        integer :: origin = 0
+        !> The first `number` entries are found
+        type(motion_type), allocatable :: motions(:)
+        integer :: number = 0
+    end type followed_type
+
 contains
 
     !> All independent free motions while the given supports act
@@ -31,140 +44,150 @@ contains
         logical, intent(in) :: acting(:)
         !> The motions; none for a sound structure
         type(motion_type), allocatable, intent(out) :: motions(:)
-        logical, allocatable :: fixed(:)
-        real(wp), allocatable :: x(:), y(:)
-        type(motion_type), allocatable :: longer(:)
-        integer :: n, i, start, conditions, origin, number
-        logical :: moving, clamp
+        type(followed_type) :: followed
+        integer :: n, i, start, conditions
+        logical :: clamp
         real(wp) :: pivot
 
         n = size(beam%links)
-        allocate (x(0:n), y(0:n), fixed(0:n), motions(8))
-        number = 0
-        x(0) = 0.0_wp
-        do i = 1, n
-            x(i) = x(i - 1) + beam%links(i)%length
+        call begin_at_left_end(beam, acting, followed)
+        start = 0
+        associate (x => followed%x, fixed => followed%fixed)
+            do while (start < n)
+                do i = start + 1, n - 1
+                    if (beam%kind(i) == hinge) exit
+                end do
+                clamp = any(beam%kind(start:i) == restrained)
+                conditions = count(fixed(start:i)) + merge(1, 0, clamp)
+                if (conditions == 0) then
+                    ! The right end is free whatever the left end does
+                    if (followed%moving) call close_motion(followed, start, i)
+                    call open_motion(followed, start, i)
+                else if (conditions > 1) then
+                    call drop_motion(followed, start)
+                    followed%y(i) = 0.0_wp
+                    followed%moving = .false.
+                else if (clamp) then
+                    call extend_motion(followed, start, i, 1.0_wp)
+                else if (fixed(start)) then
+                    call drop_motion(followed, start)
+                    call open_motion(followed, start, i)
+                else if (fixed(i)) then
+                    if (followed%moving) call close_motion(followed, start, i)
+                    followed%y(i) = 0.0_wp
+                    followed%moving = .false.
+                else
+                    pivot = x(start + findloc(fixed(start:i), .true., 1) - 1)
+                    call extend_motion(followed, start, i, -(x(i) - pivot)/(pivot - x(start)))
+                end if
+                start = i
+            end do
+        end associate
+        if (followed%moving) call record(followed, n)
+        allocate (motions(followed%number))
+        do i = 1, followed%number
+            motions(i) = followed%motions(i)
         end do
-        fixed = .false.
-        call mark_held(beam%supports, acting, fixed)
+    end subroutine free_motions
+
+    !> The left end of the beam moves, if nothing holds it
+    subroutine begin_at_left_end(beam, acting, followed)
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        type(followed_type), intent(out) :: followed
+        integer :: i, n
+
+        n = size(beam%links)
+        allocate (followed%x(0:n), followed%y(0:n), followed%fixed(0:n), followed%motions(8))
+        followed%x(0) = 0.0_wp
+        do i = 1, n
+            followed%x(i) = followed%x(i - 1) + beam%links(i)%length
+        end do
+        followed%fixed(:) = .false.
+        call mark_held(beam%supports, acting, followed%fixed)
         if (allocated(beam%ground)) then
             do i = 1, n
-                if (beam%ground(i)%gaa > 0.0_wp) fixed(i - 1:i) = .true.
+                if (beam%ground(i)%gaa > 0.0_wp) followed%fixed(i - 1:i) = .true.
             end do
         end if
-        ! moving: the left end of the body at hand moves by y(start) in the motion being followed
-        y = 0.0_wp
-        y(0) = 1.0_wp
-        moving = .true.
-        start = 0
-        origin = 0
-        do while (start < n)
-            do i = start + 1, n - 1
-                if (beam%kind(i) == hinge) exit
-            end do
-            clamp = any(beam%kind(start:i) == restrained)
-            conditions = count(fixed(start:i)) + merge(1, 0, clamp)
-            if (conditions == 0) then
-                ! The right end is free whatever the left end does
-                if (moving) call close_motion(start, i, 0.0_wp)
-                call open_motion(start, i)
-            else if (conditions > 1) then
-                call drop_motion(start)
-                y(i) = 0.0_wp
-                moving = .false.
-            else if (clamp) then
-                call extend_motion(start, i, 1.0_wp)
-            else if (fixed(start)) then
-                call drop_motion(start)
-                call open_motion(start, i)
-            else if (fixed(i)) then
-                if (moving) call close_motion(start, i, 0.0_wp)
-                y(i) = 0.0_wp
-                moving = .false.
-            else
-                pivot = x(start + findloc(fixed(start:i), .true., 1) - 1)
-                call extend_motion(start, i, -(x(i) - pivot)/(pivot - x(start)))
-            end if
-            start = i
-        end do
-        if (moving) call record(n)
-        allocate (longer(number))
-        do i = 1, number
-            longer(i) = motions(i)
-        end do
-        call move_alloc(longer, motions)
+        followed%y(:) = 0.0_wp
+        followed%y(0) = 1.0_wp
+    end subroutine begin_at_left_end
 
-    contains
+    !> The followed motion goes on through a body
+    pure subroutine extend_motion(followed, from, to, ratio)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: from, to
+        real(wp), intent(in) :: ratio
 
-        !> The followed motion goes on through a body
-        subroutine extend_motion(from, to, ratio)
-            integer, intent(in) :: from, to
-            real(wp), intent(in) :: ratio
+        followed%y(to) = ratio*followed%y(from)
+        if (followed%moving) call fill(followed, from, to)
+    end subroutine extend_motion
 
-            y(to) = ratio*y(from)
-            if (moving) call fill(from, to)
-        end subroutine extend_motion
+    !> The followed motion ends with the body turning about its right end
+    pure subroutine close_motion(followed, from, to)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: from, to
 
-        !> The followed motion ends with the body turning about its right end
-        subroutine close_motion(from, to, at_end)
-            integer, intent(in) :: from, to
-            real(wp), intent(in) :: at_end
+        followed%y(to) = 0.0_wp
+        call fill(followed, from, to)
+        call record(followed, to)
+    end subroutine close_motion
 
-            y(to) = at_end
-            call fill(from, to)
-            call record(to)
-        end subroutine close_motion
+    !> The left end cannot move after all
+    pure subroutine drop_motion(followed, from)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: from
 
-        !> The left end cannot move after all
-        subroutine drop_motion(from)
-            integer, intent(in) :: from
+        followed%y(followed%origin:from) = 0.0_wp
+        followed%origin = from
+    end subroutine drop_motion
 
-            y(origin:from) = 0.0_wp
-            origin = from
-        end subroutine drop_motion
+    !> A new motion: the body turns about its left end
+    pure subroutine open_motion(followed, from, to)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: from, to
 
-        !> A new motion: the body turns about its left end
-        subroutine open_motion(from, to)
-            integer, intent(in) :: from, to
+        call drop_motion(followed, from)
+        followed%y(to) = 1.0_wp
+        followed%moving = .true.
+        call fill(followed, from, to)
+    end subroutine open_motion
 
-            y(origin:from) = 0.0_wp
-            origin = from
-            y(to) = 1.0_wp
-            moving = .true.
-            call fill(from, to)
-        end subroutine open_motion
+    !> Straight line between the ends of a body
+    pure subroutine fill(followed, from, to)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: from, to
+        integer :: k
 
-        !> Straight line between the ends of a body
-        subroutine fill(from, to)
-            integer, intent(in) :: from, to
-            integer :: k
-
+        associate (x => followed%x, y => followed%y)
             do k = from + 1, to - 1
                 y(k) = (y(from)*(x(to) - x(k)) + y(to)*(x(k) - x(from)))/(x(to) - x(from))
-                if (fixed(k)) y(k) = 0.0_wp
+                if (followed%fixed(k)) y(k) = 0.0_wp
             end do
-        end subroutine fill
+        end associate
+    end subroutine fill
 
-        !> The motion at hand ends at a node at the latest
-        subroutine record(to)
-            integer, intent(in) :: to
+    !> The motion at hand ends at a node at the latest
+    pure subroutine record(followed, to)
+        type(followed_type), intent(inout) :: followed
+        integer, intent(in) :: to
+        type(motion_type), allocatable :: longer(:)
 
-            moving = .false.
-            if (number == size(motions)) then
-                allocate (longer(2*number))
-                longer(1:number) = motions
-                call move_alloc(longer, motions)
-            end if
-            number = number + 1
-            associate (motion => motions(number))
-                motion%first = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1)
-                motion%last = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1, back=.true.)
-                allocate (motion%displacement(motion%first:motion%last))
-                motion%displacement(:) = y(motion%first:motion%last)/maxval(abs(y(origin:to)))
-            end associate
-        end subroutine record
-
-    end subroutine free_motions
+        followed%moving = .false.
+        if (followed%number == size(followed%motions)) then
+            allocate (longer(2*followed%number))
+            longer(1:followed%number) = followed%motions
+            call move_alloc(longer, followed%motions)
+        end if
+        followed%number = followed%number + 1
+        associate (motion => followed%motions(followed%number), origin => followed%origin, y => followed%y)
+            motion%first = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1)
+            motion%last = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1, back=.true.)
+            allocate (motion%displacement(motion%first:motion%last))
+            motion%displacement(:) = y(motion%first:motion%last)/maxval(abs(y(origin:to)))
+        end associate
+    end subroutine record
 
     !> Is the beam free to move but for supports that carry nothing: then its position is not unique
     function held_by_ties(beam, closed, undecided) result(free)

@@ -18,7 +18,7 @@ module gapbeam_polyline
     public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
     public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
-    public :: break_law, rewrite_law, find_unit
+    public :: break_law, rewrite_law, rewrite_laws, find_unit
 
     !> A support at a node, or a breakpoint of its law
     type :: node_support_type
@@ -344,6 +344,25 @@ contains
             s(k + 1)%before = first_slope
         end associate
     end subroutine rewrite_law
+
+    !> The same for all laws beyond their first breakpoint that unload so
+    pure subroutine rewrite_laws(supports, closed, keeps_set, first_slope, deflection, reaction)
+        type(node_support_type), intent(inout) :: supports(:)
+        logical, intent(in) :: closed(:)
+        !> Which do, and as for rewrite_law, each of shape (size(supports))
+        logical, intent(in) :: keeps_set(:)
+        real(wp), intent(in) :: first_slope(:), deflection(:), reaction(:)
+        integer :: k, last, top
+
+        k = 1
+        do while (k <= size(supports))
+            last = last_breakpoint(supports, k)
+            top = k - 1 + count(closed(k:last))
+            if (keeps_set(k) .and. top > k) call rewrite_law(supports, closed, k, top, first_slope(k), deflection(k), &
+                                                             sum(reaction(k:last)))
+            k = last + 1
+        end do
+    end subroutine rewrite_laws
 
     !> Breakpoints that are passed together with one: first and last
     pure subroutine find_unit(supports, closed, k, first, last)

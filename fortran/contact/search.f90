@@ -18,8 +18,8 @@
 module gapbeam_search
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, &
-        last_non_monotone_solves, law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, &
-        few_guess_changes, steps_between_guesses, subdomain_rounds, few_wrong_supports
+        last_non_monotone_solves, law_non_monotone_solves, most_law_steps, final_non_monotone_solves, rounding_changes, &
+        most_guess_steps, few_guess_changes, steps_between_guesses, subdomain_rounds, few_wrong_supports
     use gapbeam_tolerances, only: last_width, rounding_product, most_in_subdomains
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
@@ -31,6 +31,7 @@ module gapbeam_search
     use gapbeam_evaluation, only: search_type, evaluate_active_set
     use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, cycled
     use gapbeam_reactions, only: find_shears
+    use gapbeam_law_energy, only: is_convex, way_to_least_energy, states_of_laws
     use gapbeam_contact_boundary, only: find_base, move_boundaries
     use gapbeam_subdomain, only: next_stretch, extract_subdomain, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
@@ -85,6 +86,9 @@ contains
             search%rounds = 0
         else if (.not. settled .and. search%state == band_ok) then
             call change_all(beam, merge(non_monotone_solves, warm_non_monotone_solves, all(closed)), closed, work, search, settled)
+        end if
+        if (.not. settled .and. search%state == band_ok .and. search%with_laws .and. rule /= rule_least_index) then
+            call change_by_energy(beam, closed, work, search, settled)
         end if
         if (.not. (settled .or. search%state == band_mechanism .or. search%with_laws .or. rule == rule_least_index)) then
             call change_by_interior_point(beam, closed, work, search, settled)
@@ -185,6 +189,44 @@ contains
             call change(beam, search, closed)
         end do
     end subroutine change_all
+
+    !> Newton's method for laws that do not fall: the states at the least energy on the way to the last solution are the next
+    subroutine change_by_energy(beam, closed, work, search, settled)
+        type(beam_type), intent(in) :: beam
+        logical, intent(inout) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        type(search_type), intent(inout) :: search
+        logical, intent(out) :: settled
+        real(wp), allocatable :: deflection(:), force(:)
+        real(wp) :: t
+        integer :: step
+
+        settled = .false.
+        if (.not. is_convex(beam%supports)) return
+        allocate (deflection(0:size(beam%links)), force(size(closed)))
+        closed(:) = search%best
+        do step = 0, most_law_steps
+            call evaluate_active_set(beam, closed, .true., work, search, settled)
+            if (settled .or. search%state /= band_ok) exit
+            t = 1.0_wp
+            if (step == 0) then
+                deflection(:) = work%answers%deflection
+                force(:) = work%reaction
+            else
+                t = way_to_least_energy(beam%supports, deflection, force, work%answers, work%reaction)
+                deflection(:) = deflection + t*(work%answers%deflection - deflection)
+                force(:) = force + t*(work%reaction - force)
+            end if
+            if (search%wrong_now < search%fewest) then
+                search%fewest = search%wrong_now
+                search%best(:) = closed
+            end if
+            ! Rigid supports change as they are wrong
+            closed(:) = closed .neqv. search%wrong
+            call states_of_laws(beam%supports, deflection, closed)
+        end do
+        if (search%state == band_mechanism) search%state = band_ok
+    end subroutine change_by_energy
 
     !> Where the wrong supports lie in a subdomain of the beam only, find its scheme by itself
     recursive subroutine settle_subdomains(beam, closed, work, search, changed)

@@ -5,11 +5,20 @@ module gapbeam_affine_response
     use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_law_adapters, only: drop_level
     use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_tolerances, only: sign_width, rounding_unit
     implicit none
     private
-    public :: response_type, response_of, without_dead_loads, drop_live, value_at, width_at, zero_of, falls, rises, stays_at_zero
+    public :: lines_type, new_lines, without_dead_loads, drop_live
+    public :: response_type, response_of, value_at, width_at, zero_of, falls, rises, stays_at_zero
+
+    !> Solutions of one scheme over the load factor
+    type :: lines_type
+        !> The beam without its dead loads and gaps
+        type(beam_type) :: incremental
+        !> v0 and v1
+        type(workspace_type) :: dead, live
+    end type lines_type
 
     !> Force with which a support pushes, or its distance to contact, and the errors of the coefficients
     type :: response_type
@@ -17,6 +26,20 @@ module gapbeam_affine_response
     end type response_type
 
 contains
+
+    !> Room for the solutions of a beam, their loads set
+    subroutine new_lines(beam, lines)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Nothing solved yet
+        type(lines_type), intent(out) :: lines
+
+        call without_dead_loads(beam, lines%incremental)
+        call new_workspace(beam, lines%dead)
+        call new_workspace(lines%incremental, lines%live)
+        call set_loads(beam, 0.0_wp, lines%dead)
+        call set_loads(lines%incremental, 1.0_wp, lines%live)
+    end subroutine new_lines
 
     !> The beam of v1: dead loads and contact levels are left out
     subroutine without_dead_loads(beam, incremental)
@@ -68,20 +91,20 @@ contains
     end subroutine drop_live
 
     !> The line of a support
-    pure function response_of(beam, incremental, closed, k, dead, live) result(response)
-        !> The beam, and what without_dead_loads makes of it
-        type(beam_type), intent(in) :: beam, incremental
+    pure function response_of(beam, closed, k, lines) result(response)
+        !> The beam
+        type(beam_type), intent(in) :: beam
         !> The scheme, and the number of the support
         logical, intent(in) :: closed(:)
         integer, intent(in) :: k
-        !> v0 and v1, solved with the scheme at hand
-        type(workspace_type), intent(in) :: dead, live
+        !> Solved with the scheme at hand
+        type(lines_type), intent(in) :: lines
         type(response_type) :: response
 
-        associate (i => beam%supports(k)%node)
+        associate (i => beam%supports(k)%node, dead => lines%dead, live => lines%live)
             call margin_in_scheme(beam%supports, closed, k, dead%answers(i)%deflection, dead%deflection_size(i), dead%reaction, &
                                   dead%reaction_error, response%v0, response%error_of_v0)
-            call margin_in_scheme(incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
+            call margin_in_scheme(lines%incremental%supports, closed, k, live%answers(i)%deflection, live%deflection_size(i), &
                                   live%reaction, live%reaction_error, response%v1, response%error_of_v1)
         end associate
         response%error_of_v0 = sign_width*response%error_of_v0

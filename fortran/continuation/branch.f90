@@ -11,7 +11,7 @@ module gapbeam_branch
     use gapbeam_kinds, only: wp => qp, dp => wp
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: break_law, rewrite_law
+    use gapbeam_polyline_quad, only: break_law, rewrite_law, rewrite_laws
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: coarse_beam_type => beam_type
     use gapbeam_model_quad, only: beam_type
@@ -20,7 +20,7 @@ module gapbeam_branch
     use gapbeam_outgoing_directions, only: find_outgoing
     use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, &
         clear_arrival, doubtful
-    use gapbeam_branch_state, only: branch_type, note_place, break_supports, rewrite_laws, find_shared, sense_of, laws_of, &
+    use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, &
         along_law, parallel, stays_broken
     implicit none
     private
@@ -227,7 +227,12 @@ contains
         reached(:) = at_hand
         allocate (broken(size(at_hand)))
         call break_supports(branch, reached, broken)
-        call rewrite_laws(branch)
+        associate (laws => branch%beam%supports, work => branch%responses)
+            ! Beside its own movement, which goes on
+            call rewrite_laws(laws, branch%way%closed, branch%unloading == parallel, branch%first_slope, &
+                              branch%deflection(laws%node) - branch%factor*work%settling, &
+                              work%dead%reaction + branch%factor*work%live%reaction)
+        end associate
         came = branch%way%direction
         ! What is gone leaves the same line, to go either way
         if (wanted /= turn .or. any(broken)) came = from_nowhere

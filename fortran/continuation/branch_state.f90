@@ -3,13 +3,13 @@ module gapbeam_branch_state
     use gapbeam_kinds, only: wp => qp, dp => wp
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_polyline, only: coarse_support_type => node_support_type
-    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, last_breakpoint, break_law, rewrite_law
+    use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, break_law
     use gapbeam_model_quad, only: beam_type
     use gapbeam_region_responses, only: responses_type, outgoing_type
     use gapbeam_local_step, only: local_type, laws_here, rounded
     implicit none
     private
-    public :: branch_type, note_place, break_supports, rewrite_laws, find_shared, sense_of, laws_of
+    public :: branch_type, note_place, break_supports, find_shared, sense_of, laws_of
     public :: along_law, parallel, stays_broken
 
     !> How a support unloads
@@ -69,25 +69,6 @@ contains
             end associate
         end do
     end subroutine break_supports
-
-    !> Write the laws of supports that keep a set anew, from where they are
-    subroutine rewrite_laws(branch)
-        type(branch_type), intent(inout) :: branch
-        integer :: k, last, top
-
-        associate (s => branch%beam%supports, work => branch%responses)
-            k = 1
-            do while (k <= size(branch%way%closed))
-                last = last_breakpoint(s, k)
-                top = k - 1 + count(branch%way%closed(k:last))
-                ! Beside its own movement, which goes on
-                if (branch%unloading(k) == parallel .and. top > k) call rewrite_law( &
-                    s, branch%way%closed, k, top, branch%first_slope(k), branch%deflection(s(k)%node) &
-                    - branch%factor*work%settling(k), work%dead%reaction(top) + branch%factor*work%live%reaction(top))
-                k = last + 1
-            end do
-        end associate
-    end subroutine rewrite_laws
 
     !> Find supports at one node that could share a change of load in any way: one on a vertical piece, another one at the end of
     !> such a piece at the same deflection, to which its own set has brought it

@@ -70,8 +70,8 @@ contains
         found = .false.
         crossing%change = change
         size = problem%size_at(high%at)
-        call measure_at(low%at, low, near, known)
-        if (known) call measure_at(high%at, high, over, known)
+        call measure_at(problem, change, low%at, low, near, known)
+        if (known) call measure_at(problem, change, high%at, high, over, known)
         if (.not. known) return
         if (.not. min(near%margin, over%margin) < 0.0_wp .or. .not. max(near%margin, over%margin) > 0.0_wp) return
         ! The ground may be far stiffer than the beam, so that the margin bends sharply where a zone begins
@@ -107,9 +107,9 @@ contains
                 if (abs(next - near%at) <= near_enough*problem%size_at(next)) exit
             end if
             if (abs(next - near%at) < abs(next - over%at)) then
-                call measure_at(next, near%point, now, known, over%point)
+                call measure_at(problem, change, next, near%point, now, known, over%point)
             else
-                call measure_at(next, over%point, now, known, near%point)
+                call measure_at(problem, change, next, over%point, now, known, near%point)
             end if
             if (.not. known) return
             if (.not. abs(now%margin) > 0.0_wp) exit
@@ -149,21 +149,23 @@ contains
                 *((over%margin - near%margin)/(over%at - near%at)) > 0.0_wp
         end function may_be_secant
 
-        !> Measure it at a parameter
-        subroutine measure_at(at, start, measured, known, other)
-            real(wp), intent(in) :: at
-            !> Where to begin
-            class(point_type), intent(in) :: start
-            type(measured_type), intent(inout) :: measured
-            logical, intent(out) :: known
-            !> Where to begin if that leads nowhere
-            class(point_type), intent(in), optional :: other
-
-            measured%at = at
-            call problem%measure(change, at, start, measured%point, measured%margin, measured%place, known, other)
-        end subroutine measure_at
-
     end subroutine follow_margin
+
+    !> Measure a margin at a parameter
+    subroutine measure_at(problem, change, at, start, measured, known, other)
+        class(path_problem_type), intent(inout) :: problem
+        type(change_type), intent(in) :: change
+        real(wp), intent(in) :: at
+        !> Where to begin
+        class(point_type), intent(in) :: start
+        type(measured_type), intent(inout) :: measured
+        logical, intent(out) :: known
+        !> Where to begin if that leads nowhere
+        class(point_type), intent(in), optional :: other
+
+        measured%at = at
+        call problem%measure(change, at, start, measured%point, measured%margin, measured%place, known, other)
+    end subroutine measure_at
 
     !> Let one take the place of another
     subroutine become(measured, now)

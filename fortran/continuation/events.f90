@@ -7,11 +7,10 @@ module gapbeam_events
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_laws, only: is_smooth
-    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type
-    use gapbeam_pieces, only: acting_type, acting_piece, as_one_piece, what_happens, no_change, gapbeam_turns
+    use gapbeam_pieces, only: acting_type, acts_in, as_one_piece, what_happens, no_change, gapbeam_turns
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
@@ -21,7 +20,7 @@ module gapbeam_events
     use gapbeam_smooth_events, only: find_on_laws
     implicit none
     private
-    public :: event_type, follow_events, follow_some_events
+    public :: event_type, follow_events, follow_some_events, add_event
 
     !> A change of the contact state
     type :: event_type
@@ -103,23 +102,34 @@ contains
         subroutine note(when, which, change, condition)
             real(wp), intent(in) :: when
             integer, intent(in) :: which, change, condition
-            type(event_type), allocatable :: longer(:)
 
             if (change == no_change .or. (.not. when > 0.0_wp .and. change /= gapbeam_turns)) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
-                longer(1:number) = events
-                call move_alloc(longer, events)
-            end if
-            number = number + 1
-            events(number) = event_type(when, assembled%normal(which), condition, change)
+            call add_event(event_type(when, assembled%normal(which), condition, change), events, number, stat)
+            if (stat /= 0) call no_memory(error)
         end subroutine note
 
     end subroutine follow_events
+
+    !> Put an event to others
+    pure subroutine add_event(event, events, number, stat)
+        type(event_type), intent(in) :: event
+        !> The first `number` entries are events
+        type(event_type), allocatable, intent(inout) :: events(:)
+        integer, intent(inout) :: number
+        !> Not 0 where memory is at an end
+        integer, intent(out) :: stat
+        type(event_type), allocatable :: longer(:)
+
+        stat = 0
+        if (number == size(events)) then
+            allocate (longer(2*number), stat=stat)
+            if (stat /= 0) return
+            longer(:number) = events
+            call move_alloc(longer, events)
+        end if
+        number = number + 1
+        events(number) = event
+    end subroutine add_event
 
     !> Follow the load from a factor on, as follow_path; what changes is named, and on smooth laws at its factor on these
     subroutine follow_some_events(assembled, limit, most, factor, closed, marginal, path, outcome, error)
@@ -198,15 +208,9 @@ contains
         !> The scheme
         logical, intent(in) :: now(:)
         type(acting_type) :: acting
-        integer :: first
 
-        associate (supports => assembled%beam%supports, support => assembled%model%supports(assembled%normal(which)))
-            first = which - max(supports(which)%breakpoint - 1, 0)
-            associate (last => last_breakpoint(supports, which))
-                acting = acting_piece(supports(first:last), support%side, now(first:last))
-            end associate
-            if (is_smooth(support%law)) acting = as_one_piece(acting)
-        end associate
+        acting = acts_in(assembled, assembled%normal(which), now)
+        if (is_smooth(assembled%model%supports(assembled%normal(which))%law)) acting = as_one_piece(acting)
     end function now_acts
 
 end module gapbeam_events

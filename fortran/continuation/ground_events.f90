@@ -4,7 +4,7 @@ module gapbeam_ground_events
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_merges, gapbeam_splits
+    use gapbeam_pieces, only: acts_in, what_happens, no_change, gapbeam_merges, gapbeam_splits
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_path_problem, only: point_type
@@ -87,14 +87,14 @@ contains
             do while (k <= size(supports))
                 last = k
                 if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
-                what = change_of(assembled, k, last, before, after)
-                if (what /= no_change) then
-                    associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
+                associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
+                    what = what_happens(acts_in(assembled, s, before%closed), acts_in(assembled, s, after%closed))
+                    if (what /= no_change) then
                         call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, change=what), begin, &
                                        path, error)
-                    end associate
-                    if (allocated(error)) return
-                end if
+                        if (allocated(error)) return
+                    end if
+                end associate
                 n = n + count(changed(k:last))
                 k = last + 1
             end do
@@ -134,22 +134,6 @@ contains
             end associate
         end do
     end subroutine list_changes
-
-    !> What happens to a support, one entry of the engine or the breakpoints of a law
-    function change_of(assembled, first, last, before, after) result(change)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: first, last
-        type(held_type), intent(in) :: before, after
-        integer :: change
-        type(acting_type) :: was, is
-
-        associate (breakpoints => assembled%beam%supports(first:last), &
-                   side => assembled%model%supports(assembled%normal(first))%side)
-            was = acting_piece(breakpoints, side, before%closed(first:last))
-            is = acting_piece(breakpoints, side, after%closed(first:last))
-        end associate
-        change = what_happens(was, is)
-    end function change_of
 
     !> One event more
     pure subroutine add_event(event, first, path, error)

@@ -3,10 +3,10 @@ module gapbeam_history_events
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
         gapbeam_closes
-    use gapbeam_events, only: event_type
-    use gapbeam_history, only: history_type, stretch_type
+    use gapbeam_events, only: event_type, add_event
+    use gapbeam_history, only: history_type
     implicit none
     private
     public :: find_events
@@ -39,7 +39,8 @@ contains
                 end if
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
                     j = findloc(s(k + 1)%closed .and. .not. s(k)%closed, .true., 1)
-                    if (j > 0) call add(event_type(s(k)%from, assembled%normal(j), gapbeam_turns, gapbeam_turns, k))
+                    if (j > 0) call add_event(event_type(s(k)%from, assembled%normal(j), gapbeam_turns, gapbeam_turns, k), events, &
+                                               number, stat)
                 end if
                 if (s(k)%leg == 0) cycle
                 begins = .false.
@@ -71,6 +72,7 @@ contains
             type(acting_type) :: before, after
             integer :: i, first, change
 
+            if (stat /= 0) return
             associate (a => path%stretches(one), b => path%stretches(other))
                 do i = 1, size(assembled%model%supports)
                     first = assembled%beam_support(i)
@@ -78,8 +80,8 @@ contains
                     associate (last => last_breakpoint(assembled%beam%supports, first))
                         if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
                     end associate
-                    before = acts_on(a, i)
-                    after = acts_on(b, i)
+                    before = acts_in(assembled, i, a%closed, a%laws)
+                    after = acts_in(assembled, i, b%closed, b%laws)
                     change = no_change
                     if (assembled%beam%supports(first)%breakpoint > 0) then
                         change = what_happens(before, after)
@@ -88,44 +90,11 @@ contains
                     end if
                     if (change == no_change) cycle
                     pending = pending + 1
-                    call add(event_type(b%from, i, after%condition, change, other))
+                    call add_event(event_type(b%from, i, after%condition, change, other), events, number, stat)
+                    if (stat /= 0) return
                 end do
             end associate
         end subroutine note_changes
-
-        !> What acts of a support of the model on a stretch
-        pure function acts_on(stretch, support) result(acting)
-            type(stretch_type), intent(in) :: stretch
-            integer, intent(in) :: support
-            type(acting_type) :: acting
-            integer :: first, last
-
-            first = assembled%beam_support(support)
-            last = last_breakpoint(assembled%beam%supports, first)
-            associate (side => assembled%model%supports(support)%side)
-                if (allocated(stretch%laws)) then
-                    acting = acting_piece(stretch%laws(first:last), side, stretch%closed(first:last))
-                else
-                    acting = acting_piece(assembled%beam%supports(first:last), side, stretch%closed(first:last))
-                end if
-            end associate
-        end function acts_on
-
-        !> Keep an event
-        subroutine add(event)
-            type(event_type), intent(in) :: event
-            type(event_type), allocatable :: longer(:)
-
-            if (stat /= 0) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (stat /= 0) return
-                longer(:number) = events
-                call move_alloc(longer, events)
-            end if
-            number = number + 1
-            events(number) = event
-        end subroutine add
 
         !> The path ends at a limit: what happens there is all that happens
         subroutine end_at_limit()

@@ -17,7 +17,7 @@ module gapbeam_linear_region
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_contact_state_quad, only: find_contact_state, outcome_type
-    use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, zero_of, falls, rises
+    use gapbeam_affine_response_quad, only: lines_type, new_lines, response_type, response_of, zero_of, falls, rises
     implicit none
     private
     public :: region_type, find_region
@@ -110,31 +110,28 @@ contains
         type(workspace_type), intent(in) :: work
         type(region_type), intent(inout) :: region
         type(error_type), allocatable, intent(out) :: error
-        type(beam_type) :: incremental
-        type(workspace_type) :: dead, live
+        type(lines_type) :: lines
         real(wp) :: springs
         integer :: state, place, k
 
-        call without_dead_loads(beam, incremental)
-        call new_workspace(beam, dead)
-        call new_workspace(incremental, live)
+        call new_lines(beam, lines)
         ! A beam that stays free to move stays where it is
-        dead%proximal_weight = weaker_springs*work%proximal_weight
-        live%proximal_weight = dead%proximal_weight
-        dead%reference = work%answers%deflection
-        call set_loads(beam, 0.0_wp, dead)
-        call set_loads(incremental, 1.0_wp, live)
-        call solve_and_refine(beam, region%closed, dead, state, place)
-        if (state == band_ok) call solve_and_refine(incremental, region%closed, live, state, place)
+        lines%dead%proximal_weight = weaker_springs*work%proximal_weight
+        lines%live%proximal_weight = lines%dead%proximal_weight
+        lines%dead%reference = work%answers%deflection
+        call solve_and_refine(beam, region%closed, lines%dead, state, place)
+        if (state == band_ok) call solve_and_refine(lines%incremental, region%closed, lines%live, state, place)
         if (state /= band_ok) then
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the path of its supports "// &
                              "could not be followed: follow the load by steps")
             return
         end if
         region%solves = region%solves + 2
-        springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
+        associate (dead => lines%dead, live => lines%live)
+            springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
+        end associate
         do k = 1, size(region%closed)
-            region%responses(k) = response_of(beam, incremental, region%closed, k, dead, live)
+            region%responses(k) = response_of(beam, region%closed, k, lines)
             ! What only the weak springs press on carries nothing
             associate (response => region%responses(k))
                 if (beam%supports(k)%breakpoint > 0) cycle

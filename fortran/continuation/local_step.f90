@@ -6,7 +6,7 @@
 module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, last_breakpoint, break_law, rewrite_law, find_unit
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, rewrite_law, rewrite_laws, find_unit
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -320,26 +320,15 @@ contains
         real(wp), intent(in) :: factor
         type(node_support_type), allocatable :: laws(:)
         logical, allocatable :: before(:)
-        integer :: k, last, top
 
         laws = local%beam%supports
         if (local%any_set) then
             before = closed
             before(local%changed) = .not. before(local%changed)
             associate (dead => local%stretch%dead, live => local%stretch%live)
-                k = 1
-                do while (k <= size(laws))
-                    last = last_breakpoint(laws, k)
-                    top = k - 1 + count(before(k:last))
-                    if (local%stretch%keeps_set(k) .and. top > k) then
-                        associate (i => laws(k)%node)
-                            call rewrite_law(laws, before, k, top, local%first_slope(k), dead%answers(i)%deflection &
-                                             + factor*(live%answers(i)%deflection - local%settling(k)), &
-                                             sum(dead%reaction(k:last)) + factor*sum(live%reaction(k:last)))
-                        end associate
-                    end if
-                    k = last + 1
-                end do
+                call rewrite_laws(laws, before, local%stretch%keeps_set, local%first_slope, dead%answers(laws%node)%deflection &
+                                  + factor*(live%answers(laws%node)%deflection - local%settling), &
+                                  dead%reaction + factor*live%reaction)
             end associate
         end if
         call find_passed(laws)

@@ -68,12 +68,13 @@ contains
         real(wp) :: begin
 
         allocate (path%factor(max(most, 1)), path%support(max(most, 1)), path%event(max(most, 1)))
+        path%most = most
         allocate (closed_before(size(closed)), marginal_before(size(closed)))
         closed_before(:) = closed
         marginal_before(:) = marginal
         begin = factor
         call new_stretch(beam, stretch)
-        call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        call follow(beam, detail, limit, factor, closed, marginal, stretch, path, outcome, error)
         path%solves = stretch%solves
         path%nodes = stretch%nodes
         if (allocated(error) .or. outcome%status /= gapbeam_solved .or. .not. stretch%in_doubt .or. stretch%closely) return
@@ -84,7 +85,7 @@ contains
         factor = begin
         path%count = 0
         stretch%closely = .true.
-        call follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+        call follow(beam, detail, limit, factor, closed, marginal, stretch, path, outcome, error)
         path%solves = stretch%solves
     end subroutine follow_path
 
@@ -95,27 +96,40 @@ contains
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
         logical :: right
-        type(workspace_type) :: work
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
         logical, allocatable :: acting(:)
 
         allocate (acting(size(closed)))
         acting(:) = closed
-        call new_workspace(beam, work)
-        call set_loads(beam, factor, work)
-        call decide_scheme(beam, detail, factor, rule_block, acting, work, outcome, error)
+        call find_scheme(beam, detail, factor, rule_block, acting, outcome, error)
         right = .not. allocated(error) .and. outcome%status == gapbeam_solved
         if (right) right = all((acting .eqv. closed) .or. outcome%undecided)
     end function right_at
 
+    !> The scheme at a factor, whatever precision it takes
+    subroutine find_scheme(beam, detail, factor, rule, closed, outcome, error)
+        !> As for decide_scheme
+        type(beam_type), intent(in) :: beam
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(inout) :: closed(:)
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+
+        call new_workspace(beam, work)
+        call set_loads(beam, factor, work)
+        call decide_scheme(beam, detail, factor, rule, closed, work, outcome, error)
+    end subroutine find_scheme
+
     !> The same, in one precision after the other
-    subroutine follow(beam, detail, limit, most, factor, closed, marginal, stretch, path, outcome, error)
+    subroutine follow(beam, detail, limit, factor, closed, marginal, stretch, path, outcome, error)
         !> As for follow_path
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: limit
-        integer, intent(in) :: most
         real(wp), intent(inout) :: factor
         logical, intent(inout) :: closed(:), marginal(:)
         type(stretch_type), intent(inout) :: stretch
@@ -134,50 +148,58 @@ contains
         exactly = factor
         if (.not. stretch%closely) call start_stretch(beam, closed, factor, stretch)
         if (stretch%current) call add_those_at_zero(beam, closed, factor, limit, stretch, at_zero)
-        stretch%closely = stretch%closely .or. (stretch%in_doubt .and. size(beam%links) <= short_beam_links)
-        do
+        stretch%closely = stretch%closely .or. must_be_close(beam, stretch)
+        along: do
             done = .false.
             if (.not. stretch%closely) then
                 call change_in_place(beam, factor, closed, at_zero, stretch, path, done)
                 if (.not. done) call try_next_event(beam, factor, limit, at_zero, closed, stretch, path, done)
-                stretch%closely = stretch%in_doubt .and. size(beam%links) <= short_beam_links
+                stretch%closely = must_be_close(beam, stretch)
                 done = done .and. .not. stretch%closely
             end if
-            if (.not. done) then
-                call decide_in_quadruple(beam, detail, exactly, limit, at_zero, closed, stretch, path, outcome, error)
-                if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
-            end if
             here = exactly
-            call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
-            if (stretch%in_doubt .and. size(beam%links) <= short_beam_links .and. .not. stretch%closely) then
-                stretch%closely = .true.
-                call decide_in_quadruple(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
-                if (allocated(error) .or. outcome%status /= gapbeam_solved) exit
+            do
+                if (.not. done) then
+                    call decide_in_quadruple(beam, detail, here, limit, at_zero, closed, stretch, path, outcome, error)
+                    if (allocated(error) .or. outcome%status /= gapbeam_solved) exit along
+                end if
                 call find_next(beam, closed, factor, limit, stretch, at_zero, exactly)
-            end if
+                done = stretch%closely .or. .not. must_be_close(beam, stretch)
+                if (done) exit
+                stretch%closely = .true.
+            end do
             call refuse_redundant_stretch(beam, detail, here, min(exactly, real(limit, qp)), closed, error)
-            if (allocated(error)) exit
+            if (allocated(error)) exit along
             if (exactly - here < shortest_interval*max(abs(factor), limit - begin)) short_stretches = short_stretches + 1
             stretch%in_doubt = stretch%in_doubt .or. short_stretches > 2*size(closed)
             if (short_stretches > 100 + 4*size(closed)) then
                 call fatal_error(error, gapbeam_not_converged, "so many supports open and close so near to each other that "// &
                                  "rounding decides, even in quadruple precision: follow the load by steps")
-                exit
+                exit along
             end if
             if (stretch%indifferent > 16 + 4*size(closed)) then
                 ! The position is not unique, so supports may be touched here or there, without end
                 call fatal_error(error, gapbeam_not_converged, "above this load factor the beam can move freely without work "// &
                                  "of the loads, so there is no single path of its supports: follow the load by steps")
-                exit
+                exit along
             end if
             if (exactly >= limit) at_zero = [integer ::]
             factor = max(factor, real(min(exactly, real(limit, qp)), wp))
-            if (exactly >= limit) exit
-            if (path%count >= most .and. (factor > begin .or. path%count >= most + 3*size(closed))) exit
-        end do
+            if (exactly >= limit) exit along
+            if (path%count >= path%most .and. (factor > begin .or. path%count >= path%most + 3*size(closed))) exit along
+        end do along
         marginal = .false.
         marginal(at_zero) = .true.
     end subroutine follow
+
+    !> Is a beam with something in doubt short enough to be followed in quadruple precision throughout
+    pure function must_be_close(beam, stretch)
+        type(beam_type), intent(in) :: beam
+        type(stretch_type), intent(in) :: stretch
+        logical :: must_be_close
+
+        must_be_close = stretch%in_doubt .and. size(beam%links) <= short_beam_links
+    end function must_be_close
 
     !> Refuse a stretch on which other reactions would do as well, as the state in its middle tells
     subroutine refuse_redundant_stretch(beam, detail, from, to, closed, error)
@@ -186,21 +208,15 @@ contains
         real(qp), intent(in) :: from, to
         logical, intent(in) :: closed(:)
         type(error_type), allocatable, intent(out) :: error
-        type(workspace_type) :: work
         type(outcome_type) :: outcome
         logical, allocatable :: acting(:)
-        real(wp) :: middle
         integer :: node
 
         ! Not even if the beam touched every support that is open
         call find_indeterminacy(beam, closed, .not. closed, node)
         if (node < 0 .or. .not. to > from) return
-        middle = real(from + (to - from)/2, wp)
-        allocate (acting(size(closed)))
-        acting(:) = closed
-        call new_workspace(beam, work)
-        call set_loads(beam, middle, work)
-        call decide_scheme(beam, detail, middle, rule_given, acting, work, outcome, error)
+        acting = closed
+        call find_scheme(beam, detail, real(from + (to - from)/2, wp), rule_given, acting, outcome, error)
         if (.not. allocated(error)) return
         if (error%code /= gapbeam_indeterminate) deallocate (error)
     end subroutine refuse_redundant_stretch

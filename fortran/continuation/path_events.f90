@@ -11,6 +11,8 @@ module gapbeam_path_events
     type :: path_type
         !> How many there are in the arrays
         integer :: count = 0
+        !> Events after which the path stops to be called again
+        integer :: most = 0
         !> Load factor, support, and what happens to it
         real(wp), allocatable :: factor(:)
         integer, allocatable :: support(:), event(:)

@@ -6,10 +6,9 @@ module gapbeam_region_responses
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
     use gapbeam_law_margins_quad, only: is_watched_in
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_workspace_quad, only: workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_pivoting_quad, only: count_unstable
-    use gapbeam_affine_response_quad, only: response_type, response_of, without_dead_loads, value_at, width_at
+    use gapbeam_affine_response_quad, only: lines_type, new_lines, response_type, response_of, value_at, width_at
     implicit none
     private
     public :: responses_type, outgoing_type, new_responses, solve_responses, find_falling, find_index, is_held_twice, are_one
@@ -21,9 +20,7 @@ module gapbeam_region_responses
     integer, parameter :: from_nowhere = 2
 
     !> A region: what all supports do over the load factor while their pieces stay the same
-    type :: responses_type
-        type(beam_type) :: incremental
-        type(workspace_type) :: dead, live
+    type, extends(lines_type) :: responses_type
         type(response_type), allocatable :: response(:)
         !> How fast supports move themselves with the factor (while settlements grow with the dead loads), shape (size(supports))
         real(wp), allocatable :: settling(:)
@@ -54,11 +51,7 @@ contains
         type(beam_type), intent(in) :: beam
         type(responses_type), intent(out) :: responses
 
-        call without_dead_loads(beam, responses%incremental)
-        call new_workspace(beam, responses%dead)
-        call new_workspace(responses%incremental, responses%live)
-        call set_loads(beam, 0.0_wp, responses%dead)
-        call set_loads(responses%incremental, 1.0_wp, responses%live)
+        call new_lines(beam, responses%lines_type)
         allocate (responses%response(size(beam%supports)), responses%settling(size(beam%supports)))
         responses%settling(:) = 0.0_wp
         allocate (responses%closed(size(beam%supports)))
@@ -85,7 +78,7 @@ contains
         responses%regular = state == band_ok
         if (.not. responses%regular) return
         do k = 1, size(closed)
-            responses%response(k) = response_of(beam, responses%incremental, closed, k, responses%dead, responses%live)
+            responses%response(k) = response_of(beam, closed, k, responses%lines_type)
         end do
     end subroutine solve_responses
 

@@ -6,9 +6,8 @@ module gapbeam_stretch
     use gapbeam_band, only: band_ok
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
-    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_update, only: start_updates, update_scheme, find_groups
-    use gapbeam_affine_response, only: response_type, response_of, without_dead_loads, value_at, width_at, zero_of, &
+    use gapbeam_affine_response, only: lines_type, new_lines, response_type, response_of, value_at, width_at, zero_of, &
         falls, rises, stays_at_zero
     use gapbeam_queue, only: queue_type, new_queue, set_key, first_key, all_up_to
     use gapbeam_model_quad, only: fine_beam_type => beam_type
@@ -19,7 +18,7 @@ module gapbeam_stretch
     public :: response_in, unloads_from_here
 
     !> What is known on a stretch of the path. Where the load falls, factors and lines are those of its negative
-    type :: stretch_type
+    type, extends(lines_type) :: stretch_type
         !> Direction in which the load goes, 1 or -1
         real(wp) :: direction = 1.0_wp
         !> Share of its factor by which an event may be off in doubles
@@ -28,11 +27,7 @@ module gapbeam_stretch
         !> turn back, or may it
         logical, allocatable :: keeps_set(:)
         logical :: turns_back = .false.
-        !> The beam without its dead loads and gaps
-        type(beam_type) :: incremental
-        !> v0 and v1
-        type(workspace_type) :: dead, live
-        !> Is their solution that of the scheme at hand
+        !> Are v0 and v1 those of the scheme at hand
         logical :: current = .false.
         !> Factors at which supports come near zero
         type(queue_type) :: queue
@@ -60,11 +55,7 @@ contains
         !> Nothing solved yet
         type(stretch_type), intent(out) :: stretch
 
-        call without_dead_loads(beam, stretch%incremental)
-        call new_workspace(beam, stretch%dead)
-        call set_loads(beam, 0.0_wp, stretch%dead)
-        call new_workspace(beam, stretch%live)
-        call set_loads(stretch%incremental, 1.0_wp, stretch%live)
+        call new_lines(beam, stretch%lines_type)
         call new_queue(size(beam%supports), stretch%queue)
         allocate (stretch%last_change(size(beam%supports)))
         stretch%last_change(:) = -huge(1.0_wp)
@@ -140,7 +131,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         type(response_type) :: response
 
-        response = response_of(beam, stretch%incremental, closed, k, stretch%dead, stretch%live)
+        response = response_of(beam, closed, k, stretch%lines_type)
         response%v1 = stretch%direction*response%v1
     end function response_in
 

@@ -156,7 +156,7 @@ contains
             associate (node => nodes(i), r => rhs(i))
                 if (node%kind == restrained) then
                     if (i > 0) then
-                        call psi_b(left(i), i)
+                        call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
                         call put(left(i), left(i), -node%compliance)
                         if (i < n) call put(left(i), right(i), node%compliance)
                         b(left(i)) = b(left(i)) + r%left + node%compliance*r%couple
@@ -164,7 +164,7 @@ contains
                     if (i < n) then
                         if (i > 0) call put(right(i), left(i), node%compliance)
                         call put(right(i), right(i), -node%compliance)
-                        call minus_psi_a(right(i), i)
+                        call add_rotation(right(i), i + 1, -1.0_wp, links(i + 1)%faa, links(i + 1)%fab)
                         b(right(i)) = b(right(i)) + r%right - node%compliance*r%couple
                     end if
                 else if (node%kind == hinge .or. i == 0 .or. i == n) then
@@ -172,8 +172,8 @@ contains
                     if (i == 0) b(left(i)) = r%couple
                     if (i == n) b(left(i)) = -r%couple
                 else
-                    call psi_b(left(i), i)
-                    call minus_psi_a(left(i), i)
+                    call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
+                    call add_rotation(left(i), i + 1, -1.0_wp, links(i + 1)%faa, links(i + 1)%fab)
                     b(left(i)) = b(left(i)) + r%left + r%right
                 end if
             end associate
@@ -194,24 +194,15 @@ contains
                 if (i > 0) then
                     call put(row, left(i), 1/links(i)%length)
                     call put(row, right(i - 1), -1/links(i)%length)
-                    b(row) = b(row) + jump(i - 1)/links(i)%length
+                    b(row) = b(row) + jump(nodes, rhs, i - 1)/links(i)%length
                 end if
                 if (i < n) then
                     call put(row, left(i + 1), -1/links(i + 1)%length)
                     call put(row, right(i), 1/links(i + 1)%length)
-                    b(row) = b(row) - jump(i)/links(i + 1)%length
+                    b(row) = b(row) - jump(nodes, rhs, i)/links(i + 1)%length
                 end if
             end associate
         end subroutine deflection_row
-
-        !> Moment right of a node minus the unknown that stands for it
-        pure function jump(k) result(couple)
-            integer, intent(in) :: k
-            real(wp) :: couple
-
-            couple = 0.0_wp
-            if (nodes(k)%kind /= restrained .and. k > 0) couple = rhs(k)%couple
-        end function jump
 
         subroutine put(i, j, value)
             integer, intent(in) :: i, j
@@ -220,28 +211,30 @@ contains
             matrix(half_bandwidth + 1 + i - j, j) = matrix(half_bandwidth + 1 + i - j, j) + value
         end subroutine put
 
-        !> psi at the right end of link k
-        subroutine psi_b(row, k)
+        !> Rotation at an end of link k, or minus that
+        subroutine add_rotation(row, k, sign, by_left, by_right)
             integer, intent(in) :: row, k
+            !> 1 or -1; by how much the moments at its ends turn it
+            real(wp), intent(in) :: sign, by_left, by_right
 
-            call put(row, deflection(k), 1/links(k)%length)
-            call put(row, deflection(k - 1), -1/links(k)%length)
-            call put(row, right(k - 1), -links(k)%fab)
-            call put(row, left(k), -links(k)%fbb)
-            b(row) = b(row) + links(k)%fab*jump(k - 1)
-        end subroutine psi_b
-
-        !> Minus psi at the left end of link k + 1
-        subroutine minus_psi_a(row, k)
-            integer, intent(in) :: row, k
-
-            call put(row, deflection(k + 1), -1/links(k + 1)%length)
-            call put(row, deflection(k), 1/links(k + 1)%length)
-            call put(row, right(k), -links(k + 1)%faa)
-            call put(row, left(k + 1), -links(k + 1)%fab)
-            b(row) = b(row) + links(k + 1)%faa*jump(k)
-        end subroutine minus_psi_a
+            call put(row, deflection(k), sign/links(k)%length)
+            call put(row, deflection(k - 1), -sign/links(k)%length)
+            call put(row, right(k - 1), -by_left)
+            call put(row, left(k), -by_right)
+            b(row) = b(row) + by_left*jump(nodes, rhs, k - 1)
+        end subroutine add_rotation
 
     end subroutine assemble
+
+    !> Moment right of a node minus the unknown that stands for it
+    pure function jump(nodes, rhs, k) result(couple)
+        type(node_type), intent(in) :: nodes(0:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        integer, intent(in) :: k
+        real(wp) :: couple
+
+        couple = 0.0_wp
+        if (nodes(k)%kind /= restrained .and. k > 0) couple = rhs(k)%couple
+    end function jump
 
 end module gapbeam_pivoting

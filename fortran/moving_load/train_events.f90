@@ -4,7 +4,7 @@ module gapbeam_train_events
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, what_happens, no_change
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change
     use gapbeam_train_traversal, only: traversal_type
     implicit none
     private
@@ -55,15 +55,13 @@ contains
             k = 1
             do while (k <= size(now))
                 last = last_breakpoint(assembled%beam%supports, k)
-                associate (there => traversal%closed(k:last, i), supports => assembled%beam%supports(k:last))
-                    if (any((now(k:last) .neqv. there) .and. .not. traversal%at_zero(k:last, i))) then
-                        before = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, now(k:last))
-                        after = acting_piece(supports, assembled%model%supports(assembled%normal(k))%side, there)
-                        now(k:last) = there
-                        call note(merge(traversal%to(i), traversal%from(i), backwards), assembled%normal(k), before, after)
-                        if (allocated(error)) return
-                    end if
-                end associate
+                if (any((now(k:last) .neqv. traversal%closed(k:last, i)) .and. .not. traversal%at_zero(k:last, i))) then
+                    before = acts_in(assembled, assembled%normal(k), now)
+                    now(k:last) = traversal%closed(k:last, i)
+                    after = acts_in(assembled, assembled%normal(k), now)
+                    call note(merge(traversal%to(i), traversal%from(i), backwards), assembled%normal(k), before, after)
+                    if (allocated(error)) return
+                end if
                 k = last + 1
             end do
         end do

@@ -323,7 +323,7 @@ contains
             integer :: n, i
 
             if (allocated(curved)) then
-                total = integral_on_curves(slope)
+                total = integral_on_curves(curved, stretch%length, slope)
                 return
             end if
             n = terms_of(stretch, 1.0_qp)
@@ -337,29 +337,30 @@ contains
             total = total*stretch%length
         end function integral
 
-        !> The same where laws are curves (Gauss, 5 points on each of 16 parts)
-        function integral_on_curves(slope) result(total)
-            real(qp), intent(in) :: slope(2)
-            real(qp) :: total
-            real(qp) :: xi, w, psi, moment, shear
-            integer, parameter :: parts = 16
-            real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
-                point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
-                weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800
-            integer :: part, g
-
-            total = 0.0_qp
-            do part = 1, parts
-                do g = 1, size(point)
-                    xi = (part - 0.5_qp + point(g)/2)/parts
-                    call curved_fields(curved, xi, w, psi, moment, shear)
-                    total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
-                end do
-            end do
-            total = total*stretch%length/parts
-        end function integral_on_curves
-
     end subroutine sum_layers
+
+    !> Integral of a slope times the deflection on a stretch where laws are curves (Gauss, 5 points on each of 16 parts)
+    function integral_on_curves(curved, length, slope) result(total)
+        type(curved_type), intent(in) :: curved
+        real(qp), intent(in) :: length, slope(2)
+        real(qp) :: total
+        real(qp) :: xi, w, psi, moment, shear
+        integer, parameter :: parts = 16
+        real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
+            point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
+            weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800
+        integer :: part, g
+
+        total = 0.0_qp
+        do part = 1, parts
+            do g = 1, size(point)
+                xi = (part - 0.5_qp + point(g)/2)/parts
+                call curved_fields(curved, xi, w, psi, moment, shear)
+                total = total + weight(g)*(slope(1) + (slope(2) - slope(1))*xi)*w
+            end do
+        end do
+        total = total*length/parts
+    end function integral_on_curves
 
     !> Load of a stretch for the deflection beside a line: less what the ground takes of the line
     pure function beside_line(stretch, load, line) result(found)

@@ -67,8 +67,11 @@ contains
                 call add(parts, force*state%deflection(i))
                 if (.not. abs(couple) > 0.0_wp) cycle
                 ! A couple at a hinge is refused, so the rotation has one value
-                if (point == 0) there = starts(1)
-                if (point > 0) there = field_at(point, assembled%pieces(point)%length)
+                if (point == 0) then
+                    there = starts(1)
+                else
+                    there = field_at(point, assembled%pieces(point)%length)
+                end if
                 call add(parts, couple*there%rotation)
             end associate
         end do

@@ -1,11 +1,12 @@
 !> Codes for states of supports, pieces of laws and events.
 module gapbeam_pieces
     use gapbeam_kinds, only: wp
-    use gapbeam_polyline, only: node_support_type
+    use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_law, only: both
+    use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: acting_type, acting_piece, as_one_piece, what_happens, no_change
+    public :: acting_type, acting_piece, acts_in, as_one_piece, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
@@ -66,6 +67,27 @@ contains
         acting%slope = breakpoints(1)%before
         if (any(closed)) acting%slope = breakpoints(count(closed))%stiffness
     end function acting_piece
+
+    !> What acts of a support of the model in a scheme
+    pure function acts_in(assembled, support, closed, laws) result(acting)
+        type(assembled_type), intent(in) :: assembled
+        !> Number of the support, held to the beam, and the scheme of all
+        integer, intent(in) :: support
+        logical, intent(in) :: closed(:)
+        !> The laws of all as they have become, if they are not those of the beam
+        type(node_support_type), intent(in), optional :: laws(:)
+        type(acting_type) :: acting
+
+        associate (first => assembled%beam_support(support), side => assembled%model%supports(support)%side)
+            associate (last => last_breakpoint(assembled%beam%supports, first))
+                if (present(laws)) then
+                    acting = acting_piece(laws(first:last), side, closed(first:last))
+                else
+                    acting = acting_piece(assembled%beam%supports(first:last), side, closed(first:last))
+                end if
+            end associate
+        end associate
+    end function acts_in
 
     !> What acts of a smooth law, from the piece of its polyline: the law is one piece
     elemental function as_one_piece(acting) result(one)

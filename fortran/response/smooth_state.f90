@@ -1,48 +1,35 @@
 !> States on smooth laws of supports: from the state on a polyline through each curve to the state on the curve itself.
 !>
-!> Each curve is replaced by its tangent where the support is, the beam is solved with that, and so on (Newton). Tangents are
-!> pieces of laws as any others, so each of these solves is an ordinary one; what it converges to is on the curve, to all digits.
+!> Each curve is replaced by its tangent where the support is, the beam is solved with that, and so on (Newton), where a tangent
+!> leads too far only to the least energy on the way. Tangents are pieces of laws as any others, so each of these solves is an
+!> ordinary one; what it converges to is on the curve, to all digits.
 module gapbeam_smooth_state
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
-    use gapbeam_laws, only: begins_steep, law_displacement, law_bound
+    use gapbeam_memory, only: reserve_memory, for_laws
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
+    use gapbeam_laws, only: is_smooth, law_bound
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_energy, only: line_type, way_to_least_energy, way_to_rest
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
     implicit none
     private
     public :: solve_on_laws, refuse_laws, audit_laws, place_type
 
-    !> Tangents that usually do, from a polyline as near as it is some five
-    integer, parameter :: usual_tangents = 10
-    !> So often a tangent may lead too far; after that the support has opened
-    integer, parameter :: most_shortened = 12
-    !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
-    !> digits
-    real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
+    !> After so many the energy tells how far a tangent leads, which settles from anywhere; tuned
+    integer, parameter :: tangents_to_search = 30
     !> So many times that a force may be off its curve when all is done
     real(wp), parameter :: audited = 16
     !> Share by which laws are taken to give less than all that they can, to see whether anything else holds the beam
     real(wp), parameter :: less = 1e-9_wp
-
-    !> Where the supports with smooth laws are: in the user's units, one entry each
-    type :: place_type
-        !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
-        real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
-        integer :: way = 0
-        !> Does the force tell the displacement
-        logical :: by_force = .false.
-        !> The displacement, its way and its change a tangent before, and how often it has been shortened
-        real(wp) :: before = huge(1.0_wp), change = 0.0_wp
-        integer :: way_before = 0, shortened = 0
-    end type place_type
 
 contains
 
@@ -62,14 +49,18 @@ contains
         logical, allocatable :: start(:)
         integer :: how
 
-        allocate (numbers, source=smooth_supports(assembled))
-        how = rule
-        if (size(numbers) > 0) then
-            if (allocated(state%laws)) deallocate (state%laws)
-            ! A scheme that is known holds on the laws, not on what is in their place
-            if (rule == rule_given) how = rule_extended
+        if (.not. any(is_smooth(assembled%model%supports%law) .and. assembled%beam_support > 0)) then
+            call solve_state(assembled, factor, rule, state, error)
+            return
         end if
-        if (size(numbers) > 0 .and. present(near)) then
+        call reserve_memory(for_laws, size(assembled%beam%links), size(assembled%beam%supports), 0, error)
+        if (allocated(error)) return
+        numbers = smooth_supports(assembled)
+        if (allocated(state%laws)) deallocate (state%laws)
+        ! A scheme that is known holds on the laws, not on what is in their place
+        how = rule
+        if (rule == rule_given) how = rule_extended
+        if (present(near)) then
             allocate (start(size(state%closed)))
             start(:) = state%closed
             call begin_with_tangents(assembled, numbers, near, state)
@@ -86,7 +77,7 @@ contains
             end if
         end if
         call solve_state(assembled, factor, how, state, error)
-        if (size(numbers) == 0 .or. allocated(error) .or. state%status /= gapbeam_solved) return
+        if (allocated(error) .or. state%status /= gapbeam_solved) return
         call follow_tangents(assembled, numbers, factor, how, state, error)
         if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
 
@@ -137,87 +128,76 @@ contains
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(place_type), allocatable :: places(:)
-        real(wp), allocatable :: size_of(:)
-        real(wp) :: force, slope
-        integer :: j, tangents, solves
-        logical :: overshot, halved
+        type(line_type) :: line
+        real(wp) :: way
+        integer :: tangents, solves, stat
+        logical :: searching, settled
 
-        allocate (places(size(numbers)), size_of(size(numbers)))
+        associate (n => size(assembled%beam%links), m => size(state%reaction))
+            allocate (places(size(numbers)), line%deflection(0:n), line%step(0:n), line%reaction(m), line%change(m), stat=stat)
+        end associate
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         solves = state%solves
+        way = 1.0_wp
+        searching = .false.
+        line%deflection(:) = state%deflection
+        line%reaction(:) = state%reaction
         do tangents = 0, most_tangents - 1
-            do j = 1, size(numbers)
-                call find_place(assembled, state, numbers(j), places(j))
-                associate (s => assembled%model%supports(numbers(j)))
-                    size_of(j) = max(abs(places(j)%deflection - s%settlement), abs(s%gap))
-                end associate
-            end do
+            ! Where nothing else helps
+            if (tangents == tangents_to_search) searching = .true.
+            call find_places(assembled, numbers, line, searching, places)
             if (.not. all(abs(places%past) <= huge(1.0_wp))) exit
-            if (is_settled()) then
-                call audit_laws(assembled, numbers, places, maxval(size_of), error)
-                if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
-                state%solves = solves
-                return
+            settled = .false.
+            if (tangents > 0 .and. .not. way < 1.0_wp) settled = are_settled(assembled, numbers, tangents, places)
+            if (settled) then
+                if (searching .and. any(places%steep .and. places%reached > 0.0_wp)) then
+                    searching = .false.  ! the last digits come from the forces
+                else
+                    call audit_laws(assembled, numbers, places, maxval(places%size), error)
+                    if (.not. allocated(error) .or. searching) then
+                        if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
+                        state%solves = solves
+                        return
+                    end if
+                    deallocate (error)
+                    searching = .true.  ! from a tangent that was put too near
+                end if
             end if
             if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
-            do j = 1, size(numbers)
-                associate (p => places(j), s => assembled%model%supports(numbers(j)))
-                    ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
-                    overshot = p%before > 0.0_wp .and. p%before < huge(p%before) .and. p%shortened < most_shortened .and. &
-                        (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
-                    if (overshot) then
-                        p%past = p%before/8
-                        p%way = p%way_before
-                        p%shortened = p%shortened + 1
-                    end if
-                    ! About a bend they may go to and fro for ever: then half as far
-                    halved = tangents >= usual_tangents .and. p%past > 0.0_wp .and. p%way == p%way_before .and. &
-                        (p%past - p%before)*p%change < 0.0_wp
-                    force = 0.0_wp
-                    if (tangents > 0) force = p%past - p%before
-                    if (halved) p%past = (p%past + p%before)/2
-                    p%change = force
-                    p%before = p%past
-                    p%way_before = p%way
-                    if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
-                    call force_and_slope(s, p%past, force, slope)
-                    call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, state%laws)
-                end associate
-            end do
+            call put_tangents(assembled, numbers, tangents, searching, places, state%laws)
             call solve_state(assembled, factor, rule, state, error)
             solves = solves + state%solves
             state%solves = solves
             if (allocated(error)) return
+            way = 1.0_wp
             if (state%status == gapbeam_no_equilibrium .and. .not. state%slides) then
                 if (let_go(assembled, numbers, places, state%motion)) return
+                line%step(:) = state%motion
+                line%change(:) = 0.0_wp
+                way = way_to_rest(assembled, line)
+                if (.not. way <= huge(way)) return
+                searching = .true.
+                line%deflection(:) = line%deflection + way*line%step
+                way = 0.0_wp
+            else if (state%status == gapbeam_solved) then
+                line%step(:) = state%deflection - line%deflection
+                line%change(:) = state%reaction - line%reaction
+                if (searching) way = way_to_least_energy(assembled, line)
+                if (way < 1.0_wp) then
+                    line%deflection(:) = line%deflection + way*line%step
+                    line%reaction(:) = line%reaction + way*line%change
+                else
+                    line%deflection(:) = state%deflection
+                    line%reaction(:) = state%reaction
+                end if
+            else
+                exit
             end if
-            if (state%status /= gapbeam_solved) exit
         end do
         call refuse_laws(error)
-
-    contains
-
-        !> Does another tangent change nothing
-        pure function is_settled() result(it_is)
-            logical :: it_is
-            real(wp) :: f, k
-            integer :: i
-
-            it_is = .false.
-            if (tangents == 0) return
-            if (tangents < usual_tangents) then
-                it_is = all(abs(places%past - places%before) <= settled_on_laws*size_of)
-            else
-                it_is = all(abs(places%past - places%before) <= rounding*maxval(size_of))
-            end if
-            if (it_is .or. any(places%by_force)) return
-            ! The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
-            do i = 1, size(places)
-                call force_and_slope(assembled%model%supports(numbers(i)), places(i)%past, f, k)
-                if (k > huge(k)) return
-                if (.not. abs(f - places(i)%reached) <= last_digit*(abs(f) + k*size_of(i))) return
-            end do
-            it_is = .true.
-        end function is_settled
 
     end subroutine follow_tangents
 
@@ -227,24 +207,6 @@ contains
 
         call fatal_error(error, gapbeam_not_converged, "the smooth laws of the supports could not be met: give them as polylines")
     end subroutine refuse_laws
-
-    !> Where a support is in a state
-    pure subroutine find_place(assembled, state, number, place)
-        type(assembled_type), intent(in) :: assembled
-        type(state_type), intent(in) :: state
-        !> Of the model
-        integer, intent(in) :: number
-        !> What was before stays
-        type(place_type), intent(inout) :: place
-
-        associate (s => assembled%model%supports(number))
-            place%deflection = deflection_at(assembled, state%deflection, number)
-            call past_the_gap(s, place%deflection, place%past, place%way)
-            place%reached = place%way*reaction_at(assembled, state%reaction, number)
-            place%by_force = place%reached > 0.0_wp .and. begins_steep(s%law, s%parameter)
-            if (place%by_force) place%past = law_displacement(s%law, s%parameter, place%reached)
-        end associate
-    end subroutine find_place
 
     !> Do all laws give as much against a motion as they ever can, so that no other state stops it
     pure function let_go(assembled, numbers, places, motion) result(they_do)

@@ -24,7 +24,7 @@ module gapbeam_state
     use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range
-    use gapbeam_memory, only: for_solving, for_certifying
+    use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
     public :: solve_state, solve_along_axis, ground_of, recover_state, certify_state, detail_of, name_range
@@ -45,107 +45,131 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> On the ground: where to begin, before the search starts as ever
         type(ground_start_type), intent(in), optional :: near
-        type(workspace_type) :: work
-        type(outcome_type) :: outcome
         type(beam_type) :: changed
-        logical, allocatable :: acting(:)
-        integer :: stat
 
         call forget(state)
         state%factor = factor
         state%fingerprint = assembled%fingerprint
         call reserve_for(for_solving, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
-        allocate (acting(size(state%closed)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        acting(:) = state%closed
         call solve_along_axis(assembled, state, error)
         if (allocated(error)) return
         if (allocated(assembled%layers)) then
-            call settle_on_ground(ground_of(assembled))
+            call settle_on_ground(assembled, ground_of(assembled), rule, state, error, near)
         else if (allocated(state%laws)) then
             changed = assembled%beam
             changed%supports(:) = state%laws
-            call settle(changed)
+            call settle(assembled, changed, rule, state, error)
         else
-            call settle(assembled%beam)
+            call settle(assembled, assembled%beam, rule, state, error)
         end if
         if (.not. allocated(error) .and. state%status == gapbeam_solved) call check_range(assembled, state, error)
         call end_if_stopped(assembled%beam%watch, error)
-
-    contains
-
-        !> Find the scheme of a beam, and take its solution
-        subroutine settle(beam)
-            type(beam_type), intent(in) :: beam
-            type(ledger_type) :: fault
-
-            call new_workspace(beam, work)
-            call set_loads(beam, factor, work)
-            call decide_scheme(beam, detail_of(assembled), factor, rule, acting, work, outcome, error, fault)
-            if (fault%wrong /= 0) then
-                fault%piece = assembled%node_point(fault%piece) + 1
-                call name_fault(assembled, fault, error)
-            end if
-            call name_range(assembled, error)
-            if (allocated(error)) return
-            state%solves = work%solves
-            state%method = work%method
-            state%cycled = work%cycled
-            if (state%slides) then
-                state%status = gapbeam_no_equilibrium
-                return
-            end if
-            state%status = outcome%status
-            if (outcome%status /= gapbeam_solved) then
-                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
-                return
-            end if
-            state%indifferent = outcome%indifferent
-            state%closed(:) = acting
-            state%undecided(:) = outcome%undecided
-            state%deflection(:) = work%answers%deflection
-            state%moment_left(:) = work%answers%moment_left
-            state%moment_right(:) = work%answers%moment_right
-            state%shear(:) = work%shear
-            state%reaction(:) = work%reaction
-        end subroutine settle
-
-        !> The same on the ground
-        subroutine settle_on_ground(ground)
-            type(ground_type), intent(in) :: ground
-            type(ledger_type) :: ledger
-
-            allocate (state%ground)
-            call solve_on_ground(ground, detail_of(assembled), factor, merge(rule_block, rule, rule >= rule_given), acting, &
-                                 state%ground, outcome, error, near)
-            if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
-                call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
-            end if
-            call name_range(assembled, error)
-            if (allocated(error)) return
-            state%solves = state%ground%solves
-            state%status = merge(gapbeam_no_equilibrium, outcome%status, state%slides)
-            if (state%slides) return
-            if (outcome%status /= gapbeam_solved) then
-                if (allocated(outcome%motion)) state%motion(:) = outcome%motion
-                return
-            end if
-            state%indifferent = outcome%indifferent
-            state%closed(:) = acting
-            state%undecided(:) = state%ground%undecided
-            state%deflection(:) = state%ground%deflection
-            state%moment_left(:) = state%ground%moment_left
-            state%moment_right(:) = state%ground%moment_right
-            state%reaction(:) = state%ground%reaction
-            call audit_ground(ground, factor, acting, state%ground, ledger, state%ground%residuals)
-            call name_fault(assembled, ledger, error)
-        end subroutine settle_on_ground
-
     end subroutine solve_state
+
+    !> Find the scheme of a beam, and take its solution
+    subroutine settle(assembled, beam, rule, state, error)
+        type(assembled_type), intent(in) :: assembled
+        !> With the laws of the supports as they are
+        type(beam_type), intent(in) :: beam
+        integer, intent(in) :: rule
+        !> With its factor, and the scheme from which the search starts
+        type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        type(ledger_type) :: fault
+        logical, allocatable :: acting(:)
+
+        call copy_scheme(state, acting, error)
+        if (allocated(error)) return
+        call new_workspace(beam, work)
+        call set_loads(beam, state%factor, work)
+        call decide_scheme(beam, detail_of(assembled), state%factor, rule, acting, work, outcome, error, fault)
+        if (fault%wrong /= 0) then
+            fault%piece = assembled%node_point(fault%piece) + 1
+            call name_fault(assembled, fault, error)
+        end if
+        call name_range(assembled, error)
+        if (allocated(error)) return
+        state%solves = work%solves
+        state%method = work%method
+        state%cycled = work%cycled
+        call take_outcome(outcome, acting, state)
+        if (state%status /= gapbeam_solved) return
+        state%undecided(:) = outcome%undecided
+        state%deflection(:) = work%answers%deflection
+        state%moment_left(:) = work%answers%moment_left
+        state%moment_right(:) = work%answers%moment_right
+        state%shear(:) = work%shear
+        state%reaction(:) = work%reaction
+    end subroutine settle
+
+    !> The same on the ground
+    subroutine settle_on_ground(assembled, ground, rule, state, error, near)
+        type(assembled_type), intent(in) :: assembled
+        type(ground_type), intent(in) :: ground
+        integer, intent(in) :: rule
+        type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_start_type), intent(in), optional :: near
+        type(outcome_type) :: outcome
+        type(ledger_type) :: ledger
+        logical, allocatable :: acting(:)
+
+        call copy_scheme(state, acting, error)
+        if (allocated(error)) return
+        allocate (state%ground)
+        call solve_on_ground(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
+                             state%ground, outcome, error, near)
+        if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
+            call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
+        end if
+        call name_range(assembled, error)
+        if (allocated(error)) return
+        state%solves = state%ground%solves
+        call take_outcome(outcome, acting, state)
+        if (state%status /= gapbeam_solved) return
+        state%undecided(:) = state%ground%undecided
+        state%deflection(:) = state%ground%deflection
+        state%moment_left(:) = state%ground%moment_left
+        state%moment_right(:) = state%ground%moment_right
+        state%reaction(:) = state%ground%reaction
+        call reserve_memory(for_fields, 0, 0, 2*size(state%ground%piece) + size(acting), error)
+        if (allocated(error)) return
+        call audit_ground(ground, state%factor, acting, state%ground, ledger, state%ground%residuals)
+        call name_fault(assembled, ledger, error)
+    end subroutine settle_on_ground
+
+    !> The scheme of a state, to start from
+    pure subroutine copy_scheme(state, acting, error)
+        type(state_type), intent(in) :: state
+        logical, allocatable, intent(out) :: acting(:)
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: stat
+
+        allocate (acting(size(state%closed)), stat=stat)
+        if (stat == 0) acting(:) = state%closed
+        if (stat /= 0) call no_memory(error)
+    end subroutine copy_scheme
+
+    !> Take what was found of a scheme: no equilibrium, or which one it is
+    pure subroutine take_outcome(outcome, acting, state)
+        type(outcome_type), intent(in) :: outcome
+        logical, intent(in) :: acting(:)
+        !> Does the beam slide, in
+        type(state_type), intent(inout) :: state
+
+        state%status = merge(gapbeam_no_equilibrium, outcome%status, state%slides)
+        if (state%slides) return
+        if (outcome%status /= gapbeam_solved) then
+            if (allocated(outcome%motion)) state%motion(:) = outcome%motion
+            return
+        end if
+        state%indifferent = outcome%indifferent
+        state%closed(:) = acting
+    end subroutine take_outcome
 
     !> The beam with the ground under it
     function ground_of(assembled) result(ground)

@@ -7,6 +7,7 @@ module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
@@ -20,6 +21,13 @@ module gapbeam_assemble
     implicit none
     private
     public :: assemble_model
+
+    !> Places on the beam as they are listed, the first `number` entries: span, and distance from its left end
+    type :: places_type
+        integer, allocatable :: span(:)
+        real(wp), allocatable :: offset(:)
+        integer :: number = 0
+    end type places_type
 
 contains
 
@@ -42,6 +50,10 @@ contains
             end if
             call place_span_ends(model%spans, assembled%ends)
             call gather_points(model, assembled%law, error)
+            if (.not. allocated(error)) then
+                call reserve_memory(for_assembling, n, size(model%supports), size(model%foundations) + size(model%ground) &
+                                    + size(model%ground_law), error)
+            end if
             if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
             allocate (assembled%with_law(size(model%supports)), stat=stat)
@@ -91,8 +103,8 @@ contains
     subroutine find_points(assembled, error)
         type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: span(:), order(:), chosen(:), point(:)
-        real(wp), allocatable :: offset(:)
+        type(places_type) :: places
+        integer, allocatable :: order(:), chosen(:), point(:)
         integer(int64) :: total
         integer :: stat, at, i, n, number
 
@@ -101,7 +113,7 @@ contains
             total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) + size(model%ground_law) &
                 + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
             stat = merge(1, 0, 2*total > huge(0))
-            if (stat == 0) allocate (span(total), order(total), chosen(total), point(total), offset(total), stat=stat)
+            if (stat == 0) allocate (places%span(total), order(total), chosen(total), point(total), places%offset(total), stat=stat)
             if (stat == 0) allocate (assembled%end_point(0:n), assembled%support_point(size(model%supports)), &
                                      assembled%load_from(size(model%loads)), assembled%load_to(size(model%loads)), &
                                      assembled%section_from(size(model%sections)), assembled%section_to(size(model%sections)), &
@@ -112,69 +124,130 @@ contains
                 call no_memory(error)
                 return
             end if
-            at = 0
-            do i = 0, n
-                call add(0.0_wp, i)
+            call list_places(assembled, places)
+            at = 1 + n + size(model%supports) + size(model%hinges)
+            call merge_stations(assembled%ends, places%span, places%offset, at, order, chosen, point, number)
+        end associate
+        allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
+                  assembled%pieces(number - 1), assembled%dead(number - 1), assembled%live(number - 1), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        do i = 1, number
+            assembled%point_span(i - 1) = places%span(chosen(i))
+            assembled%point_offset(i - 1) = places%offset(chosen(i))
+        end do
+        call take_points(assembled, point, error)
+    end subroutine find_points
+
+    !> List all places: ends of spans, supports, hinges, ends of sections, of loads and of foundations, points of the ground
+    subroutine list_places(assembled, places)
+        type(assembled_type), intent(inout) :: assembled
+        !> With room for all
+        type(places_type), intent(inout) :: places
+        integer :: i
+
+        associate (model => assembled%model, ends => assembled%ends)
+            do i = 0, size(model%spans)
+                call add(ends, 0.0_wp, i, places)
             end do
             do i = 1, size(model%supports)
-                call add(model%supports(i)%x, model%supports(i)%node)
+                call add(ends, model%supports(i)%x, model%supports(i)%node, places)
             end do
             do i = 1, size(model%hinges)
-                call add(model%hinges(i), gapbeam_by_x)
+                call add(ends, model%hinges(i), gapbeam_by_x, places)
             end do
             do i = 1, size(model%sections)
-                call add(model%sections(i)%from, gapbeam_by_x)
-                call add(right_end(model%sections(i)%to), gapbeam_by_x)
+                call add(ends, model%sections(i)%from, gapbeam_by_x, places)
+                call add(ends, right_end(ends, model%sections(i)%to), gapbeam_by_x, places)
             end do
             do i = 1, size(model%loads)
-                associate (load => model%loads(i))
-                    call add(load%x, merge(gapbeam_by_x, load%node, is_stretch(load)))
-                    call add(merge(right_end(load%to), load%x, is_stretch(load)), merge(gapbeam_by_x, load%node, is_stretch(load)))
+                associate (load => model%loads(i), node => merge(gapbeam_by_x, model%loads(i)%node, is_stretch(model%loads(i))))
+                    call add(ends, load%x, node, places)
+                    call add(ends, merge(right_end(ends, load%to), load%x, is_stretch(load)), node, places)
                 end associate
             end do
             do i = 1, size(model%foundations)
-                call add(model%foundations(i)%from, gapbeam_by_x)
-                call add(right_end(model%foundations(i)%to), gapbeam_by_x)
+                call add(ends, model%foundations(i)%from, gapbeam_by_x, places)
+                call add(ends, right_end(ends, model%foundations(i)%to), gapbeam_by_x, places)
             end do
             do i = 1, size(model%ground)
-                call add_on_foundation(i, model%ground(i)%foundation, model%ground(i)%x)
+                call add_on_foundation(assembled, i, model%ground(i)%foundation, model%ground(i)%x, places)
             end do
             do i = 1, size(model%ground_law)
-                call add_on_foundation(size(model%ground) + i, model%ground_law(i)%foundation, model%ground_law(i)%x)
+                call add_on_foundation(assembled, size(model%ground) + i, model%ground_law(i)%foundation, model%ground_law(i)%x, &
+                                       places)
             end do
-            at = 1 + n + size(model%supports) + size(model%hinges)
-            call merge_stations(assembled%ends, span, offset, at, order, chosen, point, number)
-            allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
-                      assembled%pieces(number - 1), assembled%dead(number - 1), assembled%live(number - 1), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
+        end associate
+    end subroutine list_places
+
+    !> Note a place by node or x
+    pure subroutine add(ends, x, node, places)
+        real(wp), intent(in) :: ends(0:), x
+        integer, intent(in) :: node
+        type(places_type), intent(inout) :: places
+
+        places%number = places%number + 1
+        associate (at => places%number)
+            if (node == gapbeam_by_x) then
+                call locate(x, ends, places%span(at), places%offset(at))
+            else
+                places%span(at) = node
+                places%offset(at) = 0.0_wp
             end if
-            do i = 1, number
-                assembled%point_span(i - 1) = span(chosen(i))
-                assembled%point_offset(i - 1) = offset(chosen(i))
-            end do
-            assembled%end_point(0:n) = point(1:n + 1)
-            at = n + 1
+        end associate
+    end subroutine add
+
+    !> Note a point of a table or a law. What is not on its foundation is no place, so it stands at one that there is
+    pure subroutine add_on_foundation(assembled, number, foundation, x, places)
+        type(assembled_type), intent(inout) :: assembled
+        !> Among the points of tables and laws; its foundation and place
+        integer, intent(in) :: number, foundation
+        real(wp), intent(in) :: x
+        type(places_type), intent(inout) :: places
+
+        associate (f => assembled%model%foundations(foundation))
+            assembled%ground_point(number) = merge(0, -1, x > f%from .and. x < right_end(assembled%ends, f%to))
+            call add(assembled%ends, merge(x, f%from, assembled%ground_point(number) == 0), gapbeam_by_x, places)
+        end associate
+    end subroutine add_on_foundation
+
+    !> Where a stretch ends
+    pure function right_end(ends, to) result(x)
+        real(wp), intent(in) :: ends(0:), to
+        real(wp) :: x
+
+        x = to
+        if (to <= gapbeam_right_end) x = ends(ubound(ends, 1))
+    end function right_end
+
+    !> Tell all that has a place which point that is
+    subroutine take_points(assembled, point, error)
+        type(assembled_type), intent(inout) :: assembled
+        !> Of the places in the order of list_places
+        integer, intent(in) :: point(:)
+        !> Stretches without length, hinges twice, couples at hinges
+        type(error_type), allocatable, intent(out) :: error
+        integer :: at, i
+
+        associate (model => assembled%model)
+            at = size(model%spans) + 1
+            assembled%end_point(0:) = point(1:at)
             assembled%support_point(:) = point(at + 1:at + size(model%supports))
             at = at + size(model%supports)
-            call find_hinges(point(at + 1:at + size(model%hinges)))
+            call find_hinges(point(at + 1:at + size(model%hinges)), assembled%hinged, error)
             if (allocated(error)) return
             at = at + size(model%hinges)
-            do i = 1, size(model%sections)
-                assembled%section_from(i) = point(at + 2*i - 1)
-                assembled%section_to(i) = point(at + 2*i)
-                if (assembled%section_from(i) < assembled%section_to(i)) cycle
-                call refuse_empty(of_sections, i, size(model%sections))
-                return
-            end do
+            call take_stretches(point(at + 1:), of_sections, assembled%section_from, assembled%section_to, error)
+            if (allocated(error)) return
             at = at + 2*size(model%sections)
             do i = 1, size(model%loads)
                 assembled%load_from(i) = point(at + 2*i - 1)
                 assembled%load_to(i) = point(at + 2*i)
                 ! One without length acts on nothing
                 if (is_stretch(model%loads(i)) .and. assembled%load_from(i) > assembled%load_to(i)) then
-                    call refuse_empty(of_loads, i, size(model%loads))
+                    call refuse_empty(of_loads, i, size(model%loads), error)
                 else if (model%loads(i)%kind == gapbeam_couple .and. assembled%hinged(assembled%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
                                 "the couple acts exactly at a hinge, so it is unclear which side takes it; put it on one side "// &
@@ -183,78 +256,59 @@ contains
                 if (allocated(error)) return
             end do
             at = at + 2*size(model%loads)
-            do i = 1, size(model%foundations)
-                assembled%foundation_from(i) = point(at + 2*i - 1)
-                assembled%foundation_to(i) = point(at + 2*i)
-                if (assembled%foundation_from(i) < assembled%foundation_to(i)) cycle
-                call refuse_empty(of_foundations, i, size(model%foundations))
-                return
-            end do
+            call take_stretches(point(at + 1:), of_foundations, assembled%foundation_from, assembled%foundation_to, error)
+            if (allocated(error)) return
             at = at + 2*size(model%foundations)
             where (assembled%ground_point == 0) assembled%ground_point = point(at + 1:at + size(assembled%ground_point))
         end associate
+    end subroutine take_points
 
-    contains
+    !> Points at the ends of stretches that have a length
+    subroutine take_stretches(point, table, from, to, error)
+        !> Of first and last place of every stretch
+        integer, intent(in) :: point(:)
+        !> What they are stretches of
+        integer, intent(in) :: table
+        integer, intent(out) :: from(:), to(:)
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i
 
-        !> Note a place by node or x
-        subroutine add(x, node)
-            real(wp), intent(in) :: x
-            integer, intent(in) :: node
+        do i = 1, size(from)
+            from(i) = point(2*i - 1)
+            to(i) = point(2*i)
+            if (from(i) < to(i)) cycle
+            call refuse_empty(table, i, size(from), error)
+            return
+        end do
+    end subroutine take_stretches
 
-            at = at + 1
-            if (node == gapbeam_by_x) then
-                call locate(x, assembled%ends, span(at), offset(at))
-            else
-                span(at) = node
-                offset(at) = 0.0_wp
+    !> Refuse a stretch without length
+    subroutine refuse_empty(table, number, count, error)
+        integer, intent(in) :: table, number, count
+        type(error_type), allocatable, intent(out) :: error
+
+        call refuse(error, table, number, count, no_stretch, "", "its stretch has no length; from must be less than to")
+    end subroutine refuse_empty
+
+    !> Mark the hinges
+    subroutine find_hinges(points, hinged, error)
+        integer, intent(in) :: points(:)
+        !> Of all points, from 0
+        logical, intent(out) :: hinged(0:)
+        !> Two at one point
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k, other
+
+        hinged(:) = .false.
+        do k = 1, size(points)
+            if (hinged(points(k))) then
+                other = findloc(points, points(k), 1)
+                call refuse(error, of_hinges, k, size(points), twice, "", &
+                            "there is a hinge at this place already; remove one of them", other)
+                return
             end if
-        end subroutine add
-
-        !> Note a point of a table or a law. What is not on its foundation is no place, so it stands at one that there is
-        subroutine add_on_foundation(number, foundation, x)
-            !> Among the points of tables and laws; its foundation and place
-            integer, intent(in) :: number, foundation
-            real(wp), intent(in) :: x
-
-            associate (f => assembled%model%foundations(foundation))
-                assembled%ground_point(number) = merge(0, -1, x > f%from .and. x < right_end(f%to))
-                call add(merge(x, f%from, assembled%ground_point(number) == 0), gapbeam_by_x)
-            end associate
-        end subroutine add_on_foundation
-
-        !> Where a stretch ends
-        function right_end(to) result(x)
-            real(wp), intent(in) :: to
-            real(wp) :: x
-
-            x = to
-            if (to <= gapbeam_right_end) x = assembled%ends(n)
-        end function right_end
-
-        !> Refuse a stretch without length
-        subroutine refuse_empty(table, number, count)
-            integer, intent(in) :: table, number, count
-
-            call refuse(error, table, number, count, no_stretch, "", "its stretch has no length; from must be less than to")
-        end subroutine refuse_empty
-
-        !> Mark the hinges
-        subroutine find_hinges(points)
-            integer, intent(in) :: points(:)
-            integer :: k, other
-
-            assembled%hinged(:) = .false.
-            do k = 1, size(points)
-                if (assembled%hinged(points(k))) then
-                    other = findloc(points, points(k), 1)
-                    call refuse(error, of_hinges, k, size(points), twice, "", &
-                                "there is a hinge at this place already; remove one of them", other)
-                    return
-                end if
-                assembled%hinged(points(k)) = .true.
-            end do
-        end subroutine find_hinges
-
-    end subroutine find_points
+            hinged(points(k)) = .true.
+        end do
+    end subroutine find_hinges
 
 end module gapbeam_assemble

@@ -31,6 +31,7 @@ contains
         type(law_point_type), intent(in) :: law(:)
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: seen(:)
+        character(len=:), allocatable :: problem
         integer :: i, first
 
         allocate (seen(size(model%supports)))
@@ -47,27 +48,39 @@ contains
                     if (law(i + 1)%support == k) cycle
                 end if
                 if (seen(k)) then
-                    call say("its points must stand beside each other")
+                    problem = "its points must stand beside each other"
                 else if (model%supports(k)%direction == gapbeam_axial) then
-                    call say("an axial support has a stiffness only")
+                    problem = "an axial support has a stiffness only"
                 else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
-                    call say("it stands instead of a stiffness; leave that out")
+                    problem = "it stands instead of a stiffness; leave that out"
                 else if (model%supports(k)%side == gapbeam_both .and. model%supports(k)%gap < 0.0_wp) then
                     ! Its two halves would act at once where they meet, and its breakpoints stand in no order
                     call refuse(error, of_supports, k, size(model%supports), bad_law, "gap", "expected 0 or more of a support "// &
                                 "that holds both ways, got "//trim(shown(model%supports(k)%gap))// &
                                 "; put one below and one above at this place instead")
                 else
-                    call check_points(law(first:i))
-                    if (.not. allocated(error) .and. model%supports(k)%unloading == gapbeam_plastic) then
-                        call check_unloading(law(first:i))
+                    call check_points(law(first:i), problem)
+                    if (.not. allocated(problem) .and. model%supports(k)%unloading == gapbeam_plastic) then
+                        call check_unloading(law(first:i), problem)
                     end if
                 end if
+                if (allocated(problem)) call refuse(error, of_supports, k, size(model%supports), bad_law, "law", problem)
                 if (allocated(error)) return
                 seen(k) = .true.
                 first = i + 1
             end associate
         end do
+        call check_ways_to_unload(model, seen, error)
+    end subroutine check_laws
+
+    !> Ways to unload
+    subroutine check_ways_to_unload(model, seen, error)
+        type(model_type), intent(in) :: model
+        !> Which supports have a law
+        logical, intent(in) :: seen(:)
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i
+
         do i = 1, size(model%supports)
             associate (unloading => model%supports(i)%unloading)
                 if (unloading == gapbeam_elastic) cycle
@@ -87,93 +100,87 @@ contains
                 return
             end associate
         end do
+    end subroutine check_ways_to_unload
 
-    contains
+    !> The points of a law
+    subroutine check_points(points, problem)
+        type(law_point_type), intent(in) :: points(:)
+        !> What is wrong with them
+        character(len=:), allocatable, intent(out) :: problem
+        real(wp) :: before(2), slope
+        integer :: j
 
-        !> What is wrong with the law at hand
-        subroutine say(problem)
-            character(len=*), intent(in) :: problem
-
-            call refuse(error, of_supports, law(i)%support, size(model%supports), bad_law, "law", problem)
-        end subroutine say
-
-        !> The points of a law
-        subroutine check_points(points)
-            type(law_point_type), intent(in) :: points(:)
-            real(wp) :: before(2), slope
-            integer :: j
-
-            before(:) = 0.0_wp
-            slope = 0.0_wp
-            do j = 1, size(points)
-                associate (d => points(j)%displacement, f => points(j)%force)
-                    if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
-                        call say("expected finite numbers, got "//trim(pair(d, f)))
-                    else if (d < before(1)) then
-                        call say("the displacements go back at "//trim(pair(d, f))//", after "//trim(shown(before(1)))// &
-                                 "; give them in ascending order")
-                    else if (f < 0.0_wp) then
-                        call say("the force is below zero at "//trim(pair(d, f))//"; a support that pushes cannot pull: "// &
-                                 "end the law at 0")
-                    else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
-                        call say("the point "//trim(pair(d, f))//" stands there twice, or at the origin; leave it out")
-                    else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
-                        ! Rigid up to a force at which it breaks is a law
-                        if (is_vertical(points(:j - 1)) .and. .not. (slope > 0.0_wp .and. f < before(2))) then
-                            call say("there are two vertical pieces at "//trim(shown(d))//"; give the outer points only")
-                        end if
+        before(:) = 0.0_wp
+        slope = 0.0_wp
+        do j = 1, size(points)
+            associate (d => points(j)%displacement, f => points(j)%force)
+                if (.not. (abs(d) <= huge(d) .and. abs(f) <= huge(f))) then
+                    problem = "expected finite numbers, got "//trim(pair(d, f))
+                else if (d < before(1)) then
+                    problem = "the displacements go back at "//trim(pair(d, f))//", after "//trim(shown(before(1)))// &
+                        "; give them in ascending order"
+                else if (f < 0.0_wp) then
+                    problem = "the force is below zero at "//trim(pair(d, f))//"; a support that pushes cannot pull: "// &
+                        "end the law at 0"
+                else if (.not. (abs(d - before(1)) > 0.0_wp .or. abs(f - before(2)) > 0.0_wp)) then
+                    problem = "the point "//trim(pair(d, f))//" stands there twice, or at the origin; leave it out"
+                else if (.not. abs(d - before(1)) > 0.0_wp .and. j > 1) then
+                    ! Rigid up to a force at which it breaks is a law
+                    if (is_vertical(points(:j - 1)) .and. .not. (slope > 0.0_wp .and. f < before(2))) then
+                        problem = "there are two vertical pieces at "//trim(shown(d))//"; give the outer points only"
                     end if
-                    if (allocated(error)) return
-                    if (abs(d - before(1)) > 0.0_wp) then
-                        slope = (f - before(2))/(d - before(1))
-                    else
-                        slope = f - before(2)
-                    end if
-                    if (j == size(points) .and. slope < 0.0_wp) then
-                        call say("it ends falling, so its force would become negative beyond "//trim(pair(d, f))// &
-                                 "; add a point from which on it stays, such as "//trim(pair(d + max(d, 1.0_wp), f)))
-                        return
-                    end if
-                    before(:) = [d, f]
-                end associate
-            end do
-        end subroutine check_points
-
-        !> Unloading parallel to the first piece must not give back more work than a steeper one has taken
-        subroutine check_unloading(points)
-            type(law_point_type), intent(in) :: points(:)
-            real(wp) :: width, rise
-            integer :: j
-
-            associate (first => points(1))
-                if (.not. first%force > 0.0_wp) then
-                    call say("plastic unloading is parallel to its first piece, which does not rise; leave that out, and "// &
-                             "give a gap")
+                end if
+                if (allocated(problem)) return
+                if (abs(d - before(1)) > 0.0_wp) then
+                    slope = (f - before(2))/(d - before(1))
+                else
+                    slope = f - before(2)
+                end if
+                if (j == size(points) .and. slope < 0.0_wp) then
+                    problem = "it ends falling, so its force would become negative beyond "//trim(pair(d, f))// &
+                        "; add a point from which on it stays, such as "//trim(pair(d + max(d, 1.0_wp), f))
                     return
                 end if
-                do j = 2, size(points)
-                    width = points(j)%displacement - points(j - 1)%displacement
-                    rise = points(j)%force - points(j - 1)%force
-                    if (rise*first%displacement <= first%force*width*(1 + same_slope)) cycle
-                    call say("plastic unloading is parallel to its first piece, but the piece up to "// &
-                             trim(pair(points(j)%displacement, points(j)%force))//" is steeper, so it would give back more "// &
-                             "work than it took; begin with the steepest piece, or leave unloading out")
-                    return
-                end do
+                before(:) = [d, f]
             end associate
-        end subroutine check_unloading
+        end do
+    end subroutine check_points
 
-        !> Is the last piece of some points vertical
-        pure function is_vertical(points) result(vertical)
-            type(law_point_type), intent(in) :: points(:)
-            logical :: vertical
-            real(wp) :: before
+    !> Unloading parallel to the first piece must not give back more work than a steeper one has taken
+    subroutine check_unloading(points, problem)
+        type(law_point_type), intent(in) :: points(:)
+        !> What is wrong with them
+        character(len=:), allocatable, intent(out) :: problem
+        real(wp) :: width, rise
+        integer :: j
 
-            before = 0.0_wp
-            if (size(points) > 1) before = points(size(points) - 1)%displacement
-            vertical = .not. points(size(points))%displacement > before
-        end function is_vertical
+        associate (first => points(1))
+            if (.not. first%force > 0.0_wp) then
+                problem = "plastic unloading is parallel to its first piece, which does not rise; leave that out, and "// &
+                    "give a gap"
+                return
+            end if
+            do j = 2, size(points)
+                width = points(j)%displacement - points(j - 1)%displacement
+                rise = points(j)%force - points(j - 1)%force
+                if (rise*first%displacement <= first%force*width*(1 + same_slope)) cycle
+                problem = "plastic unloading is parallel to its first piece, but the piece up to "// &
+                    trim(pair(points(j)%displacement, points(j)%force))//" is steeper, so it would give back more "// &
+                    "work than it took; begin with the steepest piece, or leave unloading out"
+                return
+            end do
+        end associate
+    end subroutine check_unloading
 
-    end subroutine check_laws
+    !> Is the last piece of some points vertical
+    pure function is_vertical(points) result(vertical)
+        type(law_point_type), intent(in) :: points(:)
+        logical :: vertical
+        real(wp) :: before
+
+        before = 0.0_wp
+        if (size(points) > 1) before = points(size(points) - 1)%displacement
+        vertical = .not. points(size(points))%displacement > before
+    end function is_vertical
 
 end module gapbeam_check_laws

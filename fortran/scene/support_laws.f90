@@ -3,6 +3,7 @@ module gapbeam_support_laws
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: cubic_rounding
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_words, only: shown, whole
     use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, law_power, &
         law_brittle, is_smooth, law_points
@@ -32,11 +33,11 @@ contains
         type(made_type), allocatable :: made(:)
         integer :: i, k, n, stat
 
-        allocate (made(merge(size(model%supports), 0, any(model%supports%law /= law_by_points))), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        n = count(model%supports%law /= law_by_points)
+        allocate (made(merge(size(model%supports), 0, n > 0)), stat=stat)
+        if (stat == 0) call reserve_memory(for_laws, 0, 0, n, error)
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         n = size(model%law)
         do k = 1, size(made)
             if (model%supports(k)%law == law_by_points) cycle

@@ -213,4 +213,4 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
         raise EngineError(f"{where}the call was ended before it was done: a signal has ended another call with this beam", status)
     if status not in (Status.SOLVED, Status.NO_EQUILIBRIUM):
         words = re.sub(r"support (\d+) of \d+", lambda found: f"supports[{int(found[1]) - 1}]", message.decode().strip())
-        raise EngineError(where + words.replace("]: stiffness", "].stiffness"), status)
+        raise EngineError(where + re.sub(r"\]: (law|stiffness)\b", r"].\1", words), status)

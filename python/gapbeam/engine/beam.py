@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import deque
+
 import numpy as np
 
 from ..base.errors import Status, check_status
@@ -57,7 +59,7 @@ class Beam(Layout):
         The engine's.
     rooms : list
         Those of calls for cases that are not in use now.
-    spare : list
+    spare : collections.deque
         Memory of results of cases that nobody has any more.
     has_hinges, has_restraints, has_shear, is_one_sided : bool
         What of that there is; a one-sided support that can carry.
@@ -95,7 +97,7 @@ class Beam(Layout):
         """Keep a handle, and what it says of itself."""
         self.handle = _engine.Handle(handle)
         self.rooms: list[_engine.Owned] = []
-        self.spare: list[np.ndarray] = []
+        self.spare: deque[np.ndarray] = deque(maxlen=1)
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
         self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(

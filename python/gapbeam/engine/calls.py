@@ -12,8 +12,9 @@ from __future__ import annotations
 import mmap
 import os
 import threading
-from _thread import allocate_lock, interrupt_main, start_new_thread
+from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable, Iterator
+from functools import partial
 from queue import SimpleQueue
 from time import perf_counter
 from typing import Any
@@ -171,18 +172,12 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 class Owned(int):
     """A number by which the compiled layer knows an object: a beam, room for its cases, a state, the fields of one, a train.
 
-    The object is freed with the last reference to the number; calls that go on after Ctrl-C keep theirs.
+    The object is freed with the last reference to the number; calls that go on after Ctrl-C keep theirs. Nothing of it is written
+    in Python, which hears signals between its own instructions: a Ctrl-C inside `__del__` would be printed and lost. The property
+    binds the number to the routine, and Python calls what it gets.
     """
 
-    _drop = staticmethod(_engine.gbdrop)
-
-    def __del__(self, again: Callable = interrupt_main) -> None:
-        """Free it, also when Python ends and modules are gone; a Ctrl-C that comes just here is not lost."""
-        try:
-            if self:
-                self._drop(self)
-        except KeyboardInterrupt:
-            again()
+    __del__ = property(partial(partial, _engine.gbdrop))
 
 
 class Handle(Owned):

@@ -23,7 +23,7 @@ resource = pytest.importorskip("resource")
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits of the address space cannot be set here")
 
-SPANS = 5_000
+SPANS, FEWER = 5_000, 1_000
 RIGHT, REFUSED, WRONG = 0, 15, 1
 """How a process ends; anything else is not its own doing."""
 TWO_SPRINGS = {  # quadruple precision decides which one bears
@@ -54,6 +54,23 @@ def long_beam(follow, stiffness=50.0, at=SPANS / 2 + 0.25):
     }
 
 
+def beam_on_laws(law):
+    """A beam on supports with a law each, pressed down at one place."""
+    return {
+        **long_beam("steps"),
+        "beam": {"spans": [1.0] * FEWER, "EI": 1e4},
+        "supports": [{"node": i, "side": "below", "law": law} for i in range(FEWER + 1)],
+        "loads": [{"type": "uniform", "q": 0.1, "case": "dead"}, {"type": "force", "x": FEWER / 2 + 0.25, "F": 40.0}],
+    }
+
+
+GROUND = {
+    "beam": {"spans": [6.0] * 10, "EI": 1e4},
+    "foundation": [{"law": {"type": "tanh", "stiffness": 500.0, "limit": 30.0}, "side": "below"}],
+    "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "force", "x": 30.1, "F": 50.0}],
+}
+
+
 def every_answer(scene):
     """Solve a scene and ask for all that there is."""
     result = gapbeam.solve(scene)
@@ -82,10 +99,13 @@ CALLS = {
     "steps": (every_answer, long_beam("steps"), 80_000_000, 18),
     "events": (every_answer, long_beam("events"), 120_000_000, 14),
     "ties": (every_answer, long_beam("steps", float("inf"), SPANS / 2), 80_000_000, 18),
+    "smooth laws": (every_answer, beam_on_laws({"type": "tanh", "stiffness": 50.0, "limit": 30.0}), 80_000_000, 18),
+    "polylines": (every_answer, beam_on_laws([[0.01, 5.0], [0.1, 20.0], [1.0, 30.0]]), 40_000_000, 18),
+    "ground": (every_answer, GROUND, 4_000_000, 25),
     "cases": (cases, long_beam("steps"), 60_000_000, 18),
 }
 """What is called, with what, and the limits: up to so many bytes more than at first, and how many of them."""
-SMALL = ("two springs", "seesaw", "two springs as cases")
+SMALL = ("two springs", "seesaw", "two springs as cases", "ground")
 """Those that take little; Python may want another mebibyte at once for it, so their limits lie the closer the lower they are."""
 
 

@@ -13,6 +13,7 @@ from html import unescape
 import gapbeam
 import pytest
 from gapbeam.base.characters import visible
+from gapbeam.base.errors import Status, check_status
 from gapbeam.cli import main
 from gapbeam.plots import figure, plot
 from gapbeam.plots.path import path_figure, plot_path
@@ -188,3 +189,16 @@ def test_no_cell_is_a_formula(name):
         except ValueError:
             assert not cell.startswith(("=", "+", "-", "@", "\t", "\r", "\n")), cell
     assert any(cell.startswith("-") for cell in cells)
+
+
+@pytest.mark.parametrize(
+    ("engine", "ours"),
+    [
+        ("support 3 of 5: law: off its curve", "supports[2].law: off its curve"),
+        ("support 3 of 5: stiffness = 4", "supports[2].stiffness = 4"),
+        ("the law of support 1 of 5 is too far", "the law of supports[0] is too far"),
+    ],
+)
+def test_the_engine_counts_supports_from_one(engine, ours):
+    with pytest.raises(gapbeam.EngineError, match=f"^{re.escape(ours)}$"):
+        check_status(Status.NOT_CONVERGED, engine.encode())

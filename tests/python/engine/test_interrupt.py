@@ -8,6 +8,8 @@ import subprocess
 import sys
 import threading
 import time
+from functools import partial
+from types import SimpleNamespace
 
 import gapbeam
 import numpy as np
@@ -15,6 +17,7 @@ import pytest
 from gapbeam import _yardsticks
 from gapbeam.cli import main
 from gapbeam.engine import calls
+from gapbeam.engine.blocks import Block
 from gapbeam.studies.meshes import gapped_spans
 from languages.installation import TOP
 from scenes import random_scene
@@ -123,6 +126,30 @@ def test_what_another_handler_raises_ends_a_call_too():
     with pytest.raises(Late):
         calls.interruptible(time.sleep)(60)
     signal.signal(signal.SIGALRM, old)
+
+
+@pytest.mark.parametrize("kind", ["handle", "block"])
+def test_it_is_heard_where_objects_are_freed(monkeypatch, kind):
+    """What frees them is compiled, so no signal is heard inside, where Python would print it and go on."""
+
+    class Pressed(calls.Owned):
+        __del__ = property(partial(partial, _thread.interrupt_main))
+
+    def work():
+        if kind == "handle":
+            held = Pressed(signal.SIGINT)
+        else:
+            held = Block(np.empty(3), SimpleNamespace(append=partial(next, map(_thread.interrupt_main, [signal.SIGINT]))))
+        del held
+        time.sleep(0)  # here
+
+    printed = []
+    monkeypatch.setattr(sys, "unraisablehook", printed.append)
+    old = signal.signal(signal.SIGINT, signal.default_int_handler)
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    signal.signal(signal.SIGINT, old)
+    assert not printed
 
 
 # What ends between two linear solves

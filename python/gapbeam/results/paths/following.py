@@ -132,3 +132,5 @@ def _on_path(result: Result, _: np.ndarray) -> None:
     factors = [(k + 1) / analysis.steps for k in range(analysis.steps)] if by_steps else None
     result.steps = PathSteps(result._beam, result._rule, result.path, factors)
     result.steps.outcome = result.status, result._reason
+    if result._beam.curves and len(result.steps):
+        _ = result.steps[-1].solution  # what a path along polylines has led to stands its audit, or is refused

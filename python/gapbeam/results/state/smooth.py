@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...base.errors import EngineError, Status
 from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...engine.units import scaled
@@ -59,6 +60,35 @@ class SmoothLaws:
             elif self.side[i] == 0 and self.gap[i] == 0.0:
                 found[1, i] = curve.force_and_slope(0.0)[1]
         return found[0], found[1]
+
+    def audit(self, solution: Solution, factor: float, tolerance: float) -> None:
+        """Refuse a state in which a support has not the force of its law.
+
+        Parameters
+        ----------
+        solution : Solution
+            The state.
+        factor : float
+            Its load factor, for the message.
+        tolerance : float
+            Share of the largest reaction that is nothing.
+
+        Raises
+        ------
+        EngineError
+            Which support, and both forces.
+        """
+        d, way = self.past_the_gap(self.deflections(solution))
+        force, found = self.forces_and_slopes(d)[0] * way, self.reactions(solution)
+        off = np.abs(found - force)
+        worst = int(off.argmax())
+        if off[worst] > tolerance * np.abs(solution.at_supports[0]).max():
+            raise EngineError(
+                f"supports[{self._numbers[worst]}].law: at load factor {factor:.9g} the path leads to a reaction of "
+                f"{found[worst]:.6g}, where the law gives {force[worst] + 0.0:.6g}: the supports may carry less than this load; "
+                "lower it, or give the laws as polylines",
+                Status.NOT_CONVERGED,
+            )
 
     def springs(self, deflection: np.ndarray) -> np.ndarray:
         """Give stiffnesses about those of the laws at given deflections, none of them falling; 0 where there is none."""

@@ -1,0 +1,129 @@
+!> Tangents in place of smooth laws of supports: where they are put, and whether another one changes nothing.
+module gapbeam_smooth_tangents
+    use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: settled_on_laws
+    use gapbeam_laws, only: begins_steep, law_displacement
+    use gapbeam_polyline, only: node_support_type
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_energy, only: line_type
+    use gapbeam_smooth_laws, only: past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    implicit none
+    private
+    public :: place_type, find_places, are_settled, put_tangents, last_digit, rounding
+
+    !> Tangents that usually do, from a polyline as near as it is some five
+    integer, parameter :: usual_tangents = 10
+    !> So often a tangent may lead too far; after that the support has opened
+    integer, parameter :: most_shortened = 12
+    !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
+    !> digits
+    real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
+
+    !> Where the supports with smooth laws are: in the user's units, one entry each
+    type :: place_type
+        !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
+        real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
+        !> The larger of its distance from the support and the gap, to which digits of the displacement are relative
+        real(wp) :: size = 0.0_wp
+        integer :: way = 0
+        !> Does the law begin steep, and does the force tell the displacement
+        logical :: steep = .false., by_force = .false.
+        !> The displacement where the last tangent was put, its way and its change, and how often it has been shortened
+        real(wp) :: before = huge(1.0_wp), change = 0.0_wp
+        integer :: way_before = 0, shortened = 0
+    end type place_type
+
+contains
+
+    !> Where supports are
+    pure subroutine find_places(assembled, numbers, line, by_displacement, places)
+        type(assembled_type), intent(in) :: assembled
+        !> Supports of the model with smooth laws
+        integer, intent(in) :: numbers(:)
+        !> Deflections and reactions at its beginning
+        type(line_type), intent(in) :: line
+        !> The displacement tells the force, also where a law begins steep
+        logical, intent(in) :: by_displacement
+        !> What was before stays; one entry each
+        type(place_type), intent(inout) :: places(:)
+        integer :: j
+
+        do j = 1, size(numbers)
+            associate (s => assembled%model%supports(numbers(j)), p => places(j))
+                p%deflection = deflection_at(assembled, line%deflection, numbers(j))
+                p%size = max(abs(p%deflection - s%settlement), abs(s%gap))
+                call past_the_gap(s, p%deflection, p%past, p%way)
+                p%reached = p%way*reaction_at(assembled, line%reaction, numbers(j))
+                p%steep = begins_steep(s%law, s%parameter)
+                p%by_force = p%steep .and. p%reached > 0.0_wp .and. .not. by_displacement
+                if (p%by_force) p%past = law_displacement(s%law, s%parameter, p%reached)
+            end associate
+        end do
+    end subroutine find_places
+
+    !> Does another tangent change nothing
+    pure function are_settled(assembled, numbers, tangents, places) result(they_are)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: numbers(:)
+        !> How many have been put so far
+        integer, intent(in) :: tangents
+        type(place_type), intent(in) :: places(:)
+        logical :: they_are
+        real(wp) :: force, slope
+        integer :: j
+
+        if (tangents < usual_tangents) then
+            they_are = all(abs(places%past - places%before) <= settled_on_laws*places%size)
+        else
+            they_are = all(abs(places%past - places%before) <= rounding*maxval(places%size))
+        end if
+        if (they_are .or. any(places%by_force)) return
+        ! The tangents have met the curves to the last digit: another round would move the displacements by rounding alone
+        do j = 1, size(places)
+            call force_and_slope(assembled%model%supports(numbers(j)), places(j)%past, force, slope)
+            if (slope > huge(slope)) return
+            if (.not. abs(force - places(j)%reached) <= last_digit*(abs(force) + slope*places(j)%size)) return
+        end do
+        they_are = .true.
+    end function are_settled
+
+    !> Put tangents in place of the laws, where supports are or nearer
+    pure subroutine put_tangents(assembled, numbers, tangents, searching, places, lines)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: numbers(:)
+        !> How many have been put so far
+        integer, intent(in) :: tangents
+        !> Does the energy tell how far they lead, so that none need be put nearer
+        logical, intent(in) :: searching
+        type(place_type), intent(inout) :: places(:)
+        !> The beam's supports
+        type(node_support_type), intent(inout) :: lines(:)
+        real(wp) :: force, slope
+        integer :: j
+        logical :: overshot, halved
+
+        do j = 1, size(numbers)
+            associate (p => places(j), s => assembled%model%supports(numbers(j)))
+                ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
+                overshot = .not. searching .and. p%before > 0.0_wp .and. p%before < huge(p%before) .and. &
+                    p%shortened < most_shortened .and. (.not. p%past > 0.0_wp .or. p%way /= p%way_before)
+                if (overshot) then
+                    p%past = p%before/8
+                    p%way = p%way_before
+                    p%shortened = p%shortened + 1
+                end if
+                ! About a bend they may go to and fro for ever: then half as far
+                halved = .not. searching .and. tangents >= usual_tangents .and. p%past > 0.0_wp .and. &
+                    p%way == p%way_before .and. (p%past - p%before)*p%change < 0.0_wp
+                if (tangents > 0) p%change = p%past - p%before
+                if (halved) p%past = (p%past + p%before)/2
+                p%before = p%past
+                p%way_before = p%way
+                if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
+                call force_and_slope(s, p%past, force, slope)
+                call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, lines)
+            end associate
+        end do
+    end subroutine put_tangents
+
+end module gapbeam_smooth_tangents
