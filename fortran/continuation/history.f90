@@ -222,7 +222,7 @@ contains
         integer :: taken
 
         associate (branch => walk%branch, way => walk%way, direction => stretch%direction)
-            ways = branch%outgoing
+            allocate (ways, source=branch%outgoing)
             taken = branch%taken
             stretch = stretch_type(walk%leg, 0.0_wp, 0.0_wp, branch%way%direction, branch%way%index, size(ways), .false., &
                                    branch%way%closed)

@@ -33,7 +33,7 @@ contains
         logical, allocatable :: apart(:)
         integer :: i
 
-        ends = [train%offset, train%uniform%from, train%uniform%to]
+        allocate (ends, source=[train%offset, train%uniform%from, train%uniform%to])
         places = places_of_kinks(assembled)
         met = [from, to]
         do i = 1, size(ends)

@@ -44,7 +44,7 @@ contains
         logical :: is_place
         integer :: code
 
-        before = passage%closed
+        allocate (before, source=passage%closed)
         if (nearly_all_free(passage, traversal)) then
             call take_stretch(track, train, not_unique, 1.0_wp, passage, traversal, error)
             return

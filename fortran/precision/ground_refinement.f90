@@ -59,6 +59,8 @@ contains
                                            c%by_slope)
         end associate
         allocate (closed(size(start%closed)))
+        last = factor
+        last_margin = 0.0_qp
         do k = 1, most_steps
             call polish_nearby(ground, factor, rule, start, solves, solved)
             if (.not. solved) return

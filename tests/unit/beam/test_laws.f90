@@ -47,7 +47,7 @@ contains
             end if
             call check(law_force(law, p, u) <= law_bound(law, p), "bound")
         end do
-        points = law_points(law, p)
+        allocate (points, source=law_points(law, p))
         call check(size(points, 2) > 30 .and. all(points(1, 2:) > points(1, :size(points, 2) - 1)), "polyline in order")
         call check(.not. law_energy(law, p, -1.0_wp) > 0.0_wp, "no work before contact")
     end subroutine one_curve
