@@ -7,6 +7,7 @@ module gapbeam_train_grid
     use gapbeam_limits, only: most_train_states
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_words, only: whole
+    use gapbeam_ordered, only: sort, sort_once
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_normal, gapbeam_force, gapbeam_right_end, gapbeam_table_of_k, &
         gapbeam_table_of_parameter
     use gapbeam_laws, only: law_cubic
@@ -154,7 +155,7 @@ contains
             places = [pack([(place_of(assembled, s(i)%x, s(i)%node), i=1, size(s))], s%direction == gapbeam_normal), &
                       pack([(place_of(assembled, l(i)%x, l(i)%node), i=1, size(l))], l%kind == gapbeam_force)]
         end associate
-        call make_unique(places)
+        call sort_once(places)
     end function places_of_jumps
 
     !> Ends of the beam and of foundations: there zones begin and end
@@ -165,7 +166,7 @@ contains
         associate (f => assembled%model%foundations, end => end_of_beam(assembled))
             places = [0.0_wp, end, f%from, merge(end, f%to, f%to <= gapbeam_right_end)]
         end associate
-        call make_unique(places)
+        call sort_once(places)
     end function ends_of_ground
 
     !> Places at which an axle makes a difference when it passes
@@ -179,7 +180,7 @@ contains
                       pack(model%ground%x, model%ground%x > 0.0_wp .and. model%ground%x < end), &
                       pack(model%ground_law%x, model%ground_law%x > 0.0_wp .and. model%ground_law%x < end)]
         end associate
-        call make_unique(places)
+        call sort_once(places)
     end function places_of_kinks
 
     !> A place by x or node
@@ -192,39 +193,5 @@ contains
         place = x
         if (node /= gapbeam_by_x) place = assembled%ends(node)
     end function place_of
-
-    !> Sort, and leave out what is there twice
-    pure subroutine make_unique(places)
-        real(wp), allocatable, intent(inout) :: places(:)
-        logical, allocatable :: other(:)
-
-        call sort(places)
-        allocate (other(size(places)))
-        if (size(places) > 0) other(1) = .true.
-        other(2:) = places(2:) > places(:size(places) - 1)
-        places = pack(places, other)
-    end subroutine make_unique
-
-    !> Sort (Shell 1959)
-    pure subroutine sort(values)
-        real(wp), intent(inout) :: values(:)
-        real(wp) :: value
-        integer :: gap, i, k
-
-        gap = size(values)/2
-        do while (gap > 0)
-            do i = gap + 1, size(values)
-                value = values(i)
-                k = i
-                do while (k > gap)
-                    if (values(k - gap) <= value) exit
-                    values(k) = values(k - gap)
-                    k = k - gap
-                end do
-                values(k) = value
-            end do
-            gap = gap/2
-        end do
-    end subroutine sort
 
 end module gapbeam_train_grid

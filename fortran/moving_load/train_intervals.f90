@@ -2,7 +2,7 @@
 module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_stations, only: last_not_above
+    use gapbeam_ordered, only: sort, last_not_above
     use gapbeam_train, only: train_type, track_type, least_distance
     implicit none
     private
@@ -196,30 +196,5 @@ contains
 
         piece = last_not_above(track%x(:ubound(track%x, 1) - 1), x) + 1
     end function piece_at
-
-    !> Sort numbers (Shell 1959)
-    pure subroutine sort(numbers)
-        real(wp), intent(inout) :: numbers(:)
-        real(wp) :: one
-        integer :: gap, i, j
-
-        gap = 1
-        do while (gap < size(numbers)/3)
-            gap = 3*gap + 1
-        end do
-        do while (gap > 0)
-            do i = gap + 1, size(numbers)
-                one = numbers(i)
-                j = i
-                do while (j > gap)
-                    if (numbers(j - gap) <= one) exit
-                    numbers(j) = numbers(j - gap)
-                    j = j - gap
-                end do
-                numbers(j) = one
-            end do
-            gap = gap/3
-        end do
-    end subroutine sort
 
 end module gapbeam_train_intervals

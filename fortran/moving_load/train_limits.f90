@@ -92,20 +92,10 @@ contains
         logical, intent(out) :: solved
         !> As for solve_at
         type(error_type), allocatable, intent(out) :: error
-        integer :: low, high, middle
+        integer :: i
 
-        low = 1
-        high = size(run%states)
-        do while (high - low > 1)
-            middle = (low + high)/2
-            if (runs%boxes(run%states(middle))%of%position <= position) then
-                low = middle
-            else
-                high = middle
-            end if
-        end do
-        if (runs%boxes(run%states(high))%of%position - position < position - runs%boxes(run%states(low))%of%position) low = high
-        associate (near => runs%boxes(run%states(low))%of)
+        i = minloc(abs([(runs%boxes(run%states(i))%of%position, i=1, size(run%states))] - position), 1)
+        associate (near => runs%boxes(run%states(i))%of)
             call solve_at(assembled, runs%train, runs%rule, position, near%acts, kept, runs%solves, error, near)
             if (.not. allocated(error)) call take_undecided(kept, near)
         end associate

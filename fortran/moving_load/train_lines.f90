@@ -7,6 +7,7 @@ module gapbeam_train_lines
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_ordered, only: sort_once
     use gapbeam_quantities, only: of_shear
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train_on_beam, only: distance_at_end
@@ -220,7 +221,7 @@ contains
         allocate (both(size(lines%quantities), 2), met(0))
         met = pack(lines%x(k) - runs%train%offset, runs%boxes(runs%runs(run)%states(1))%of%acts)
         met = pack(met, met >= table%at(1) - beside .and. met <= table%at(n) + beside)
-        call sort_and_join(met)
+        call sort_once(met)
         allocate (passes%at(size(met)), passes%sides(size(lines%quantities), 2, size(met)))
         number = 0
         do i = 1, size(met)
@@ -268,32 +269,6 @@ contains
             if (quantities(q) /= of_shear) both(q, :) = both(q, merge(2, 1, left))
         end do
     end subroutine values_on_both_sides
-
-    !> Sort, and leave out what is there twice
-    pure subroutine sort_and_join(values)
-        real(wp), allocatable, intent(inout) :: values(:)
-        real(wp), allocatable :: sorted(:)
-        integer :: i
-
-        allocate (sorted(0))
-        do i = 1, size(values)
-            if (.not. any(values > last_of(sorted))) exit
-            sorted = [sorted, minval(values, mask=values > last_of(sorted))]
-        end do
-        call move_alloc(sorted, values)
-
-    contains
-
-        !> The last one so far
-        pure function last_of(some) result(value)
-            real(wp), intent(in) :: some(:)
-            real(wp) :: value
-
-            value = -huge(value)
-            if (size(some) > 0) value = some(size(some))
-        end function last_of
-
-    end subroutine sort_and_join
 
     !> Values at a place from one passing axle, or end of the run, to the next, one state at least between them
     subroutine cut_part(assembled, runs, run, table, k, lines, passes, i, part, error)

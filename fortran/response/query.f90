@@ -10,7 +10,8 @@ module gapbeam_query
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
-    use gapbeam_stations, only: locate, last_not_above
+    use gapbeam_ordered, only: last_not_above
+    use gapbeam_stations, only: locate
     use gapbeam_assemble_axial, only: axial_node
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown

@@ -8,10 +8,11 @@
 module gapbeam_stations
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: position_tolerance
+    use gapbeam_ordered, only: last_not_above
     use gapbeam_scene, only: span_type
     implicit none
     private
-    public :: place_span_ends, locate, last_not_above, merge_stations
+    public :: place_span_ends, locate, merge_stations
 
 contains
 
@@ -61,24 +62,6 @@ contains
             offset = 0.0_wp
         end if
     end subroutine locate
-
-    !> The last of values in order that is not above a number, counted from 0; 0 also if none is
-    pure function last_not_above(values, x) result(low)
-        real(wp), intent(in) :: values(0:), x
-        integer :: low
-        integer :: high, middle
-
-        low = 0
-        high = size(values)
-        do while (high - low > 1)
-            middle = low + (high - low)/2
-            if (values(middle) <= x) then
-                low = middle
-            else
-                high = middle
-            end if
-        end do
-    end function last_not_above
 
     !> Points from left to right, places that differ by rounding only taken as one
     pure subroutine merge_stations(ends, span, offset, anchors, order, chosen, point, number)
