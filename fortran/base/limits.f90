@@ -30,7 +30,7 @@ module gapbeam_limits
     !> through the engine, by gapbeam.results.paths
     integer, parameter :: changes_at_a_time = 1000
     !> Places and positions listed at which an extreme under trains is reached; beams with many equal spans have more. Read by
-    !> moving_load/train_peaks, moving_load/train_ties and, through the engine, by gapbeam.results.trains
+    !> moving_load/train_peaks, moving_load/train_ties
     integer, parameter :: most_extreme_ties = 16
     !> States beyond which a train on the ground or on smooth laws is refused: they would take minutes. Read by
     !> moving_load/train_grid
@@ -109,7 +109,7 @@ module gapbeam_limits
     integer, parameter :: most_mesh_rounds = 200
     !> As above; tuned. Read by contact/ground_energy
     integer, parameter :: most_node_rounds = 512
-    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy, contact/law_energy, response/smooth_energy
+    !> Steps of a line search: bisection to the last bit. Read by contact/ground_energy, contact/law_energy
     integer, parameter :: most_line_steps = 60
     !> Forces and slopes of nodes that are asked for: where stiffnesses lie hundreds of powers of ten apart no mesh settles. Read
     !> by contact/ground_energy

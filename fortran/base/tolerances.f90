@@ -203,11 +203,11 @@ module gapbeam_tolerances
     !> contact/ground_energy
     real(wp), parameter :: balanced = 1e-9_wp
     !> A slope of the energy that has fallen to this share of what it was ends a line search (Nocedal and Wright 2006, 3.1); tuned.
-    !> Read by contact/ground_energy, contact/law_energy, response/smooth_energy
+    !> Read by contact/ground_energy, contact/law_energy
     real(wp), parameter :: flat_energy = 0.1_wp
-    !> A motion goes so many times the length of the beam at first; tuned. Read by contact/ground_energy, response/smooth_energy
+    !> A motion goes so many times the length of the beam at first; tuned. Read by contact/ground_energy, contact/law_energy
     real(wp), parameter :: first_way = 1e-6_wp
-    !> And so many times at last: then nothing stops it. Read by contact/ground_energy, response/smooth_energy
+    !> And so many times at last: then nothing stops it. Read by contact/ground_energy, contact/law_energy
     real(wp), parameter :: last_way = 1e14_wp
     !> Ends that are moved by rounding alone move by less than this share of the stretches beside them; tuned. Read by
     !> contact/zones

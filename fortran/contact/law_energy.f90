@@ -6,20 +6,50 @@
 !>     sum over the supports of (change of deflection) * (force of the law - force in equilibrium)
 !>
 !> which never falls where no force falls with growing displacement. Going to where it vanishes is the line search that Newton's
-!> method wants to settle from any start (semismooth Newton: Pang and Qi 1995, Facchinei 1995).
+!> method wants to settle from any start (semismooth Newton: Pang and Qi 1995, Facchinei 1995). Where lines let the beam go, the
+!> way is the motion on which they do: laws, and supports that it reaches, tell how far.
 module gapbeam_law_energy
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_line_steps
-    use gapbeam_tolerances, only: flat_energy
-    use gapbeam_band, only: answer_type
+    use gapbeam_tolerances, only: flat_energy, first_way, last_way
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_law, only: node_support_type, both, is_rigid
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_line_search, only: bracket_type, place_inside, narrow
     implicit none
     private
-    public :: is_convex, way_to_least_energy, force_at, states_of_laws
+    public :: line_type, new_line, is_convex, go_towards, way_to_rest, states_of_laws
+
+    !> Deflections of the nodes and reactions of the supports at its beginning, and their changes along it, shapes (0:n) and (m)
+    type :: line_type
+        real(wp), allocatable :: deflection(:), step(:), reaction(:), change(:)
+    contains
+        !> Reaction of a support by its law
+        procedure :: force_at
+    end type line_type
 
 contains
+
+    !> Room for a line, at a state
+    pure subroutine new_line(deflection, reaction, line, error)
+        !> Of the nodes and of the supports
+        real(wp), intent(in) :: deflection(0:), reaction(:)
+        class(line_type), intent(inout) :: line
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: n, m, stat
+
+        n = ubound(deflection, 1)
+        m = size(reaction)
+        allocate (line%deflection(0:n), line%step(0:n), line%reaction(m), line%change(m), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        line%deflection(:) = deflection
+        line%reaction(:) = reaction
+    end subroutine new_line
 
     !> Does the force of no support fall, so that the energy is convex
     pure function is_convex(supports) result(convex)
@@ -29,65 +59,126 @@ contains
         convex = all(supports%stiffness >= 0.0_wp .and. supports%before >= 0.0_wp)
     end function is_convex
 
-    !> What share of the way from one state to another leads to the least energy on it, up to all of it
-    pure function way_to_least_energy(supports, from, from_force, to, to_force) result(t)
+    !> Go from a state towards another one, to the least energy on the way
+    pure subroutine go_towards(line, supports, deflection, reaction, whole, way)
+        !> At the first state; then where that leads
+        class(line_type), intent(inout) :: line
         type(node_support_type), intent(in) :: supports(:)
-        !> Deflections of the nodes in both states, shape (0:n); and the reactions of the supports with which the beam is in
-        !> equilibrium there, shape (size(supports))
-        real(wp), intent(in) :: from(0:), from_force(:)
-        type(answer_type), intent(in) :: to(0:)
-        real(wp), intent(in) :: to_force(:)
-        real(wp) :: t
-        type(bracket_type) :: bracket
-        real(wp) :: first, slope
-        integer :: number
+        !> Deflections and reactions of the other state
+        real(wp), intent(in) :: deflection(0:), reaction(:)
+        !> Go all the way, whatever the energy
+        logical, intent(in) :: whole
+        !> What share of the way that is
+        real(wp), intent(out) :: way
+
+        line%step(:) = deflection - line%deflection
+        line%change(:) = reaction - line%reaction
+        way = 1.0_wp
+        if (.not. whole) way = way_to_least_energy(line, supports)
+        if (way < 1.0_wp) then
+            line%deflection(:) = line%deflection + way*line%step
+            line%reaction(:) = line%reaction + way*line%change
+        else
+            line%deflection(:) = deflection
+            line%reaction(:) = reaction
+        end if
+    end subroutine go_towards
+
+    !> What share of a line leads to the least energy on it, up to all of it
+    pure function way_to_least_energy(line, supports) result(t)
+        class(line_type), intent(in) :: line
+        type(node_support_type), intent(in) :: supports(:)
+        real(wp) :: t, first, slope, rounding
 
         t = 1.0_wp
-        first = energy_slope(0.0_wp)
-        slope = energy_slope(t)
-        if (slope <= flat_energy*abs(first) .or. .not. first < 0.0_wp) return
-        bracket = bracket_type(0.0_wp, t, first, slope)
-        do number = 1, most_line_steps
-            t = place_inside(bracket)
-            slope = energy_slope(t)
-            if (abs(slope) <= flat_energy*abs(first)) exit
-            call narrow(bracket, t, slope)
-        end do
-
-    contains
-
-        !> Slope of the energy
-        pure function energy_slope(t) result(slope)
-            !> Share of the way
-            real(wp), intent(in) :: t
-            real(wp) :: slope, change
-            integer :: k, last
-
-            slope = 0.0_wp
-            k = 1
-            do while (k <= size(supports))
-                last = last_breakpoint(supports, k)
-                associate (node => supports(k)%node)
-                    change = to(node)%deflection - from(node)
-                    slope = slope + change*(force_at(supports(k:last), from(node) + t*change) &
-                                            - ((1 - t)*sum(from_force(k:last)) + t*sum(to_force(k:last))))
-                end associate
-                k = last + 1
-            end do
-        end function energy_slope
-
+        call find_slope(line, supports, 0.0_wp, first, rounding)
+        call find_slope(line, supports, t, slope, rounding)
+        if (slope <= max(flat_energy*abs(first), rounding) .or. .not. first < 0.0_wp) return
+        t = flat_place(line, supports, bracket_type(0.0_wp, t, first, slope), abs(first))
     end function way_to_least_energy
 
+    !> How far a motion goes until the laws stop it; infinite where nothing does
+    pure function way_to_rest(line, supports, length) result(t)
+        !> The motion is its step; the reactions do not change
+        class(line_type), intent(in) :: line
+        type(node_support_type), intent(in) :: supports(:)
+        !> Of the beam, or its largest deflection
+        real(wp), intent(in) :: length
+        real(wp) :: t, first, rounding
+        type(bracket_type) :: bracket
+
+        call find_slope(line, supports, 0.0_wp, first, rounding)
+        bracket = bracket_type(0.0_wp, first_way*length, first, 0.0_wp)
+        do
+            t = bracket%high
+            if (.not. t <= last_way*length) then
+                t = ieee_value(t, ieee_positive_inf)
+                return
+            end if
+            call find_slope(line, supports, t, bracket%at_high, rounding)
+            if (bracket%at_high > 0.0_wp) exit
+            bracket = bracket_type(t, 8*t, bracket%at_high, 0.0_wp)
+        end do
+        t = flat_place(line, supports, bracket, abs(first))
+    end function way_to_rest
+
+    !> Where the slope has fallen to a small share of what it was
+    pure function flat_place(line, supports, bracket, first) result(t)
+        class(line_type), intent(in) :: line
+        type(node_support_type), intent(in) :: supports(:)
+        !> Around that place, and the absolute slope in the beginning
+        type(bracket_type), value :: bracket
+        real(wp), intent(in) :: first
+        real(wp) :: t, slope, rounding
+        integer :: number
+
+        do number = 1, most_line_steps
+            t = place_inside(bracket)
+            call find_slope(line, supports, t, slope, rounding)
+            if (abs(slope) <= flat_energy*first) return
+            call narrow(bracket, t, slope)
+        end do
+    end function flat_place
+
+    !> Slope of the energy at a place of a line, and what of it may be rounding
+    pure subroutine find_slope(line, supports, t, slope, rounding)
+        class(line_type), intent(in) :: line
+        type(node_support_type), intent(in) :: supports(:)
+        real(wp), intent(in) :: t
+        real(wp), intent(out) :: slope, rounding
+        real(wp) :: force, carried
+        integer :: k, last
+
+        slope = 0.0_wp
+        rounding = 0.0_wp
+        k = 1
+        do while (k <= size(supports))
+            last = last_breakpoint(supports, k)
+            associate (step => line%step(supports(k)%node))
+                force = line%force_at(supports, k, last, line%deflection(supports(k)%node) + t*step)
+                carried = sum(line%reaction(k:last)) + t*sum(line%change(k:last))
+                slope = slope + step*(force - carried)
+                rounding = rounding + 8*epsilon(slope)*abs(step)*(abs(force) + abs(carried))
+            end associate
+            k = last + 1
+        end do
+    end subroutine find_slope
+
     !> Reaction of a support by its law: of a rigid one none, on a vertical piece what it has at its beginning
-    pure function force_at(law, deflection) result(force)
-        !> The support, or all breakpoints of its law
-        type(node_support_type), intent(in) :: law(:)
+    pure function force_at(line, supports, first, last, deflection) result(force)
+        class(line_type), intent(in) :: line
+        type(node_support_type), intent(in) :: supports(:)
+        !> The support, or the breakpoints of its law
+        integer, intent(in) :: first, last
+        !> Of its node
         real(wp), intent(in) :: deflection
         real(wp) :: force, past, slope
         integer :: piece
 
-        piece = pieces_reached(law, deflection)
-        associate (s => law(max(1, piece)))
+        associate (unused => line)
+        end associate
+        piece = pieces_reached(supports(first:last), deflection)
+        associate (s => supports(first - 1 + max(1, piece)))
             past = deflection - s%contact
             if (s%breakpoint == 0) then
                 slope = merge(s%stiffness, 0.0_wp, piece > 0 .or. s%side == both)

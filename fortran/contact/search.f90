@@ -31,7 +31,7 @@ module gapbeam_search
     use gapbeam_evaluation, only: search_type, evaluate_active_set
     use gapbeam_rules, only: keep_worst_pull, keep_local_worst, keep_least_index, mark_type, set_mark, cycled
     use gapbeam_reactions, only: find_shears
-    use gapbeam_law_energy, only: is_convex, way_to_least_energy, states_of_laws
+    use gapbeam_law_energy, only: line_type, new_line, is_convex, go_towards, states_of_laws
     use gapbeam_contact_boundary, only: find_base, move_boundaries
     use gapbeam_subdomain, only: next_stretch, extract_subdomain, least_margin
     use gapbeam_interior_point, only: interior_type, start_interior, step_interior, product_of
@@ -197,25 +197,22 @@ contains
         type(workspace_type), intent(inout) :: work
         type(search_type), intent(inout) :: search
         logical, intent(out) :: settled
-        real(wp), allocatable :: deflection(:), force(:)
-        real(wp) :: t
+        type(line_type) :: line
+        type(error_type), allocatable :: error
+        real(wp) :: way
         integer :: step
 
         settled = .false.
         if (.not. is_convex(beam%supports)) return
-        allocate (deflection(0:size(beam%links)), force(size(closed)))
         closed(:) = search%best
         do step = 0, most_law_steps
             call evaluate_active_set(beam, closed, .true., work, search, settled)
             if (settled .or. search%state /= band_ok) exit
-            t = 1.0_wp
             if (step == 0) then
-                deflection(:) = work%answers%deflection
-                force(:) = work%reaction
+                call new_line(work%answers%deflection, work%reaction, line, error)
+                if (allocated(error)) return
             else
-                t = way_to_least_energy(beam%supports, deflection, force, work%answers, work%reaction)
-                deflection(:) = deflection + t*(work%answers%deflection - deflection)
-                force(:) = force + t*(work%reaction - force)
+                call go_towards(line, beam%supports, work%answers%deflection, work%reaction, .false., way)
             end if
             if (search%wrong_now < search%fewest) then
                 search%fewest = search%wrong_now
@@ -223,7 +220,7 @@ contains
             end if
             ! Rigid supports change as they are wrong
             closed(:) = closed .neqv. search%wrong
-            call states_of_laws(beam%supports, deflection, closed)
+            call states_of_laws(beam%supports, line%deflection, closed)
         end do
         if (search%state == band_mechanism) search%state = band_ok
     end subroutine change_by_energy

@@ -7,21 +7,20 @@
 ! 10 an error with its MESSAGE and nothing else set.
 
 ! Thresholds and limits that Python reads too
-subroutine gbtole(place, endtol, begin, equal, ties, segmts, change)
+subroutine gbtole(place, endtol, begin, equal, segmts, change)
     use gapbeam_tolerances, only: position_tolerance, end_tolerance
     use gapbeam_path_tolerances, only: load_begin, train_equal
-    use gapbeam_limits, only: most_extreme_ties, most_path_segments, changes_at_a_time
+    use gapbeam_limits, only: most_path_segments, changes_at_a_time
     implicit none
     ! POSITION_TOLERANCE, END_TOLERANCE, LOAD_BEGIN, TRAIN_EQUAL
     double precision, intent(out) :: place, endtol, begin, equal
-    ! MOST_EXTREME_TIES, MOST_PATH_SEGMENTS, CHANGES_AT_A_TIME
-    integer, intent(out) :: ties, segmts, change
+    ! MOST_PATH_SEGMENTS, CHANGES_AT_A_TIME
+    integer, intent(out) :: segmts, change
 
     place = position_tolerance
     endtol = end_tolerance
     begin = load_begin
     equal = train_equal
-    ties = most_extreme_ties
     segmts = most_path_segments
     change = changes_at_a_time
 end subroutine gbtole

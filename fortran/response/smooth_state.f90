@@ -15,7 +15,8 @@ module gapbeam_smooth_state
     use gapbeam_input_error, only: named, of_supports
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_smooth_energy, only: line_type, way_to_least_energy, way_to_rest
+    use gapbeam_law_energy, only: new_line, go_towards, way_to_rest
+    use gapbeam_smooth_energy, only: smooth_line_type
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
     use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_solution, only: state_type
@@ -128,23 +129,19 @@ contains
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(place_type), allocatable :: places(:)
-        type(line_type) :: line
+        type(smooth_line_type) :: line
         real(wp) :: way
         integer :: tangents, solves, stat
         logical :: searching, settled
 
-        associate (n => size(assembled%beam%links), m => size(state%reaction))
-            allocate (places(size(numbers)), line%deflection(0:n), line%step(0:n), line%reaction(m), line%change(m), stat=stat)
-        end associate
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        allocate (places(size(numbers)), stat=stat)
+        if (stat /= 0) call no_memory(error)
+        line%assembled => assembled
+        if (.not. allocated(error)) call new_line(state%deflection, state%reaction, line, error)
+        if (allocated(error)) return
         solves = state%solves
         way = 1.0_wp
         searching = .false.
-        line%deflection(:) = state%deflection
-        line%reaction(:) = state%reaction
         do tangents = 0, most_tangents - 1
             ! Where nothing else helps
             if (tangents == tangents_to_search) searching = .true.
@@ -172,27 +169,17 @@ contains
             solves = solves + state%solves
             state%solves = solves
             if (allocated(error)) return
-            way = 1.0_wp
             if (state%status == gapbeam_no_equilibrium .and. .not. state%slides) then
                 if (let_go(assembled, numbers, places, state%motion)) return
                 line%step(:) = state%motion
                 line%change(:) = 0.0_wp
-                way = way_to_rest(assembled, line)
+                way = way_to_rest(line, assembled%beam%supports, max(sum(assembled%pieces%length), maxval(abs(line%deflection))))
                 if (.not. way <= huge(way)) return
                 searching = .true.
                 line%deflection(:) = line%deflection + way*line%step
                 way = 0.0_wp
             else if (state%status == gapbeam_solved) then
-                line%step(:) = state%deflection - line%deflection
-                line%change(:) = state%reaction - line%reaction
-                if (searching) way = way_to_least_energy(assembled, line)
-                if (way < 1.0_wp) then
-                    line%deflection(:) = line%deflection + way*line%step
-                    line%reaction(:) = line%reaction + way*line%change
-                else
-                    line%deflection(:) = state%deflection
-                    line%reaction(:) = state%reaction
-                end if
+                call go_towards(line, assembled%beam%supports, state%deflection, state%reaction, .not. searching, way)
             else
                 exit
             end if

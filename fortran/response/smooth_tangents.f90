@@ -5,7 +5,7 @@ module gapbeam_smooth_tangents
     use gapbeam_laws, only: begins_steep, law_displacement
     use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_smooth_energy, only: line_type
+    use gapbeam_law_energy, only: line_type
     use gapbeam_smooth_laws, only: past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
     implicit none
     private
@@ -41,7 +41,7 @@ contains
         !> Supports of the model with smooth laws
         integer, intent(in) :: numbers(:)
         !> Deflections and reactions at its beginning
-        type(line_type), intent(in) :: line
+        class(line_type), intent(in) :: line
         !> The displacement tells the force, also where a law begins steep
         logical, intent(in) :: by_displacement
         !> What was before stays; one entry each

@@ -10,8 +10,6 @@ LOAD_BEGIN : float
     What acts at this share of the load acts from the beginning.
 TRAIN_EQUAL : float
     Share of the largest value under a train by which ties differ at most.
-MOST_TIES : int
-    As many ties are listed.
 MOST_PATH_SEGMENTS : int
     Segments after which a path through a history is cut off.
 CHANGES_AT_A_TIME : int
@@ -22,5 +20,4 @@ from __future__ import annotations
 
 from . import calls as _engine
 
-(POSITION_TOLERANCE, END_TOLERANCE, LOAD_BEGIN, TRAIN_EQUAL, MOST_TIES, MOST_PATH_SEGMENTS,
- CHANGES_AT_A_TIME) = _engine.gbtole()
+POSITION_TOLERANCE, END_TOLERANCE, LOAD_BEGIN, TRAIN_EQUAL, MOST_PATH_SEGMENTS, CHANGES_AT_A_TIME = _engine.gbtole()
