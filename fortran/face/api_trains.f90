@@ -16,13 +16,13 @@ module gapbeam_api_trains
     use gapbeam_words, only: whole
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: new_track
-    use gapbeam_train_traversal, only: traversal_type, gapbeam_moves_freely => not_unique
+    use gapbeam_train_traversal, only: gapbeam_moves_freely => not_unique
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: train_event_type, find_events
     use gapbeam_train_ties, only: extreme_type
     use gapbeam_train_envelope, only: envelope_type, find_envelope
     use gapbeam_train_curves, only: find_curves
-    use gapbeam_train_runs, only: runs_type, follow_train_on_ground
+    use gapbeam_train_runs, only: follow_train_on_ground
     use gapbeam_train_run_extremes, only: fields_of_runs, supports_of_runs
     use gapbeam_train_lines, only: find_lines
     use gapbeam_smooth_laws, only: smooth_supports

@@ -2,7 +2,7 @@
 module gapbeam_carried_zones
     use gapbeam_kinds, only: wp
     use gapbeam_ground_laws, only: between
-    use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of_piece
+    use gapbeam_ground, only: ground_type, new_zones, resize, steps_of_piece
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_train_on_beam, only: end_of_beam

@@ -7,7 +7,7 @@ module gapbeam_train_problem
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_ground, only: ground_type, grounded_type
-    use gapbeam_ground_start, only: ground_start_type, settle_nearby
+    use gapbeam_ground_start, only: settle_nearby
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin
     use gapbeam_assembled_model, only: assembled_type

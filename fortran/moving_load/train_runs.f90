@@ -5,7 +5,7 @@
 !> seen.
 module gapbeam_train_runs
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_laws, only: law_cubic
     use gapbeam_quantities, only: of_deflection
     use gapbeam_query, only: extremes_of_fields

@@ -1,7 +1,7 @@
 !> States of a beam on the ground, or on smooth laws, under a train at one position after another, each looked for near another one.
 module gapbeam_train_states
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
         gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_laws, only: is_smooth
