@@ -103,6 +103,32 @@ def test_influence_lines_of_two_spans():
     assert shear.values == pytest.approx([-0.25, 0.25], abs=1e-14)
 
 
+def test_influence_lines_of_couples():
+    """A propped cantilever, clamped at the left: x (L - x) (2 L - x)/(2 L**2) against the clock; at a spring a share of it."""
+    places = np.array([0.0, 0.5, 1.0, 2.5, 4.0])
+    clamp = -places * (4.0 - places) * (8.0 - places) / 32.0
+    supports = [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}]
+    trains = [{"axles": [[0.0, 1.0]]}]
+    asked = {"x": 0.0, "position": 2.0, "places": places}
+    made = {"beam": {"spans": [4.0], "EI": 2.0}, "supports": supports, "trains": trains}
+    assert gapbeam.solve(made).trains["train 1"].influence("couple", **asked).values == pytest.approx(clamp, abs=1e-14)
+    # A rotational spring c: the end turns under a unit couple by L/3EI, beside the spring's own 1/c
+    supports[0] = {"node": 0, "rotation": 3.0}
+    shared = clamp * (4.0 / 6.0) / (4.0 / 6.0 + 1.0 / 3.0)
+    train = gapbeam.solve(made).trains["train 1"]
+    assert train.influence("couple", **asked).values == pytest.approx(shared, abs=1e-14)
+    state = gapbeam.solve({**made, "trains": [], "loads": [{"type": "force", "x": 2.5, "F": 1.0}]})
+    assert state.steps[-1].couple[0] == pytest.approx(shared[3], abs=1e-14)
+    # The same on what is followed position by position
+    supports[1] |= {"law": {"type": "tanh", "stiffness": 1e9, "limit": 1e9}}
+    train = gapbeam.solve(made).trains["train 1"]
+    assert train.influence("couple", **asked).values == pytest.approx(shared, abs=1e-8)
+    with pytest.raises(ValueError, match=r"x: the support at x = 4 lets the beam rotate freely; with rotation it has a couple"):
+        train.influence("couple", x=4.0, position=2.0)
+    with pytest.raises(ValueError, match=r"x: there is no support at x = 3"):
+        train.influence("couple", x=3.0, position=2.0)
+
+
 def test_largest_moments_of_simple_beams():
     # Two equal forces at a distance d: P L/2 (1 - d/2L)**2, under either of them
     result = gapbeam.solve(simple(10.0, (0.0, 10.0), (2.0, 10.0)))
