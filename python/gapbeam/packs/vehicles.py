@@ -108,20 +108,18 @@ def lm71(*, dynamic: float = 1.0, alpha: float = 1.0, ahead: float = 0.0, behind
     Returns
     -------
     dict
-        A train. Where there is load ahead, its place is that of the front of this load, marked by an axle without force.
+        A train (kN, m), whose place is that of its first axle.
 
     Examples
     --------
-    >>> lm71(ahead=10.0)["axles"][:2], lm71(behind=20.0)["q"]
-    ([(0.0, 0.0), (10.8, 250.0)], [(5.6, 25.6, 80.0)])
+    >>> lm71()["axles"][1], lm71(ahead=10.0, behind=20.0)["q"]
+    ((1.6, 250.0), [(-10.8, -0.8, 80.0), (5.6, 25.6, 80.0)])
     """
     check_above_zero("lm71", dynamic=dynamic, alpha=alpha)
     check_not_negative("lm71", ahead=ahead, behind=behind)
-    first = ahead + 0.8 if ahead else 0.0
-    axles = [(0.0, 0.0)] if ahead else []
-    axles += [(first + 1.6 * k, 250.0 * alpha) for k in range(4)]
-    q = [(0.0, ahead, 80.0 * alpha)] if ahead else []
-    q += [(first + 5.6, first + 5.6 + behind, 80.0 * alpha)] if behind else []
+    axles = [(place, 250.0 * alpha) for place in (0.0, 1.6, 3.2, 4.8)]
+    stretches = ((-0.8 - ahead, -0.8), (5.6, 5.6 + behind))
+    q = [(first, last, 80.0 * alpha) for first, last in stretches if last > first]
     train: dict[str, Any] = {"name": "LM71", "axles": axles, "factor": dynamic}
     return train | {"q": q} if q else train
 
