@@ -91,7 +91,7 @@ def test_crane_runway(tmp_path, monkeypatch, capsys):
     assert f"C0 lifts off by {1e3 * first.opening:.2f} mm, crane 1 at {first.position:.2f} m" in out
     most = result.envelope().extremes["moment"]["max"]
     both = {most.position - d: F for d, F in ((0.0, 180.0), (3.6, 180.0), (5.5, 120.0), (8.7, 120.0))}
-    state = result.trains["both cranes"].state(most.position)
+    state = result.trains["both"].state(most.position)
     _, reactions = by_displacements(list(seats), 2.1e5, 3.0, both, held(state.state, seats, 1e11))
     moment = sum(R * (most.x - x) for x, R in reactions.items() if x < most.x) - 1.5 * most.x**2
     moment -= sum(F * (most.x - x) for x, F in both.items() if x < most.x)

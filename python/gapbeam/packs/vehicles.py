@@ -263,7 +263,7 @@ def crane_pair(
     Returns
     -------
     list of dict
-        The trains ``crane 1``, ``crane 2`` and ``both cranes``, which stay on the runway.
+        The trains ``crane 1``, ``crane 2`` and ``both``, which stay on the runway.
 
     Raises
     ------
@@ -284,7 +284,7 @@ def crane_pair(
     names = "crane 1", "crane 2"
     wheels = zip(names, (first, second), strict=True)
     alone: list[dict[str, Any]] = [{"name": n, "axles": list(axles), "factor": dynamic, "inside": True} for n, axles in wheels]
-    return [*alone, {"name": "both cranes", "together": list(zip(names, (0.0, distance), strict=True)), "inside": True}]
+    return [*alone, {"name": "both", "together": list(zip(names, (0.0, distance), strict=True)), "inside": True}]
 
 
 def hoisting_factor(speed: float, hoisting_class: str = "HC2") -> float:

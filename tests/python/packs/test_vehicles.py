@@ -101,10 +101,10 @@ def test_hoisting_factor(speed, kind, factor):
 def test_crane_pair(span):
     first, second = [(0.0, 180.0), (3.6, 180.0)], [(0.0, 120.0), (3.2, 120.0)]
     trains = packs.crane_pair(first, second, 5.5, dynamic=1.2)
-    assert [train["name"] for train in trains] == ["crane 1", "crane 2", "both cranes"]
+    assert [train["name"] for train in trains] == ["crane 1", "crane 2", "both"]
     for train, force, base in zip(trains, (180.0, 120.0), (3.6, 3.2), strict=False):
         assert largest([train], span) == pytest.approx(1.2 * force / (2.0 * span) * (span - base / 2.0) ** 2, rel=1e-12)
-    both = solved(trains, span).trains["both cranes"]
+    both = solved(trains, span).trains["both"]
     x = [8.7, 8.7 - 3.6, 8.7 - 5.5, 8.7 - 8.7]
     reaction = 1.2 * sum(P * (1.0 - place / span) for P, place in zip((180.0, 180.0, 120.0, 120.0), x, strict=True))
     assert float(both.state(8.7).reaction[0]) == pytest.approx(reaction, rel=1e-12)
