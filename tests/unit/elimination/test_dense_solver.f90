@@ -47,8 +47,10 @@ contains
         matrix(:, :) = 0.0_wp
         do i = 1, n
             matrix(i, i) = 2.0_wp
-            if (i < n) matrix(i, i + 1) = -1.0_wp
-            if (i > 1) matrix(i, i - 1) = -1.0_wp
+        end do
+        do i = 1, n - 1
+            matrix(i, i + 1) = -1.0_wp
+            matrix(i + 1, i) = -1.0_wp
         end do
         kept(:, :) = matrix
         call symmetric_eigenvalues(matrix, values, solved)
