@@ -138,14 +138,15 @@ contains
 
         solutions%closed(:, i) = 0
         if (solutions%status(i) == gapbeam_solved) then
-            associate (units => assembled%units, a => work%answers, to => solutions)
+            ! gfortran 16 takes a pointer of an associated name for one that may be strided.
+            associate (units => assembled%units, a => work%answers)
                 fits = .true.
-                call give(a%deflection, units%deflection, to%w)
-                call give(a%moment_left, moment_unit(units), to%ml)
-                call give(a%moment_right, moment_unit(units), to%mr)
-                call give(work%reaction, units%force, to%reaction)
+                call give(a%deflection, units%deflection, solutions%w)
+                call give(a%moment_left, moment_unit(units), solutions%ml)
+                call give(a%moment_right, moment_unit(units), solutions%mr)
+                call give(work%reaction, units%force, solutions%reaction)
                 if (fits) then
-                    to%closed(:size(acting), i) = merge(1, 0, acting)
+                    solutions%closed(:size(acting), i) = merge(1, 0, acting)
                     return
                 end if
             end associate
