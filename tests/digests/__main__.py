@@ -1,7 +1,7 @@
 """The digests: is every number of this tree that of another commit, to the last bit?
 
     python tests/digests                        # this tree beside the commit before
-    python tests/digests --beside v0.4.0 --count 20000
+    python tests/digests --beside main --count 20000
     python tests/digests --within 1e-12        # the numbers themselves, to a share of the largest of their kind in a scene
 
 Both are built on this machine, and solve the same scenes through Python, C and Fortran 77; sha256 of what comes out is
