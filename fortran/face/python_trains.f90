@@ -163,14 +163,14 @@ subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, v
     integer(8), intent(in) :: beam, train
     ! One more than there are supports of the engine and of the scene; places of the force
     integer, intent(in) :: ns, nm, nx
-    ! Quantities of bending (fortran/beam/quantities.f90), and one more
+    ! Quantities of bending (fortran/beam/quantities.f90), and two more
     integer, intent(in) :: nb
-    ! Scheme: 1 closed, 0 open; 1 for the supports of the scene whose reactions are meant
+    ! Scheme: 1 closed, 0 open; 1 for the supports of the scene whose reactions and couples are meant
     integer, intent(in) :: closed(ns), chosen(nm)
     ! The place: piece (from 1) and distance from its left end; places of the unit force
     integer, intent(in) :: piece
     double precision, intent(in) :: dist, x(nx)
-    ! The quantities at the place, sum of the reactions
+    ! The quantities at the place, sums of the reactions and of the couples
     double precision, intent(out) :: value(nb, nx)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message

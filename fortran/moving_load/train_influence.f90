@@ -10,7 +10,7 @@ module gapbeam_train_influence
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
     use gapbeam_fields, only: bending_values
-    use gapbeam_quantities, only: bending_count, bending, of_shear
+    use gapbeam_quantities, only: bending_count, bending, of_moment, of_shear
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: train_type, track_type
@@ -37,8 +37,8 @@ contains
         real(wp), intent(in) :: distance
         !> Places of the force, shape (n)
         real(wp), intent(in) :: places(:)
-        !> The quantities of bending (gapbeam_quantities) at the place, and the sum of the reactions of the supports, in the user's
-        !> units, shape (bending_count + 1, n)
+        !> The quantities of bending (gapbeam_quantities) at the place, and the sums of the reactions (up) and of the couples
+        !> (clockwise) of the supports, in the user's units, shape (bending_count + 2, n)
         real(wp), intent(out) :: value(:, :)
         !> No unique state, or no memory
         type(error_type), allocatable, intent(out) :: error
@@ -101,11 +101,18 @@ contains
             call cell_ends(bare, cells, cells%cells(c), places(k), left, right)
             at = fields_in_cell(cells%starts(c), scale(max(0.0_wp, track%x(piece - 1) + distance - left), -track%length_unit), &
                                 cells%pieces(c), cells%loads(c))
-            value(:, k) = [scale(bending_values(at, cells%pieces(c), cells%loads(c)%kappa), powers), 0.0_wp]
-            associate (sum_of_reactions => value(bending_count + 1, k))
+            value(:, k) = [scale(bending_values(at, cells%pieces(c), cells%loads(c)%kappa), powers), 0.0_wp, 0.0_wp]
+            associate (sum_of_reactions => value(bending_count + 1, k), sum_of_couples => value(bending_count + 2, k))
                 do j = 1, size(closed)
                     if (.not. support(assembled%normal(j))) cycle
                     sum_of_reactions = sum_of_reactions + scale(work%reaction(j), powers(of_shear))
+                end do
+                do j = 1, size(support)
+                    if (.not. (support(j) .and. assembled%couple_share(j) > 0.0_wp)) cycle
+                    associate (node => work%answers(assembled%node_of_point(assembled%support_point(j))))
+                        sum_of_couples = sum_of_couples + scale((node%moment_right - node%moment_left)*assembled%couple_share(j), &
+                                                                powers(of_moment))
+                    end associate
                 end do
             end associate
         end do

@@ -158,7 +158,7 @@ class Traversal:
         closed : numpy.ndarray of int
             The scheme.
         supports : numpy.ndarray of bool
-            Supports of the scene whose reactions are meant.
+            Supports of the scene whose reactions and couples are meant.
         piece, distance
             A place of the beam, as for `Solution.values`.
         places : numpy.ndarray
@@ -167,7 +167,7 @@ class Traversal:
         Returns
         -------
         numpy.ndarray
-            `BENDING` at the place, and sum of the reactions, by places.
+            `BENDING` at the place, and sums of the reactions and of the couples, by places.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class Traversal:
             The state is not unique.
         """
         values, status, message = _engine.gbtinf(
-            self.beam.handle, self._handle, len(BENDING) + 1, np.append(closed, 0).astype(np.int32),
+            self.beam.handle, self._handle, len(BENDING) + 2, np.append(closed, 0).astype(np.int32),
             np.append(supports, False).astype(np.int32),
             piece, distance, places,
         )  # fmt: skip

@@ -29,6 +29,8 @@ NOT_GIVEN = -np.finfo(float).max
 SIDES = {"both": 0, "below": 1, "above": -1}
 DIRECTIONS = {"normal": 0, "axial": 1}
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
+ROTATION = 4
+"""Row of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE = 1, 2, 3, 4, 5
 KINDS = {
@@ -121,7 +123,7 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
-    found[4, :-1] = _rotations(items)
+    found[ROTATION, :-1] = _rotations(items)
     unloading = _column(items, "unloading")
     elastic = unloading == "elastic" if isinstance(unloading, str) else isinstance(unloading, list) and (
         unloading.count("elastic") == len(unloading)

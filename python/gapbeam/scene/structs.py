@@ -198,10 +198,10 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
         Instead of axles: trains that go together with this one's position, each by its name with the distance (length) of its
         first axle behind that position. They bring their axles, factor and q, and alone they act as well.
     from_ : float, optional
-        First position (length, from the left end of the beam); default: where the first axle enters the beam.
+        First position (length, from the left end of the beam); default: where the first load enters the beam.
         In Python the name is ``from_``.
     to : float, optional
-        Last position (length); default: where the last axle leaves the beam.
+        Last position (length); default: where the last load leaves the beam.
     case : str
         Name of the case that it belongs to; default live.
     factor : float
@@ -212,7 +212,7 @@ class Train(Table, forbid_unknown_fields=True, kw_only=True):
         Only positions where the whole train is on the beam; default false.
     q : float or list of (float, float, float)
         Uniform load over the length of the train (force/length), positive downward; or uniform loads, each from one distance
-        behind the first axle to another (length, length, force/length).
+        behind the first axle to another, negative ahead of it (length, length, force/length).
     """
 
     name: str = ""

@@ -101,9 +101,8 @@ def _check_uniform(train: Train, place: str) -> None:
             raise SceneError(place, f"{problem}; give [[from, to, load]], or leave q out")
         return
     for k, (first, last, q) in enumerate(train.q):
-        _check_distance(f"{place}[{k}][0]", first)
-        _check_distance(f"{place}[{k}][1]", last)
-        _check_finite(f"{place}[{k}][2]", q)
+        for i, value in enumerate((first, last, q)):
+            _check_finite(f"{place}[{k}][{i}]", value)
         if not first < last:
             problem = f"the distances from {number(first)} to {number(last)} are no stretch; give (from, to, load), from below to"
             raise SceneError(f"{place}[{k}]", problem)
@@ -165,9 +164,10 @@ def _longest(train: Train) -> float:
     return max(distance for distance, _ in train.axles)
 
 
-def _length(train: Train) -> float:
-    """Largest distance of an axle, or of the end of a uniform load, behind the first axle."""
-    return max(_longest(train), *(last for _, last, _ in _uniform(train)), 0.0)
+def _ends(train: Train) -> tuple[float, float]:
+    """Give how far a train reaches ahead of its first axle, and how far behind it, both 0 or more."""
+    loads = _uniform(train)
+    return max([0.0, *(-first for first, _, _ in loads)]), max([_longest(train), *(last for _, last, _ in loads)])
 
 
 def train_name(scene: Scene, i: int) -> str:
@@ -234,10 +234,12 @@ def fitted(train: Train, end: float) -> Train:
     Train
         Any other one as it is.
     """
-    if not end < _length(train) <= end * (1.0 + END_TOLERANCE):
+    ahead, behind = _ends(train)
+    if not end < ahead + behind <= end * (1.0 + END_TOLERANCE):
         return train
-    axles = [(min(distance, end), force) for distance, force in train.axles]
-    q = [(min(first, end), min(last, end), q) for first, last, q in train.q] if isinstance(train.q, list) else train.q
+    most = max(end - ahead, 0.0)
+    axles = [(min(distance, most), force) for distance, force in train.axles]
+    q = [(min(first, most), min(last, most), q) for first, last, q in train.q] if isinstance(train.q, list) else train.q
     return replace(train, axles=axles, q=q)
 
 
@@ -288,13 +290,13 @@ def at_ends(position: float, train: Train, direction: str, end: float, tolerance
 def _range(train: Train, direction: str, end: float, place: str) -> tuple[float, float]:
     """First and last position of a train, in ascending order."""
     train = fitted(train, end)
-    longest = _length(train)
+    ahead, behind = _ends(train)
     if direction == RIGHT:
-        low, high = (longest, end) if train.inside else (0.0, end + longest)
+        low, high = (behind, end - ahead) if train.inside else (-ahead, end + behind)
     else:
-        low, high = (0.0, end - longest) if train.inside else (-longest, end)
+        low, high = (ahead, end - behind) if train.inside else (-behind, end + ahead)
     if low > high:
-        problem = f"the train has a length of {number(longest)} and is nowhere inside the beam, which is {number(end)} long"
+        problem = f"the train has a length of {number(ahead + behind)} and is nowhere inside the beam, which is {number(end)} long"
         raise SceneError(f"{place}.inside", f"{problem}; leave inside out")
     first = low if train.from_ is None else at_ends(train.from_, train, direction, end)
     last = high if train.to is None else at_ends(train.to, train, direction, end)

@@ -69,7 +69,7 @@ contains
         type(envelope_type) :: envelope
         type(train_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
-        real(wp) :: value(2, bending_count, 1), position(2, bending_count, 1), line(bending_count + 1, 2)
+        real(wp) :: value(2, bending_count, 1), position(2, bending_count, 1), line(bending_count + 2, 2)
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
         train = axles([0.0_wp], [8.0_wp])

@@ -37,6 +37,9 @@ from ..state.smooth import SmoothLaws
 if TYPE_CHECKING:
     from .trains import TrainState
 
+AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
+"""Rows of `Solution.at_supports`."""
+
 
 def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str) -> np.ndarray:
     """Give an influence line.
@@ -46,11 +49,11 @@ def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, p
     state : TrainState
         What acts.
     what : str
-        A field of the engine, or ``reaction``.
+        A field of the engine, ``reaction`` or ``couple``.
     x : float
         Place on the beam.
     chosen : numpy.ndarray of bool
-        The supports whose reactions are meant.
+        The supports whose reactions or couples are meant.
     places : numpy.ndarray
         Where the unit force is.
     side : {"right", "left"}
@@ -76,8 +79,8 @@ def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, p
         solution = beam.solve(1.0, "block", np.ones(beam.supports, dtype=np.int32))
         if solution.status != SOLVED:
             raise ValueError(f"position: what acts there does not hold the beam against a small force at x = {place:g}")
-        if what == "reaction":
-            values.append(float(solution.at_supports[0, chosen].sum()))
+        if what in AT_SUPPORTS:
+            values.append(float(solution.at_supports[AT_SUPPORTS.index(what), chosen].sum()))
             continue
         piece, distance = beam.find(np.array([x]), side == "left")
         fields = solution.values(piece, distance)

@@ -30,7 +30,7 @@ from ...base.hints import no_such
 from ...base.records import Record
 from ...engine.beam import GIVEN, Beam
 from ...engine.tolerances import POSITION_TOLERANCE
-from ...scene.columns import columns, curves
+from ...scene.columns import ROTATION, columns, curves
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ...scene.wording import choice, shown
 from ..state.arguments import finite
@@ -243,10 +243,10 @@ class TrainResult(TrainVerbs):
 
         Parameters
         ----------
-        what : {"reaction", "moment", "shear", "rotation", "deflection", "pressure"}
-            What it is of; pressure on foundations only.
+        what : {"reaction", "couple", "moment", "shear", "rotation", "deflection", "pressure"}
+            What it is of: couple on the beam from the supports at x, clockwise; pressure on foundations only.
         x : float
-            Place on the beam; for a reaction that of the support.
+            Place on the beam; for a reaction or couple that of the support.
         position, direction
             Of the train.
         places : array_like, optional
@@ -264,16 +264,18 @@ class TrainResult(TrainVerbs):
         ValueError
             A place outside the beam, no support there, no equilibrium at that position, or ground whose law is a curve.
         """
-        beam, traversal = self._result._beam, self._traversal(direction)
-        if what not in (has_lines := (*fields_of(beam), "reaction")):
+        beam, traversal, of_supports = self._result._beam, self._traversal(direction), ("reaction", "couple")
+        if what not in (has_lines := (*fields_of(beam), *of_supports)):
             raise ValueError(f"what: expected {choice(shown(name) for name in has_lines)}, got {shown(what)}")
         state = self.state(position, direction)
         x = float(places_given(beam, [finite("x", x)])[0])
         places = places_along(beam) if places is None else places_given(beam, places, "places")
         at = self._result.scene.positions(self._result.scene.supports)
         chosen = (np.abs(at - x) <= traversal.near) & beam.across
-        if what == "reaction" and not chosen.any():
+        if what in of_supports and not chosen.any():
             raise ValueError(f"x: there is no support at x = {x:g}")
+        if what == "couple" and not beam.columns.support[ROTATION, :-1][chosen].any():
+            raise ValueError(f"x: the support at x = {x:g} lets the beam rotate freely; with rotation it has a couple")
         return Influence(places, traversal.influence(state, what, x, chosen, places, side))
 
     def _traversal(self, direction: str) -> ExactTraversal | SampledTraversal:

@@ -124,12 +124,12 @@ class ExactTraversal:
         ----------
         state : TrainState
             That of the position.
-        what : {"deflection", "rotation", "moment", "shear", "reaction"}
+        what : {"deflection", "rotation", "moment", "shear", "reaction", "couple"}
             What it is of.
         x : float
             Place on the beam.
         chosen : numpy.ndarray of bool
-            The supports whose reactions are meant.
+            The supports whose reactions or couples are meant.
         places : numpy.ndarray
             Where the unit force is.
         side : {"right", "left"}
@@ -142,7 +142,7 @@ class ExactTraversal:
         """
         piece, distance = self.engine.beam.find(np.array([x]), side == "left")
         values = self.engine.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
-        return values[(*BENDING, "reaction").index(what)]
+        return values[(*BENDING, "reaction", "couple").index(what)]
 
     def members(self, train: TrainResult, combination: str | None) -> list[Passing]:
         """Give what an envelope is made of.

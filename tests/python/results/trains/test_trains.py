@@ -66,7 +66,7 @@ def random_scene(rng):
         q = float(rng.uniform(0.5, 4))
         train |= {"q": q if distances[-1] else [[0.0, 1.0, q]], "factor": 1.25}
     if rng.random() < 0.3:
-        train["q"] = [[0.0, 1.0, float(rng.uniform(0.5, 4))], [float(rng.choice([0.5, 1.0, 1.7])), 3.0, float(rng.uniform(-1, 4))]]
+        train["q"] = [[-0.7, 1.0, float(rng.uniform(0.5, 4))], [float(rng.choice([0.5, 1.0, 1.7])), 3.0, float(rng.uniform(-1, 4))]]
     return {**made, "trains": [train]}
 
 
@@ -103,6 +103,32 @@ def test_influence_lines_of_two_spans():
     assert shear.values == pytest.approx([-0.25, 0.25], abs=1e-14)
 
 
+def test_influence_lines_of_couples():
+    """A propped cantilever, clamped at the left: x (L - x) (2 L - x)/(2 L**2) against the clock; at a spring a share of it."""
+    places = np.array([0.0, 0.5, 1.0, 2.5, 4.0])
+    clamp = -places * (4.0 - places) * (8.0 - places) / 32.0
+    supports = [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}]
+    trains = [{"axles": [[0.0, 1.0]]}]
+    asked = {"x": 0.0, "position": 2.0, "places": places}
+    made = {"beam": {"spans": [4.0], "EI": 2.0}, "supports": supports, "trains": trains}
+    assert gapbeam.solve(made).trains["train 1"].influence("couple", **asked).values == pytest.approx(clamp, abs=1e-14)
+    # A rotational spring c: the end turns under a unit couple by L/3EI, beside the spring's own 1/c
+    supports[0] = {"node": 0, "rotation": 3.0}
+    shared = clamp * (4.0 / 6.0) / (4.0 / 6.0 + 1.0 / 3.0)
+    train = gapbeam.solve(made).trains["train 1"]
+    assert train.influence("couple", **asked).values == pytest.approx(shared, abs=1e-14)
+    state = gapbeam.solve({**made, "trains": [], "loads": [{"type": "force", "x": 2.5, "F": 1.0}]})
+    assert state.steps[-1].couple[0] == pytest.approx(shared[3], abs=1e-14)
+    # The same on what is followed position by position
+    supports[1] |= {"law": {"type": "tanh", "stiffness": 1e9, "limit": 1e9}}
+    train = gapbeam.solve(made).trains["train 1"]
+    assert train.influence("couple", **asked).values == pytest.approx(shared, abs=1e-8)
+    with pytest.raises(ValueError, match=r"x: the support at x = 4 lets the beam rotate freely; with rotation it has a couple"):
+        train.influence("couple", x=4.0, position=2.0)
+    with pytest.raises(ValueError, match=r"x: there is no support at x = 3"):
+        train.influence("couple", x=3.0, position=2.0)
+
+
 def test_largest_moments_of_simple_beams():
     # Two equal forces at a distance d: P L/2 (1 - d/2L)**2, under either of them
     result = gapbeam.solve(simple(10.0, (0.0, 10.0), (2.0, 10.0)))
@@ -129,6 +155,43 @@ def test_uniform_loads_between_distances():
     assert (curves.largest["moment"][0], curves.largest_at["moment"][0]) == pytest.approx((16.5, 5.0), rel=1e-12)
     assert train.state(4.0).reaction[0] == pytest.approx(8.625, rel=1e-14)
     assert (train.traversals[0].engine.ends[0, 0], train.traversals[0].engine.ends[-1, 1]) == (0.0, 12.0)
+
+
+@pytest.mark.parametrize("both", [False, True])
+def test_loads_ahead_of_the_first_axle(both):
+    """The same train, seen from its first axle and from its front."""
+    ahead, axles, q = 1.5, ((0.0, 8.0), (1.25, 5.0)), [[-1.5, -0.5, 6.0], [-0.25, 2.0, 3.0]]
+    one = gapbeam.solve(two_spans(trains=[{"axles": axles, "q": q, "both_directions": both}])).trains["train 1"]
+    behind = {"axles": [(ahead + d, force) for d, force in axles], "q": [[ahead + a, ahead + b, q] for a, b, q in q]}
+    other = gapbeam.solve(two_spans(trains=[{**behind, "both_directions": both}])).trains["train 1"]
+    for way, same in zip(one.traversals, other.traversals, strict=True):
+        shift = ahead if way.course.direction == "right" else -ahead
+        assert (way.course.from_ + shift, way.course.to + shift) == (same.course.from_, same.course.to)
+    assert (one.traversals[0].course.from_, one.traversals[0].course.to) == (-1.5, 4.0)
+    assert [event.event for event in one.events] == [event.event for event in other.events] != []
+    found, true = one.envelope(np.linspace(0.0, 2.0, 9)), other.envelope(np.linspace(0.0, 2.0, 9))
+    for name, row in true.extremes.items():
+        for kind, extreme in row.items():
+            assert found.extremes[name][kind].value == pytest.approx(extreme.value, rel=1e-11)
+        assert found.fields.largest[name] == pytest.approx(true.fields.largest[name], rel=1e-11, abs=1e-12)
+
+
+def test_a_load_that_runs_ahead():
+    """Influence lines of a simple beam: the reaction of a load that fills the beam is half of it, an axle behind gives none yet."""
+    train = gapbeam.solve(simple(8.0, (0.0, 5.0), q=[[-20.0, 0.0, 3.0]])).trains["train 1"]
+    assert (train.traversals[0].course.from_, train.traversals[0].course.to) == (-20.0, 8.0)
+    assert train.state(-6.0).reaction == pytest.approx([12.0, 12.0], rel=1e-14)
+    assert train.state(-16.0).reaction == pytest.approx([9.0, 3.0], rel=1e-14)
+    reaction = train.envelope().supports[0]["reaction"]["max"]
+    assert (reaction.value, reaction.position) == pytest.approx((17.0, 0.0), abs=1e-12)
+
+
+def test_inside_with_loads_ahead():
+    made = simple(8.0, (0.0, 5.0), (1.0, 5.0), q=[[-2.0, 3.0, 3.0]], inside=True, both_directions=True)
+    train = gapbeam.solve(made).trains["train 1"]
+    assert [(way.course.from_, way.course.to) for way in train.traversals] == [(3.0, 6.0), (2.0, 5.0)]
+    longer = gapbeam.solve(simple(8.0, (0.0, 5.0), q=[[-2.0, 6.0 * (1.0 + 1e-15), 3.0]], inside=True)).trains["train 1"]
+    assert longer.traversals[0].course.from_ == longer.traversals[0].course.to == 6.0
 
 
 def test_a_plank_tips(tmp_path, capsys):
@@ -281,6 +344,8 @@ def test_outputs():
         ({"together": [["b", 1.0]], "q": 2.0}, r"trains\[0\]\.q: a train made of others has the uniform loads"),
         ({"axles": [[0.0, 1.0]], "q": [[2.0, 1.0, 5.0]]}, r"trains\[0\]\.q\[0\]: the distances from 2 to 1 are no stretch"),
         ({"axles": [[0.0, 1.0]], "q": 5.0}, r"trains\[0\]\.q: 5 acts over the length of the train, which is 0: .* \[\[from, to"),
+        ({"axles": [[0.0, 1.0]], "q": [[float("-inf"), 1.0, 5.0]]}, r"trains\[0\]\.q\[0\]\[0\]: expected a finite .* -inf"),
+        ({"axles": [[0.0, 1.0]], "q": [[-2.0, 1.0, 5.0]], "inside": True}, r"trains\[0\]\.inside: the train has a length of 3"),
         ({"axles": [[0.0, 1.0]], "q": "5"}, r'trains\[0\]\.q: expected a number or a list of lists of three numbers, got "5"'),
         ({"axles": [[0.0, 1.0]], "unfavourable": True}, r"trains\[0\]\.unfavourable: axles only where"),
     ],
@@ -324,7 +389,7 @@ def test_together(seed):
     rng = np.random.default_rng(seed)
     made, other = random_scene(rng), random_scene(rng)["trains"][0]
     if seed % 2:
-        other["q"] = [[0.5, 2.0, 3.0], [1.5, 4.0, float(rng.uniform(-1, 2))]]
+        other["q"] = [[-0.5, 2.0, 3.0], [1.5, 4.0, float(rng.uniform(-1, 2))]]
     (one,), behind, both = made["trains"], float(rng.choice([1.0, 2.5, rng.uniform(0, 4)])), bool(seed % 3)
     made["trains"] = [one, other, {"name": "both", "together": [["train 1", 0.0], ["train 2", behind]], "factor": 1.5,
                                    "both_directions": both}]  # fmt: skip

@@ -132,7 +132,7 @@ SCENES = {
         beam={"spans": [5.0, 7.0], "EI": 200.0, "hinges": [6.0]},
         supports=[{"node": 0}, {"node": 2, "side": "below", "gap": -0.002}],
         foundation=[{"k": 20.0, "side": "below", "to": 9.0}, {"from": 3.0, "law": [[0.05, 2.0], [0.2, 4.0]], "side": "below"}],
-        trains=[{"axles": [[0.0, 6.0]], "q": [[0.0, 2.5, 1.0]], "factor": 1.2, "both_directions": True}],
+        trains=[{"axles": [[0.0, 6.0]], "q": [[-0.5, 2.5, 1.0]], "factor": 1.2, "both_directions": True}],
     ),
     "smooth": rail(
         beam={"spans": [4.0, 4.0, 4.0], "EI": 200.0},
