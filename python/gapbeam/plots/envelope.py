@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.answer import holds_values
+from ..results.cases.limit_states import limit_state_by_name
 from ..results.formatting import stretch
 from ..results.trains.envelope import places_along
 from ..scene.loads import ForceLoad
@@ -77,7 +78,9 @@ def envelope_figure(result: Result) -> Figure:
     envelope = _envelope(result)
     sources = [] if envelope is None else getattr(envelope, "_members", None) or envelope.sources
     names = [source_name(one) for one in sources]
-    key = Key(len(set(names)))
+    limit_states = limit_state_by_name(result) if result.combinations else {}
+    of = {name: limit_states[one.combination] for name, one in zip(names, sources, strict=True) if one.combination in limit_states}
+    key = Key(len(set(names)), of)
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
     drawn = {panel[0]: _governing(envelope.fields, panel[0], names, key) for panel in panels}
     length, states = along(scene), plain_states(scene)

@@ -32,10 +32,13 @@ class Key:
     ----------
     count : int
         Sources that there are: one alone needs no letter.
+    limit_states : dict, optional
+        Limit states by name of the source.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int, limit_states: dict[str, str] | None = None) -> None:
         self.needed = count > 1
+        self._limit_states = limit_states or {}
         self._letters: dict[str, str] = {}
 
     def letter(self, name: str) -> str:
@@ -59,7 +62,10 @@ class Key:
         """Write the key."""
         ends = {name.rpartition(", ")[1:] for name in self._letters}
         alike = "".join(ends.pop()) if len(ends) == 1 and len(self._letters) > 1 else ""  # the same train in all
-        entries = [f"{letter} = {name.removesuffix(alike)}".replace(" ", FIXED) for name, letter in self._letters.items()]
+        of = {name: f" ({visible(one)})" for name, one in self._limit_states.items()}
+        entries = [
+            f"{letter} = {name.removesuffix(alike)}{of.get(name, '')}".replace(" ", FIXED) for name, letter in self._letters.items()
+        ]
         return textwrap.wrap("; ".join(entries), CHARACTERS, break_on_hyphens=False)
 
     def write(self, picture: Figure, lines: list[str], left: float) -> None:

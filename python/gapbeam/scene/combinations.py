@@ -47,6 +47,8 @@ class Plan:
         Factor of every train, combinations by trains.
     idle : tuple of str
         Cases that act in none of them.
+    limit_states : tuple of str
+        The limit state of each, empty where it has none.
     """
 
     scene: Scene
@@ -56,6 +58,7 @@ class Plan:
     scheme_of: tuple[int | None, ...]
     trains: np.ndarray
     idle: tuple[str, ...]
+    limit_states: tuple[str, ...]
 
     def __len__(self) -> int:
         """Count the combinations."""
@@ -186,7 +189,7 @@ def plan_combinations(scene: Scene) -> Plan:
     idle = [case for case in there if case not in acts and not table[:, loads_of[case]].any()]
     return Plan(
         cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), read_only(moving),
-        tuple(idle),
+        tuple(idle), tuple(scene.combinations[i].limit_state for i in origin),
     )
 
 

@@ -246,6 +246,8 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
         Cases that stand for several combinations. signs: with its factor and with that factor negative; spans: its distributed
         loads on every choice of the spans that they reach, none included. Several cases: every pattern of each with every
         pattern of the others.
+    limit_state : str
+        Name of the limit state that it belongs to, such as ULS; default none. Every limit state has an envelope of its own.
     """
 
     name: str
@@ -253,6 +255,7 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     settlements: dict[int | str, float] = {}
     scheme_of: str | None = None
     expand: dict[str, Literal["signs", "spans"]] = {}
+    limit_state: str = ""
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):
