@@ -31,6 +31,7 @@ from .combinations import Combinations
 from .combined_data import combined_data
 from .combined_solver import AtOnce, OneByOne
 from .limit_states import members_of, without_others
+from .parts import place_parts
 
 if TYPE_CHECKING:
     from ..state.step import Step
@@ -82,7 +83,7 @@ class CombinedResult(Result):
         What else is to be known: load cases that act in none of them, schemes that are not decided.
     """
 
-    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
+    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray, remarks: Sequence[str] = ()):
         super().__init__(scene, beam, rule)
         self.names = plan.names
         self._plan = plan
@@ -109,6 +110,7 @@ class CombinedResult(Result):
         self._seconds = perf_counter() - begin
         self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
         self.remarks += self._near
+        self.remarks += remarks
         self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]
         fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
         if fallen:
@@ -368,8 +370,9 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     SceneError
         A combination makes no sense, or moves supports so that they leave no room for each other.
     """
-    plan = plan_combinations(scene)
+    placed, remarks = place_parts(scene, beam, rule)
+    plan = plan_combinations(scene, placed)
     if plan.scene is not scene:
         taken = columns(plan.scene)
         beam = Beam(taken, curves(plan.scene, taken))
-    return CombinedResult(scene, plan, beam, rule, read_only(start))
+    return CombinedResult(scene, plan, beam, rule, read_only(start), remarks)
