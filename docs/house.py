@@ -28,8 +28,8 @@ FORTRAN = {
     "yardsticks": "other methods, compiled for the studies",
 }
 """The folders, each standing on those before it only."""
-PYTHON = ("base", "engine", "scene", "results/views", "results/state", "results/paths", "results/envelopes", "results/trains",
-          "results/cases", "results", "batches", "report", "plots", "html", "show", "studies", "cli")  # fmt: skip
+PYTHON = ("base", "packs", "engine", "scene", "results/views", "results/state", "results/paths", "results/envelopes",
+          "results/trains", "results/cases", "results", "batches", "report", "plots", "html", "show", "studies", "cli")  # fmt: skip
 ROOMS = {f"fortran/{name}": purpose for name, purpose in FORTRAN.items()} | {f"python/gapbeam/{name}": None for name in PYTHON}
 
 

@@ -1,16 +1,15 @@
 """Crane runway: two cranes alone and together, the uplift at every column, and where the cranes are then."""
 
 import gapbeam as gb
+from gapbeam import packs
+
+FIRST, SECOND = [(0.0, 180.0), (3.6, 180.0)], [(0.0, 120.0), (3.2, 120.0)]   # wheels: m behind the first one, kN
 
 runway = gb.Scene(
     title="Crane runway, six bays, two cranes", units=gb.Units("kN", "m"), beam=gb.Beam([7.5] * 6, EI=2.1e5),
     supports=[gb.Support(node=k, name=f"C{k}", side="below") for k in range(7)],
     loads=[gb.UniformLoad(q=3.0, case="dead")],
-    trains=[
-        gb.Train(name="crane 1", axles=[(0.0, 180.0), (3.6, 180.0)], inside=True),
-        gb.Train(name="crane 2", axles=[(0.0, 120.0), (3.2, 120.0)], inside=True),
-        gb.Train(name="both", together=[("crane 1", 0.0), ("crane 2", 5.5)], inside=True),
-    ],
+    trains=[gb.Train(**train) for train in packs.crane_pair(FIRST, SECOND, 5.5)],
 )  # fmt: skip
 
 # What a designer asks

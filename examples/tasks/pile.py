@@ -1,26 +1,15 @@
 """Laterally loaded pile: p-y curves of soft clay by depth (Matlock 1970), deflection of the head and largest moment."""
 
 import gapbeam as gb
-import numpy as np
+from gapbeam import packs
 
-DIAMETER, STRAIN, WEIGHT, J = 0.6, 0.01, 8.0, 0.5   # m, -, kN/m3, -
-Y50 = 2.5 * STRAIN * DIAMETER
-SHARES = np.array([0.0125, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
-
-
-def curve(z: float) -> list[tuple[float, float]]:
-    """Resistance (kN/m) over displacement (m) at a depth."""
-    strength = 20.0 + 2.0 * z
-    most = min(3.0 * strength * DIAMETER + WEIGHT * z * DIAMETER + J * strength * z, 9.0 * strength * DIAMETER)
-    return [(y, p) for y, p in zip(SHARES * Y50, 0.5 * most * np.cbrt(SHARES), strict=True)] + [(0.2, most)]
-
-
-depths = np.arange(0.0, 15.0, 0.5)
-pile = gb.Scene(
-    title="Pile in soft clay", units=gb.Units("kN", "m"), beam=gb.Beam([15.0], EI=1.5e5),
-    foundation=[gb.Foundation(from_=z, to=z + 0.5, law=curve(z + 0.25)) for z in depths],
-    loads=[gb.ForceLoad(x=0.0, F=120.0)],
-)  # fmt: skip
+CLAY = {"law": "matlock_clay", "to": 15.0, "cu": (20.0, 50.0), "gamma": 8.0, "eps50": 0.01}   # m, kN/m2, kN/m3
+pile = gb.read_scene({
+    "title": "Pile in soft clay", "units": {"force": "kN", "length": "m"},
+    "beam": {"spans": [15.0], "EI": 1.5e5, "direction": "down"},
+    "foundation": packs.pile_ground([CLAY], D=0.6),
+    "loads": [{"type": "force", "x": 0.0, "F": 120.0}],
+})  # fmt: skip
 
 # What a designer asks
 result = gb.solve(pile)

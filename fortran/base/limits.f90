@@ -136,7 +136,7 @@ module gapbeam_limits
     !
     ! Precision
     !
-    !> Of more supports near zero than these all are named weakly active; tuned. Read by precision/extended_precision
+    !> Of more supports near zero than these all are named weakly active; tuned. Read by precision/undecided
     integer, parameter :: most_examined = 64
     !> Supports that are flipped before a contact state counts as unknown; tuned. Read by precision/ill_scaled_signs
     integer, parameter :: most_flips = 64

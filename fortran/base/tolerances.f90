@@ -26,7 +26,8 @@ module gapbeam_tolerances
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time. Read by
     !> cases/lane_reactions, cases/lane_shared, cases/segment_finish, contact/contact_state, contact/evaluation, contact/rules,
-    !> continuation/affine_response, moving_load/train_margins, precision/extended_precision, precision/ground_solution
+    !> continuation/affine_response, moving_load/train_margins, precision/extended_precision, precision/ground_solution,
+    !> precision/undecided
     real(wp), parameter :: sign_width = 32.0_wp
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time: half of the
     !> digits of a double. Read by cases/lane_reactions, cases/segment_finish, precision/extended_precision
@@ -237,7 +238,7 @@ module gapbeam_tolerances
     ! Precision
     !
     !> Rounding errors in quadruple precision beyond which a sign counts: some digits more than in doubles are given away, there
-    !> are enough of them. Read by precision/extended_precision, precision/ill_scaled_signs
+    !> are enough of them. Read by precision/ill_scaled_signs, precision/undecided
     real(qp), parameter :: fine_width = 2.0_qp**17
     !> Share of the largest load up to which a reaction that is nothing but rounding is left out: half of the digits of a double.
     !> Read by precision/audit, precision/extended_precision
@@ -258,7 +259,7 @@ module gapbeam_tolerances
     !> twenty. Read by precision/audit, precision/ledger
     real(wp), parameter :: audit_allows = 64.0_wp
     !> Movements and differences in error bounds are taken so many times: they are estimates, hardly ever more than so many times
-    !> too small. Read by precision/certificate, precision/ground_solver
+    !> too small. Read by precision/certificate, precision/undecided, precision/ground_solver
     real(wp), parameter :: movement_safety = 4.0_wp
     !> Error of a certificate's solution in quadruple precision, relative to the sizes of its terms; far more than was seen. Read
     !> by precision/certificate

@@ -15,15 +15,15 @@ module gapbeam_certificate
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
         set_plain_loads => set_loads, apply_scheme
-    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, largest_movement
+    use gapbeam_sensitivity, only: sensitivity_type, prepare_sensitivity, add_forces, largest_movement
     use gapbeam_functionals, only: of_deflections, of_rotations, of_moments, of_shears, of_reactions
     use gapbeam_kinematics_quad, only: held_by_ties
     use gapbeam_refined, only: detail_type, refine_loaded_beam, fine_piece, fine_load
-    use gapbeam_extended_precision, only: find_undecided
+    use gapbeam_undecided, only: find_undecided
     use gapbeam_ledger, only: ledger_type
     use gapbeam_audit, only: audit_beam, audit_residuals
     use gapbeam_element_quad, only: fine_field_type => field_type
-    use gapbeam_model_quad, only: fine_beam_type => beam_type, softest
+    use gapbeam_model_quad, only: fine_beam_type => beam_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_band_quad, only: band_ok
     use gapbeam_system_quad, only: solve_and_refine
@@ -97,15 +97,12 @@ contains
         call find_undecided(fine, real(factor, qp), acting, work, undecided)
         certificate%known = .not. outcome%indifferent
         if (certificate%known) certificate%known = .not. held_by_ties(fine, acting, undecided)
-        call find_movements(beam, factor, closed, real(work%proximal_weight, wp), deflection, moment_left, moment_right, &
-                            length_error, moves, inside)
+        call find_movements(beam, factor, closed, work, deflection, moment_left, moment_right, length_error, moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)
             moment_size = work%shear_size*maxval(fine%links%length)
             certificate%of_nodes = difference(a%deflection, deflection, work%deflection_size) &
                 + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections)
-            if (any(abs(deflection) > 0.0_wp)) certificate%of_nodes = certificate%of_nodes &
-                + real(fine_error*maxval(work%shear_size)/softest(fine), wp)
             if (size(reaction) > 0) certificate%reaction = difference(work%reaction, reaction, work%shear_size) &
                 + epsilon(1.0_wp)*maxval(abs(reaction)) + moves(of_reactions)
             certificate%deflection = max(certificate%deflection + inside, certificate%of_nodes)
@@ -152,14 +149,13 @@ contains
         certificate%complementarity = residuals(3)
     end subroutine measure_residuals
 
-    !> By how much results move when the data change in their last digits
-    subroutine find_movements(beam, factor, closed, proximal_weight, deflection, moment_left, moment_right, length_error, moves, &
-                              inside)
+    !> By how much results move when the data change in their last digits, and the forces by what quadruple precision rounds
+    subroutine find_movements(beam, factor, closed, fine_work, deflection, moment_left, moment_right, length_error, moves, inside)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
-        !> Weak springs of a beam that is free to move, shape (0:n)
-        real(wp), intent(in) :: proximal_weight(0:)
+        !> Solved in quadruple precision
+        type(fine_workspace_type), intent(in) :: fine_work
         real(wp), intent(in) :: deflection(0:), moment_left(0:), moment_right(0:)
         !> As for certify
         real(wp), intent(in) :: length_error(:)
@@ -174,7 +170,7 @@ contains
         moves(:) = 0.0_wp
         inside = 0.0_wp
         call new_plain_workspace(beam, work)
-        work%proximal_weight(:) = proximal_weight
+        work%proximal_weight(:) = real(fine_work%proximal_weight, wp)
         work%reference(:) = deflection
         call set_plain_loads(beam, factor, work)
         call apply_scheme(beam, closed, [0, size(beam%links)], work)
@@ -184,6 +180,7 @@ contains
         call prepare_sensitivity(beam, factor, work, sensitivity)
         if (.not. sensitivity%known) return
         call add_lengths(beam, factor, length_error, work, sensitivity, of_shear, of_reaction)
+        if (any(abs(deflection) > 0.0_wp)) call add_forces(work, real(fine_error*maxval(fine_work%shear_size), wp), sensitivity)
         do kind = 1, size(moves)
             call largest_movement(beam, sensitivity, kind, work, moves(kind))
         end do

@@ -3,13 +3,10 @@
 !> The search in double precision tells signs from rounding by the sizes of the terms behind them. Where a sign is within
 !> its rounding error, where the search does not end, or where a motion is free by a hair only, the same engine,
 !> compiled in quadruple precision, searches again, from the numbers of the pieces rather than from links rounded to
-!> doubles, and its solution, rounded once, is the result. What is zero even there, but for what the last digits of the
-!> data move (gapbeam_sensitivity), is a tie: then either state is right, and the support is named (undecided).
+!> doubles, and its solution, rounded once, is the result.
 module gapbeam_extended_precision
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_limits, only: most_examined
-    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction, fine_width, most_left_out, most_hidden, &
-        given_leeway
+    use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction, most_left_out, most_hidden, given_leeway
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
         gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
@@ -23,21 +20,21 @@ module gapbeam_extended_precision
     use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_kinematics, only: held_by_ties
     use gapbeam_kinematics_quad, only: fine_held_by_ties => held_by_ties
-    use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type, softest
+    use gapbeam_model_quad, only: fine_beam_type => beam_type, fine_support_type => node_support_type
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
-    use gapbeam_law_margins_quad, only: is_watched_in, find_margins
-    use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, movement_of_support
+    use gapbeam_law_margins_quad, only: is_watched_in
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
     use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, &
         fine_outcome_type => outcome_type
     use gapbeam_ill_scaled_signs, only: flip_ill_scaled
     use gapbeam_refined, only: detail_type, refine_loaded_beam
+    use gapbeam_undecided, only: find_undecided
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_beam
     implicit none
     private
-    public :: decide_scheme, rule_given, rule_extended, find_undecided, detail_type, reserve_for
+    public :: decide_scheme, rule_given, rule_extended, detail_type, reserve_for
 
     !> Beside the rules of gapbeam_search: the scheme is known; its lines are followed beyond where it holds, as tangents are, and
     !> signs say nothing
@@ -342,46 +339,5 @@ contains
         ended = allocated(error)
         if (ended) ended = error%code == gapbeam_indeterminate
     end function statics_cannot_tell
-
-    !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits. A reaction that
-    !> is nothing but rounding is none
-    subroutine find_undecided(fine, factor, closed, work, undecided)
-        type(fine_beam_type), intent(in) :: fine
-        real(qp), intent(in) :: factor
-        logical, intent(in) :: closed(:)
-        type(fine_workspace_type), intent(inout) :: work
-        logical, intent(out) :: undecided(:)
-        type(sensitivity_type) :: sensitivity
-        real(qp), allocatable :: margin(:), rounding(:)
-        real(qp) :: movement, least_way, least_force
-        integer :: k
-
-        allocate (margin(size(closed)), rounding(size(closed)))
-        call find_margins(fine%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
-                          margin, rounding)
-        ! Rounding of the loads alone moves the beam so far: what has no flexibility shows nothing of it
-        least_way = epsilon(1.0_qp)*maxval(work%shear_size)/softest(fine)
-        do k = 1, size(closed)
-            undecided(k) = .false.
-            if (.not. is_watched_in(fine%supports, closed, k)) cycle
-            if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) rounding(k) = max(rounding(k), least_way/fine_width)
-            ! What is held stiffly beside a soft spring may move it by rounding
-            least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
-            if (closed(k)) rounding(k) = max(rounding(k), least_force)
-            undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
-            ! At a breakpoint of a law the margin may be zero, and the reaction is not
-            if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) then
-                work%reaction(k) = 0.0_qp
-            end if
-        end do
-        if (.not. any(undecided) .or. count(undecided) > most_examined) return
-        call prepare_sensitivity(fine, factor, work, sensitivity)
-        if (.not. sensitivity%known) return
-        do k = 1, size(closed)
-            if (.not. undecided(k)) cycle
-            call movement_of_support(fine, sensitivity, closed, k, work, movement)
-            undecided(k) = abs(margin(k)) <= max(movement, fine_width*rounding(k))
-        end do
-    end subroutine find_undecided
 
 end module gapbeam_extended_precision

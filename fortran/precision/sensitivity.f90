@@ -18,7 +18,7 @@ module gapbeam_sensitivity
     use gapbeam_functionals, only: add_functional, functional_of, effects, of_deflections, of_moments, of_shears, of_reactions
     implicit none
     private
-    public :: sensitivity_type, prepare_sensitivity, largest_movement, movement_of_support
+    public :: sensitivity_type, prepare_sensitivity, add_forces, largest_movement, movement_of_support, way_of_forces
 
     !> What it takes to find movements
     type :: sensitivity_type
@@ -147,6 +147,34 @@ contains
         end subroutine add_turn
 
     end subroutine add_couple_sizes
+
+    !> Forces that may be off at every node that gives way
+    pure subroutine add_forces(work, force, sensitivity)
+        type(workspace_type), intent(in) :: work
+        real(wp), intent(in) :: force
+        type(sensitivity_type), intent(inout) :: sensitivity
+
+        where (.not. work%nodes%held) sensitivity%weight(3, :) = sensitivity%weight(3, :) + force
+    end subroutine add_forces
+
+    !> The most that any node moves where forces are off, and nothing else
+    subroutine way_of_forces(beam, sensitivity, force, work, way)
+        !> As for largest_movement
+        type(beam_type), intent(in) :: beam
+        type(sensitivity_type), intent(in) :: sensitivity
+        !> Of every node, in either direction
+        real(wp), intent(in) :: force
+        type(workspace_type), intent(inout) :: work
+        real(wp), intent(out) :: way
+        type(sensitivity_type) :: of_forces
+
+        of_forces%known = sensitivity%known
+        of_forces%pivoting = sensitivity%pivoting
+        allocate (of_forces%weight(4, 0:size(beam%links)))
+        of_forces%weight(:, :) = 0.0_wp
+        call add_forces(work, force, of_forces)
+        call largest_movement(beam, of_forces, of_deflections, work, way)
+    end subroutine way_of_forces
 
     !> The most that any result of a kind moves
     subroutine largest_movement(beam, sensitivity, kind, work, movement)

@@ -39,6 +39,7 @@ from .scene import (
 from .show import display
 
 if TYPE_CHECKING:
+    from . import packs
     from .batches import sample
     from .batches.batch import Batch
     from .batches.function import function
@@ -85,6 +86,7 @@ __all__ = [
     "__version__",
     "batch",
     "function",
+    "packs",
     "prepare",
     "read_scene",
     "replace",
@@ -96,7 +98,7 @@ __all__ = [
 
 LATER = {
     "Batch": "batches.batch", "batch": "batches.run", "function": "batches.function", "sample": "batches.sample",
-    "result_schema": "results.result_schema", "scene_schema": "scene.schema",
+    "packs": "packs", "result_schema": "results.result_schema", "scene_schema": "scene.schema",
 }  # fmt: skip
 """Files of names that are imported when they are asked for."""
 
@@ -130,7 +132,7 @@ def __getattr__(name: str) -> object:
     if name not in LATER:
         raise AttributeError(no_such_name(name))
     module = import_module(f"{__package__}.{LATER[name]}")
-    return module if name == "sample" else getattr(module, name)
+    return module if name in ("packs", "sample") else getattr(module, name)
 
 
 def no_such_name(name: str) -> str:

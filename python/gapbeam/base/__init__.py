@@ -1,1 +1,1 @@
-"""Common base of the package: errors, records of arrays, files, memory."""
+"""Common base: errors, records of arrays, files, memory."""

@@ -21,6 +21,7 @@ from ..base.memory import reserve
 from ..base.progress import shown_progress
 from .batch import add_batch
 from .exits import FAILED, INTERRUPTED, NO_SOLUTION, REFUSED, SOLVED, say
+from .new import add_new
 from .outputs import Outputs, source, until_closed
 from .proofs import add_proofs
 from .studies import add_studies, refuse_moved
@@ -242,6 +243,7 @@ def _parser() -> argparse.ArgumentParser:
     schema.add_argument("--results", action="store_true", help="that of the JSON output instead, for programs that read it")
     schema.set_defaults(command=_schema)
 
+    add_new(commands)
     add_batch(commands)
     add_proofs(commands)
     add_studies(commands)

@@ -117,7 +117,7 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
     text = with_minus_signs(f"load factor {fmt.number(factor)}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
-    doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else kind for kind in SYMBOLS}
+    doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
     return text + (f", contact in {fmt.count(len(joined(contact)), 'zone')}" if contact else "")
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.path import Path
 
+from ..results.event_words import STATES
 from ..results.state.breakpoints import Piece, piece_of, what_happens
 
 if TYPE_CHECKING:
@@ -54,9 +55,9 @@ class Symbol(NamedTuple):
 
 #: In the order of the legend; colours of Okabe and Ito, whose greys differ too
 SYMBOLS = {
-    "closed": Symbol("acts", TRIANGLE, FACES["closed"]),
-    "open": Symbol("no contact", TRIANGLE, FACES["open"], VERMILION, 1.1),
-    "bilateral": Symbol("holds both ways", TRIANGLE, FACES["bilateral"]),
+    "closed": Symbol(STATES["closed"], TRIANGLE, FACES["closed"]),
+    "open": Symbol(STATES["open"], TRIANGLE, FACES["open"], VERMILION, 1.1),
+    "bilateral": Symbol(STATES["bilateral"], TRIANGLE, FACES["bilateral"]),
     "one-sided": Symbol("one-sided", TRIANGLE, FACES["one-sided"]),
     "yields": Symbol("yields", _SQUARE, "#E69F00"),
     "hardens": Symbol("hardens", _PENTAGON, "#56B4E9"),

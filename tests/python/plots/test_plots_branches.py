@@ -124,8 +124,8 @@ def test_supports_with_laws_are_springs():
     springs = [c for c in beam.collections if c.get_label() == "springs"]
     assert sorted(c.get_offsets()[0][0] for c in springs) == [1.0, 1.0]  # above and below: it holds both ways
     assert {c.get_label() for c in beam.collections} >= {"branch 3 below", "branch 3 above"}
-    assert "load factor 1, 2 bilateral, 1 hardening" in words(picture)
-    assert [text.get_text() for text in picture.legends[0].get_texts()] == ["holds both ways", "hardens"]
+    assert "load factor 1, 2 two-way, 1 hardening" in words(picture)
+    assert [text.get_text() for text in picture.legends[0].get_texts()] == ["two-way", "hardens"]
     assert "(limit load)" in words(figure(snap_through("stop")))
 
 

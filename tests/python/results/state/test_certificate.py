@@ -140,6 +140,22 @@ def test_clear_cases_are_not_named():
     assert gapbeam.solve(scene([1.0, 1.0], supports, loads)).steps[-1].undecided == ()
 
 
+LOADS = [uniform(3.0, case="dead"), force(15.0, 40.0), force(3.0, -60.0)]
+
+
+@pytest.mark.parametrize("soft", [{"law": {"type": "tanh", "stiffness": 5e4, "limit": 30.0}}, {"stiffness": 1e-60}])
+def test_a_spring_that_holds_nothing_spoils_no_bound(soft):
+    """A law at its limit has a slope of 1e-65; the beam is held by the other supports, and its bounds are theirs."""
+    one_sided = [at(1, side="below", stiffness=5e4, gap=0.004), at(2, side="below", stiffness=5e4)]
+    supports = [at(0), *one_sided, {"node": 3, **soft}, at(4)]
+    result = gapbeam.solve(scene([6.0] * 4, supports, LOADS, EI=12e3))
+    step = result.steps[-1]
+    assert step.certificate["error_bound"] < 1e-11
+    assert step.undecided == ()
+    assert step.opening[1] > 0.05
+    assert f"{step.deflection[3]:.5g}" in result.report()
+
+
 def test_indifferent_position():
     """A part without load on a hinge can turn freely; the forces elsewhere are unique."""
     made = scene([2.0, 2.0, 1.0], [at(0), at(2)], [force(1.0, 4.0)], hinges=[4.5])

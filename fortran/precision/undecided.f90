@@ -1,0 +1,79 @@
+!> Supports that are neither surely closed nor surely open.
+!>
+!> What is zero in quadruple precision, but for what the last digits of the data move (gapbeam_sensitivity), is a tie: either
+!> state is right then, and the support is named.
+module gapbeam_undecided
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_examined
+    use gapbeam_tolerances, only: sign_width, fine_width, movement_safety
+    use gapbeam_model_quad, only: beam_type, softest
+    use gapbeam_workspace_quad, only: workspace_type
+    use gapbeam_law_margins_quad, only: is_watched_in, find_margins
+    use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, way_of_forces, movement_of_support
+    implicit none
+    private
+    public :: find_undecided
+
+contains
+
+    !> Supports whose reaction or opening is smaller than what it moves when the data change in their last digits. A reaction that
+    !> is nothing but rounding is none
+    subroutine find_undecided(fine, factor, closed, work, undecided)
+        type(beam_type), intent(in) :: fine
+        real(qp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        type(workspace_type), intent(inout) :: work
+        logical, intent(out) :: undecided(:)
+        type(sensitivity_type) :: sensitivity
+        real(qp), allocatable :: margin(:), rounding(:), wide(:)
+        real(qp) :: movement, force, way
+        integer :: k
+
+        allocate (margin(size(closed)), rounding(size(closed)), wide(size(closed)))
+        call find_margins(fine%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
+                          margin, rounding)
+        ! Rounding of the loads alone moves the beam so far: what has no flexibility shows nothing of it
+        force = epsilon(1.0_qp)*maxval(work%shear_size)
+        call compare(force/softest(fine))
+        if (.not. any(undecided)) return
+        call prepare_sensitivity(fine, factor, work, sensitivity)
+        if (.not. sensitivity%known) return
+        if (any(undecided .and. .not. closed)) then
+            ! A spring far softer than the others need not be what holds the beam
+            call way_of_forces(fine, sensitivity, force, work, way)
+            call compare(min(force/softest(fine), movement_safety*way))
+        end if
+        if (count(undecided) > most_examined) return
+        do k = 1, size(closed)
+            if (.not. undecided(k)) cycle
+            call movement_of_support(fine, sensitivity, closed, k, work, movement)
+            undecided(k) = abs(margin(k)) <= max(movement, fine_width*wide(k))
+        end do
+
+    contains
+
+        !> Whose margins are rounding
+        subroutine compare(least_way)
+            !> How far rounding of the loads moves the beam
+            real(qp), intent(in) :: least_way
+            real(qp) :: least_force
+
+            wide(:) = rounding
+            do k = 1, size(closed)
+                undecided(k) = .false.
+                if (.not. is_watched_in(fine%supports, closed, k)) cycle
+                if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) wide(k) = max(wide(k), least_way/fine_width)
+                ! What is held stiffly beside a soft spring may move it by rounding
+                least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
+                if (closed(k)) wide(k) = max(wide(k), least_force)
+                undecided(k) = abs(margin(k)) <= sign_width*wide(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+                ! At a breakpoint of a law the margin may be zero, and the reaction is not
+                if (closed(k) .and. abs(work%reaction(k)) <= fine_width*max(work%reaction_error(k), least_force)) then
+                    work%reaction(k) = 0.0_qp
+                end if
+            end do
+        end subroutine compare
+
+    end subroutine find_undecided
+
+end module gapbeam_undecided

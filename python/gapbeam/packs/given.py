@@ -1,0 +1,68 @@
+"""Numbers given to a pack, checked."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from ..base.errors import SceneError
+
+
+def check_above_zero(place: str, **numbers: float) -> None:
+    """Refuse numbers that are not above 0.
+
+    Parameters
+    ----------
+    place : str
+        Name of the pack.
+    **numbers : float
+        By their names.
+
+    Raises
+    ------
+    SceneError
+        Names the pack, the number and its value.
+    """
+    for name, value in numbers.items():
+        if not (isfinite(value) and value > 0.0):
+            raise SceneError(f"{place}: {name}", f"expected a number above 0, got {value:g}")
+
+
+def check_not_negative(place: str, **numbers: float) -> None:
+    """Refuse numbers below 0.
+
+    Parameters
+    ----------
+    place : str
+        Name of the pack.
+    **numbers : float
+        By their names.
+
+    Raises
+    ------
+    SceneError
+        Names the pack, the number and its value.
+    """
+    for name, value in numbers.items():
+        if not (isfinite(value) and value >= 0.0):
+            raise SceneError(f"{place}: {name}", f"expected 0 or more, got {value:g}")
+
+
+def check_between(place: str, name: str, value: float, least: float, most: float) -> None:
+    """Refuse a number outside a range.
+
+    Parameters
+    ----------
+    place, name : str
+        Of the pack and of the number.
+    value : float
+        What is given.
+    least, most : float
+        Ends of the range, both allowed.
+
+    Raises
+    ------
+    SceneError
+        Names the pack, the number and its value.
+    """
+    if not least <= value <= most:
+        raise SceneError(f"{place}: {name}", f"expected {least:g} to {most:g}, got {value:g}")
