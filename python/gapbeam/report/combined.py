@@ -318,5 +318,8 @@ def _about(combination: object) -> list[str]:
     words += [f"{visible(str(key))} settles {fmt.number(value, 4)}" for key, value in combination.settlements.items()]
     if combination.scheme_of is not None:
         words.append(f"contact state of {visible(combination.scheme_of)}")
-    words += [f"all patterns of {visible(case)} ({rule})" for case, rule in combination.expand.items()]
+    words += [
+        f"{visible(case)} on parts of spans" if rule == "parts" else f"all patterns of {visible(case)} ({rule})"
+        for case, rule in combination.expand.items()
+    ]
     return words

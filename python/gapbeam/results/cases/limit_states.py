@@ -83,12 +83,17 @@ def envelopes_to_tell(result: Result) -> Iterator[tuple[str | None, Envelope | T
         yield None, result.envelope()
 
 
-def limit_state_by_name(result: CombinedResult) -> dict[str, str]:
-    """Give the limit state of every combination that has one, by its name.
+def names_in_pictures(result: CombinedResult) -> dict[str, tuple[str, str]]:
+    """Give what pictures call every combination, and its limit state, by its name.
 
     Parameters
     ----------
     result : CombinedResult
-        Patterns are written out.
+        Patterns are written out; the many placements of loads on parts of spans have one name.
     """
-    return {name: one for name, one in zip(result.names, result._plan.limit_states, strict=True) if one}
+    found = {}
+    for name, i in zip(result.names, result._plan.origin, strict=True):
+        one = result.scene.combinations[i]
+        case = next((case for case, rule in one.expand.items() if rule == "parts"), None)
+        found[name] = name if case is None else f"{one.name} [{case} on parts]", one.limit_state
+    return found

@@ -72,6 +72,15 @@ def test_three_spans_beside_strips():
     assert EXACT in result.remarks[0]
 
 
+def test_a_picture_has_one_name_for_all_placements():
+    made = lanes([at(0), at(1)], [SPAN], [uniform(1.0, case="dead")])
+    made["combinations"] += [{"name": "heavy", "factors": {"dead": 200.0}, "limit_state": "ULS"}]
+    written = "".join(text.get_text() for text in gapbeam.solve(made).plot().texts).replace("\N{NO-BREAK SPACE}", " ")
+    assert "= heavy (ULS)" in written
+    assert "= c [lane on parts]" in written
+    assert "lane max" not in written
+
+
 def drawn(made, seed, count=60):
     """States with the lane load on strips drawn at random."""
     rng, loads = random.Random(seed), [load for load in made["loads"] if load["case"] != "lane"]
