@@ -16,6 +16,10 @@ LM1_TANDEM = {1: 300.0, 2: 200.0, 3: 100.0}
 LM1_UNIFORM = {1: 9.0, 2: 2.5, 3: 2.5}
 """Uniform load (kN/m2) by lane, from the same: "Lane1 - UDL 9x(path width) kN/m", "Lane2 - UDL 2.5x(path width) kN/m", "normally
 applied to 3m wide lanes"."""
+TRACKS = {"standard": (2.16, 0.73, 2.0), "careful": (1.44, 0.82, 1.67)}
+"""Dynamic factors a/(sqrt(length) - 0.2) + b with their most, EN 1991-2, (6.4) and (6.5). Quoted: "phi = 2.16/(sqrt(L_phi) - 0.2) +
+0.73 ... 1.1079 for L_phi = 35 m" (standard maintenance, a program after a bridge report); for L = 15.3 "1.44/(sqrt L - 0.2) + 0.82
+= 1.208" (zanotowane.pl, Steel railway bridge design); "Phi2 (carefully maintained track), Phi3 (standard maintenance)"."""
 HOISTING = {"HC1": (1.05, 0.17), "HC2": (1.10, 0.34), "HC3": (1.15, 0.51), "HC4": (1.20, 0.68)}
 """Least factor and its growth with the hoisting speed (s/m): EN 1991-3, 2.6, table 2.5, the same as FEM 1.001, T.9.3.a. Quoted
 from a program after FEM: "HC1: { beta2: 0.17, phi2Min: 1.05 }, HC2: { beta2: 0.34, phi2Min: 1.1 }, HC3: { beta2: 0.51, phi2Min:
@@ -124,16 +128,15 @@ def lm71(*, dynamic: float = 1.0, alpha: float = 1.0, ahead: float = 0.0, behind
     return train | {"q": q} if q else train
 
 
-def rail_dynamic_factor(length: float) -> float:
-    """Give the dynamic factor of EN 1991-2, 6.4.5.2, for carefully maintained track: 1.44/(sqrt(length) - 0.2) + 0.82.
-
-    It is at least 1 and at most 1.67. Quoted from a worked bridge (zanotowane.pl, Steel railway bridge design): for L = 15.3,
-    "1.44/(sqrt L - 0.2) + 0.82 = 1.208". That for track with standard maintenance was not found, and is left out.
+def rail_dynamic_factor(length: float, track: str = "standard") -> float:
+    """Give the dynamic factor of EN 1991-2, 6.4.5.2, by the maintenance of the track; at least 1, at most as in `TRACKS`.
 
     Parameters
     ----------
     length : float
         Determinant length (m) of table 6.2.
+    track : {"standard", "careful"}
+        Track with standard maintenance, or carefully maintained track.
 
     Returns
     -------
@@ -141,12 +144,15 @@ def rail_dynamic_factor(length: float) -> float:
 
     Examples
     --------
-    >>> round(rail_dynamic_factor(15.3), 3)
-    1.208
+    >>> round(rail_dynamic_factor(35.0), 4), round(rail_dynamic_factor(15.3, "careful"), 3)
+    (1.1079, 1.208)
     """
     check_above_zero("rail_dynamic_factor", length=length)
+    if track not in TRACKS:
+        raise SceneError("rail_dynamic_factor: track", f"expected {' or '.join(map(repr, TRACKS))}, got {track!r}")
+    growth, base, most = TRACKS[track]
     root = sqrt(length) - 0.2
-    return min(max(1.44 / root + 0.82, 1.0), 1.67) if root > 0.0 else 1.67
+    return min(max(growth / root + base, 1.0), most) if root > 0.0 else most
 
 
 def hl93_truck(rear_spacing: float = 4.3, *, dynamic: float = 1.33) -> dict[str, Any]:

@@ -61,12 +61,22 @@ def test_moment_of_lm71_in_the_middle_by_hand(span):
     assert float(traversal.at(span / 2.0, position=position).moment) == pytest.approx(axles + uniform, rel=1e-11)
 
 
-@pytest.mark.parametrize(("length", "factor"), [(15.3, 1.208), (3.24, 1.67), (64.0, 1.44 / 7.8 + 0.82)])
-def test_dynamic_factor_of_railways(length, factor):
-    """The first is printed in a worked bridge (zanotowane.pl, Steel railway bridge design), the second is the most allowed."""
-    assert packs.rail_dynamic_factor(length) == pytest.approx(factor, abs=5e-4 if length == 15.3 else 1e-12)
-    assert packs.rail_dynamic_factor(1e6) == 1.0
-    assert packs.rail_dynamic_factor(0.03) == 1.67
+@pytest.mark.parametrize(
+    ("track", "length", "factor"),
+    [
+        ("standard", 35.0, 1.1079),  # printed in a program after a bridge report (BG40)
+        ("standard", 4.0, 2.16 / 1.8 + 0.73),
+        ("standard", 1.0, 2.0),  # the most
+        ("careful", 15.3, 1.208),  # printed in zanotowane.pl, Steel railway bridge design
+        ("careful", 64.0, 1.44 / 7.8 + 0.82),
+        ("careful", 3.24, 1.67),  # the most
+    ],
+)
+def test_dynamic_factor_of_railways(track, length, factor):
+    printed = {1.1079: 5e-5, 1.208: 5e-4}
+    assert packs.rail_dynamic_factor(length, track) == pytest.approx(factor, abs=printed.get(factor, 1e-12))
+    assert packs.rail_dynamic_factor(1e6, track) == 1.0
+    assert packs.rail_dynamic_factor(0.03, track) == {"standard": 2.0, "careful": 1.67}[track]
 
 
 @pytest.mark.parametrize("span", SPANS)
@@ -117,6 +127,7 @@ def test_crane_pair(span):
         (lambda: packs.lm1_lane((1, 1)), "lm1_lane: lane: there are the lanes 1, 2 and 3, each of them once, got (1, 1)"),
         (lambda: packs.lm1(alpha=-1.0), "lm1: alpha: expected 0 or more, got -1"),
         (lambda: packs.lm71(dynamic=0.0), "lm71: dynamic: expected a number above 0, got 0"),
+        (lambda: packs.rail_dynamic_factor(9.0, "good"), "rail_dynamic_factor: track: expected 'standard' or 'careful', got"),
         (lambda: packs.lm71(ahead=math.inf), "lm71: ahead: expected 0 or more, got inf"),
         (lambda: packs.hl93_truck(4.0), "hl93_truck: rear_spacing: expected 4.3 to 9, got 4"),
         (lambda: packs.hl93_trucks(1), "hl93_trucks: count: expected 2 or more spacings, got 1"),
