@@ -7,6 +7,8 @@ module gapbeam_path_tolerances
     public :: load_begin, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
+    public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
+    public :: longest_beyond, farthest_beyond
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
@@ -53,6 +55,34 @@ module gapbeam_path_tolerances
     !> Breakpoints and ways that differ by less than this share are the same, in quadruple precision: as position_tolerance. Read
     !> by continuation/branch, continuation/branch_state
     real(qp), parameter :: same_breakpoint = 64*epsilon(1.0_qp)
+
+    !
+    ! Paths on smooth laws
+    !
+    !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is.
+    !> Read by continuation/arc_roots, continuation/arc_states
+    real(wp), parameter :: arc_settled = 4*epsilon(1.0_wp)
+    !> The same where changes grow no smaller any more: rounding of the solve with springs. Read by continuation/arc_states
+    real(wp), parameter :: arc_rounding = 1e-13_wp
+    !> The same after many corrections; and share of the largest eigenvalue below which one is rounding; tuned. Read by
+    !> continuation/arc_states
+    real(wp), parameter :: arc_noise = 1e-9_wp
+    !> Relative singular value below which the path branches: the way to the other branch is left out then; tuned. Read by
+    !> continuation/arc_states
+    real(wp), parameter :: dependent_branches = 1e-6_wp
+    !> Distance along an arc at which its direction on one side of a place is looked at first; tuned. Read by
+    !> continuation/arc_states
+    real(wp), parameter :: nearest_beside = 1e-6_wp
+    !> The farthest one, where there is no state nearer; tuned. Read by continuation/arc_states
+    real(wp), parameter :: farthest_beside = 1e-2_wp
+    !> Share of its values nearby up to which a function along an arc is zero where it changes its sign; more: another path has
+    !> been met. Read by continuation/arc_roots
+    real(wp), parameter :: no_zero = 1e-6_wp
+    !> Longest step with which a root is looked for beyond the two states of an arc, and most that the path may leave a line between
+    !> places that are looked at, in sizes of the deflections and the factor; tuned. Read by continuation/arc_roots
+    real(wp), parameter :: longest_beyond = 0.02_wp
+    !> How far a root is looked for beyond the two states of an arc, in the same sizes; tuned. Read by continuation/arc_roots
+    real(wp), parameter :: farthest_beyond = 0.2_wp
 
     !
     ! Trains

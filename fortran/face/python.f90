@@ -239,7 +239,7 @@ end subroutine gbplac
 
 ! Another beam: the same with the laws of its supports as they have become
 subroutine gblaws(beam, ns, laws, copy, status, message)
-    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, copy_beam, report
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, copy_beam, laws_given, report
     use gapbeam_assemble_laws, only: depends_on_path
     implicit none
     integer(8), intent(in) :: beam
@@ -258,12 +258,6 @@ subroutine gblaws(beam, ns, laws, copy, status, message)
     copy = number_of(other)
     call report(error, status, message)
     if (allocated(error)) return
-    associate (s => other%beam%lowered%beam%supports)
-        s%contact = laws(1, :ns - 1)
-        s%force = laws(2, :ns - 1)
-        s%stiffness = laws(3, :ns - 1)
-        s%before = laws(4, :ns - 1)
-        s%passed = s%breakpoint > 0 .and. .not. abs(s%stiffness - s%before) > 0.0d0
-    end associate
+    other%beam%lowered%beam%supports = laws_given(handle%beam%lowered, laws(:, :ns - 1))
     other%beam%lowered%depends_on_path = depends_on_path(other%beam%lowered)
 end subroutine gblaws

@@ -1,5 +1,5 @@
-!> Objects behind handles, made for Python. But for the beam nothing is written to them once they are made, so that threads may
-!> share them
+!> Objects behind handles, made for Python. But for the beam and arcs nothing is written to them once they are made, so that threads
+!> may share them
 module gapbeam_python_handles
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_funloc, c_f_pointer, c_null_ptr
@@ -7,6 +7,7 @@ module gapbeam_python_handles
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
     use gapbeam_watch, only: begin_watch
     use gapbeam_scene, only: model_type
+    use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble, only: assemble_model
     use gapbeam_state, only: solve_state
@@ -22,7 +23,7 @@ module gapbeam_python_handles
     implicit none
     private
     public :: error_type, handle_type, number_of, behind, keep_beam, copy_beam, keep_state, keep_fields, keep_train
-    public :: listen, report, pack_extremes
+    public :: listen, report, pack_extremes, laws_given
 
     interface
         !> Let Python see to signals that have come, in its main thread; not 0 where what it did then is an exception
@@ -220,6 +221,21 @@ contains
             end do
         end do
     end subroutine pack_extremes
+
+    !> The supports of a beam with the laws that they have become
+    pure function laws_given(lowered, laws) result(supports)
+        type(assembled_type), intent(in) :: lowered
+        !> Contact level, force, slope and slope before of every support, shape (4, size(supports))
+        real(wp), intent(in) :: laws(:, :)
+        type(node_support_type), allocatable :: supports(:)
+
+        supports = lowered%beam%supports
+        supports%contact = laws(1, :)
+        supports%force = laws(2, :)
+        supports%stiffness = laws(3, :)
+        supports%before = laws(4, :)
+        supports%passed = supports%breakpoint > 0 .and. .not. abs(supports%stiffness - supports%before) > 0.0_wp
+    end function laws_given
 
     !> What Python is told of an error
     pure subroutine report(error, status, message)

@@ -225,6 +225,11 @@ def _solve(beam: Handle, links: int, *about: Any) -> tuple:
     return *found, Owned(state), status, message
 
 
+def _make_arc(beam: Handle, links: int, *about: Any) -> tuple:
+    arc, *found = _engine.gbamak(beam, *about)
+    return Owned(arc), *found
+
+
 def _recover(beam: Handle, pieces: int, state: Owned) -> tuple:
     fields, status, message = _engine.gbreco(beam, state)
     return Owned(fields), status, message
@@ -250,6 +255,12 @@ gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_solve, lambda beam, links, *_: SHORT if beam.has_curves else links)
 gbpath = interruptible(_engine.gbpath)
 gbhist = interruptible(_engine.gbhist)
+gbamak = interruptible(_make_arc, lambda beam, links, *_: links)
+gbaget = interruptible(lambda beam, links, *about: _engine.gbaget(*about), lambda beam, links, *_: links)
+gbaroo = interruptible(lambda beam, links, *about: _engine.gbaroo(*about), lambda beam, links, *_: links)
+gbalok = interruptible(lambda beam, links, *about: _engine.gbalok(*about), lambda beam, links, *_: links)
+gbaeig = interruptible(lambda beam, links, *about: _engine.gbaeig(*about), lambda *_: 0)
+gbahol = interruptible(lambda beam, links, *about: _engine.gbahol(*about), lambda beam, links, *_: links)
 gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
 gbreco = interruptible(_recover, lambda beam, pieces, *_: pieces)

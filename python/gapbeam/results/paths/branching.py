@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .arc import Arc, LostError, State
+from ...engine.arcs import Arc, ArcState, LostError
+from ..state.smooth import SmoothLaws
 
 ASIDE = 0.01
 """How far beside the bifurcation the branches are looked for, in sizes of the deflections."""
@@ -62,14 +63,14 @@ class Tracer:
         The bifurcation.
     """
 
-    def __init__(self, arc: Arc, state: State):
-        self._arc, self._origin = arc, state.point.copy()
+    def __init__(self, arc: Arc, state: ArcState):
+        self._arc, self._laws, self._origin = arc, SmoothLaws(arc.beam), state.point.copy()
         self._force = self._forces(state.point)[0]
         self._weights = arc.weights
 
     def _forces(self, point: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        d, way = self._arc.laws.past_the_gap(point[:-1])
-        force, slope = self._arc.laws.forces_and_slopes(d)
+        d, way = self._laws.past_the_gap(point[:-1])
+        force, slope = self._laws.forces_and_slopes(d)
         return force * way, slope, d
 
     def _jacobian(self, point: np.ndarray) -> np.ndarray:
@@ -103,14 +104,13 @@ class Tracer:
         return tangent if tangent @ like > 0.0 else -tangent
 
     def _is_stable(self, point: np.ndarray) -> bool:
-        state = State(0.0, point, point, self._forces(point)[1], None, None)
-        values = self._arc.eigenvalues(state)
+        values = self._arc.eigenvalues(self._forces(point)[1])
         return bool(values.min() > -NEAR * np.abs(values).max())
 
     def _check(self, point: np.ndarray) -> None:
         """Whether all supports are still on their pieces."""
-        force, _, d = self._forces(point)
-        if ((d > 0.0) != (self._forces(self._origin)[2] > 0.0)).any() or not self._arc.holds_at(point, force, NEAR):
+        d = self._forces(point)[2]
+        if ((d > 0.0) != (self._forces(self._origin)[2] > 0.0)).any() or not self._arc.holds_at(point, NEAR):
             raise LostError
 
     def follow(self, way: int, goal: float) -> Branch:

@@ -14,12 +14,12 @@ from itertools import pairwise
 import numpy as np
 
 from ...base.errors import EngineError, Status
+from ...engine.arcs import BEFORE, BEYOND, RATE, Arc, ArcState, LostError, of_breakpoint, of_eigenvalue
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
 from ..state.breakpoints import passed_breakpoints
 from ..state.smooth import SmoothLaws
 from ..state.step import Step
-from .arc import Arc, LostError, State
 from .branching import Tracer
 from .polyline_path import BRANCHES, EVENT, GIVEN_FACTOR, NEAR, THROUGH, TURNS_ROUND, UNKNOWN, PolylinePath
 
@@ -102,17 +102,20 @@ class CurvedPath(PolylinePath):
             indices = {int(index), int(self._rough.about[k + 1, 2])}
             if min(indices) == len(self._beam.curves):
                 raise LostError
-            state = arc.root(lambda state: arc.eigenvalues(state)[min(indices)], low)
-            self._check(state, arc, indices)
+            state = arc.root(of_eigenvalue(min(indices)), low)
+            if (k, 0) in self._points and state.at < NEAR:
+                raise LostError  # where the stretch begins, which rounding puts before or beyond
+            self._check(state, indices)
         else:
             arc, h = self._arc(k, k, forward=False), self._rough
-            passed = passed_breakpoints(self._beam, h.closed[k], h.closed[k + 1], h.breakpoints[k])
+            ends = passed_breakpoints(self._beam, h.closed[k], h.closed[k + 1], h.breakpoints[k])
+            passed = [of_breakpoint(*one) for one in ends]
             # It may have been at the same breakpoint at the start of the arc
-            first = AWAY if abs(passed[0].margin(arc.at(0.0).solution)) < NEAR else 0.0
-            state = arc.root(lambda state: passed[0].margin(state.solution), max(low, first) if first else low, first=first)
+            first = AWAY if abs(arc.value(passed[0], 0.0)) < NEAR else 0.0
+            state = arc.root(passed[0], max(low, first) if first else low, first=first)
             # Not at the event itself, where a support may be on either side of it by rounding
-            rate = arc.rate_beside(state.at, -1)
-            if max(abs(one.margin(state.solution)) for one in passed) > NEAR or not direction * rate > 0.0:
+            rate = arc.rate_beside(state.at, BEFORE)
+            if max(abs(arc.value(one, state.at)) for one in passed) > NEAR or not direction * rate > 0.0:
                 raise LostError
             self._check(state)
             leg, goal = h.about[k, 0], self._goal(h.about[k, 0])
@@ -133,7 +136,7 @@ class CurvedPath(PolylinePath):
                 self._forget(k)
                 raise
 
-    def _branch_off(self, k: int, arc: Arc, state: State, leg: int) -> None:
+    def _branch_off(self, k: int, arc: Arc, state: ArcState, leg: int) -> None:
         """Go on from a bifurcation on the laws: on the polylines chance decides whether stable ways go on there."""
         h, goal = self.history, self._target
         way = int(self._rough.about[k, 1])
@@ -178,11 +181,12 @@ class CurvedPath(PolylinePath):
         self._landings = {landing for landing in self._landings if landing <= k}
         self._joins = [*self._joins[: k + 1], *([] if stays else [GIVEN_FACTOR if arrives else UNKNOWN])]
 
-    def _leave(self, k: int, state: State) -> None:
+    def _leave(self, k: int, state: ArcState) -> None:
         """Whether the load goes as it does on the polylines after an event."""
         arc = self._arc(k, k)
         away = np.abs(arc.at(0.0).deflection - state.deflection).max(initial=0.0)
-        if away > NEAR * np.abs(state.deflection).max(initial=0.0) or not arc.rate_beside(0.0, 1) * self._rough.about[k, 1] > 0.0:
+        rises = arc.rate_beside(0.0, BEYOND) * self._rough.about[k, 1] > 0.0
+        if away > NEAR * np.abs(state.deflection).max(initial=0.0) or not rises:
             raise LostError
 
     # Where the load turns round
@@ -206,16 +210,19 @@ class CurvedPath(PolylinePath):
     def _put_turns_on_the_laws(self, turns: list[int]) -> None:
         """Find where the load turns round on the laws."""
         arc = self._arc(turns[0], turns[-1] + 1, turn=turns[0])
-        states = arc.roots(lambda state: state.rate[-1])
+        states = arc.roots(RATE)
+        if (turns[0], 0) in self._points and self._joins[turns[0] - 1] == BRANCHES:
+            # Where branches cross the load is stationary on the one of them that is no turn, and its rate is rounding
+            states = [state for state in states if state.at > AWAY]
         if len(turns) == 1:
             # Others may follow close behind
             way = self._rough.about[turns[0], 1]
-            states = [state for state in states if way * arc.rate_beside(state.at, -1) > 0.0]
-            states = states or [arc.root(lambda state: state.rate[-1], 0.0 if (turns[0], 0) in self._points else -np.inf)]
+            states = [state for state in states if way * arc.rate_beside(state.at, BEFORE) > 0.0]
+            states = states or [arc.root(RATE, 0.0 if (turns[0], 0) in self._points else -np.inf)]
         kept = self._which(turns, len(states))
         about = self._rough.about
         for k, state in zip(kept, states, strict=True):
-            self._check(state, arc, {int(about[k, 2]), int(about[k + 1, 2])})
+            self._check(state, {int(about[k, 2]), int(about[k + 1, 2])})
         for k in set(turns) - set(kept):
             self._joins[k] = THROUGH
             self._drop_limit(k)

@@ -8,11 +8,11 @@ import numpy as np
 
 from ...base.errors import EngineError
 from ...base.records import Pickled, read_only
+from ...engine.arcs import Arc, ArcState, LostError, Point, beyond_factor
 from ...engine.arrays import History
 from ...engine.beam import GIVEN, Beam
 from ..state.breakpoints import passed_breakpoints
 from ..state.smooth import SmoothLaws
-from .arc import Arc, LostError, Point, State
 
 THROUGH, GIVEN_FACTOR, TURNS_ROUND, BRANCHES, EVENT, UNKNOWN = range(6)
 """What there is between two stretches."""
@@ -112,7 +112,7 @@ class PolylinePath(Pickled):
         size = max(self._size[0], np.abs([start.deflection, stop.deflection]).max())
         return bool(away < times * WIDE * size and abs(stop.factor - start.factor) < times * WIDE * self._size[1])
 
-    def _keep(self, k: int, state: State) -> None:
+    def _keep(self, k: int, state: ArcState) -> None:
         """Note the end of a stretch on the laws."""
         self._points[k, 1], self.history.along[k, 1] = state.deflection, state.factor
         if k + 1 < len(self._joins) and k + 1 not in self._landings:
@@ -126,21 +126,21 @@ class PolylinePath(Pickled):
             if self._points.pop((at, end), None) is not None:
                 self.history.along[at, end] = self._rough.along[at, end]
 
-    def _check(self, state: State, arc: Arc | None = None, indices: set[int] | None = None) -> None:
+    def _check(self, state: ArcState, indices: set[int] | None = None) -> None:
         """Whether all supports are on their pieces, and where the beam begins to give way so many ways as on the polylines."""
-        if state.solution.certify()[0][2] > NEAR:
+        if state.arc.wrongness(state.at) > NEAR:
             raise LostError
-        if arc is not None and not set(self._beam.laws) - self._beam.smooth:
-            values = arc.eigenvalues(state)
+        if indices is not None and not set(self._beam.laws) - self._beam.smooth:
+            values = state.arc.eigenvalues(state.slope)
             falling = int((values < -np.abs(values).min()).sum())
             if not indices <= {falling, falling + 1}:
                 raise LostError
 
-    def _at(self, k: int, factor: float) -> State:
+    def _at(self, k: int, factor: float) -> ArcState:
         """Find the state on a stretch at a load factor."""
         low, high = (bound if (k, end) in self._points else sign * np.inf for end, bound, sign in ((0, 0.0, -1), (1, 1.0, 1)))
         arc = self._arc(k, k)
-        state = arc.root(lambda state: state.factor - factor, low, high)
+        state = arc.root(beyond_factor(factor), low, high)
         if not state.rate[-1] * self._rough.about[k, 1] > 0.0:
             raise LostError
         return state

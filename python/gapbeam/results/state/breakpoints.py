@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...engine.beam import Beam
-from ...engine.states import Solution
 
 OF_SUPPORTS = {
     0: ("opens", "lifts off"), 1: ("closes", "comes into contact"), 3: ("turns", "stops the beam, which has turned freely"),
@@ -110,32 +109,18 @@ class Breakpoint(NamedTuple):
 
     Attributes
     ----------
-    node : int
-        Its node.
-    group : slice
-        Its breakpoints in the engine.
+    number : int
+        Of the breakpoint in the engine.
     level, force : float
         Deflection and force there, in the engine's units.
     by_force : bool
         Whether the force tells how far it is, as on a vertical piece.
-    side : int
-        Of the support; 1 where it holds both ways.
     """
 
-    node: int
-    group: slice
+    number: int
     level: float
     force: float
     by_force: bool
-    side: int
-
-    def margin(self, solution: Solution) -> float:
-        """Tell how far a state is from it, as a share of the largest deflection or reaction."""
-        if self.by_force:
-            values, here = solution.reaction, self.side * solution.reaction[self.group].sum() - self.force
-        else:
-            values, here = solution.deflection, solution.deflection[self.node] - self.level
-        return float(here / (np.abs(values).max() or 1.0))
 
 
 def passed_breakpoints(beam: Beam, before: np.ndarray, after: np.ndarray, breakpoints: np.ndarray) -> list[Breakpoint]:
@@ -152,12 +137,11 @@ def passed_breakpoints(beam: Beam, before: np.ndarray, after: np.ndarray, breakp
     """
     found = []
     for j in np.flatnonzero(before != after).tolist():
-        i, group, by_force = int(beam.numbers[j]), slice(j, j + 1), bool(before[j])
+        i, by_force = int(beam.numbers[j]), bool(before[j])
         if i in beam.laws:
-            group, piece = beam.laws[i][0], piece_of(beam, i, before, breakpoints)
+            piece = piece_of(beam, i, before, breakpoints)
             if i in beam.smooth and piece.number == piece_of(beam, i, after, breakpoints).number:
                 continue
             by_force = bool(np.isinf(piece.slope))
-        node, side = int(beam.places.support_nodes[j]), int(beam.sides[i]) or 1
-        found.append(Breakpoint(node, group, float(breakpoints[0, j]), float(breakpoints[1, j]), by_force, side))
+        found.append(Breakpoint(j, float(breakpoints[0, j]), float(breakpoints[1, j]), by_force))
     return found
