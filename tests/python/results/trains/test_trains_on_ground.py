@@ -88,6 +88,7 @@ def test_where_a_plank_tips():
     assert "the beam tips about x = 4" in first.reason
     # Next to these positions hardly a zone is left, and values grow without bound
     assert result.envelope().extremes["pressure"]["max"].value > 1e6
+    assert (result.envelope().fields.smallest["pressure"] >= 0.0).all()
     with pytest.raises(ValueError, match="position: no equilibrium at position 9 of train man"):
         result.trains["man"].state(9.0)
 
@@ -152,6 +153,18 @@ def test_nothing_is_beyond_the_envelope(name):
     assert_nothing_beyond(SCENES[name], gapbeam.solve(SCENES[name]), positions, np.array([0.0, 2.3, 5.0, 7.0, 12.0]))
 
 
+def test_the_smallest_between_two_states_of_the_grid():
+    """Where zones are born beside it, as a search among states nowhere farther than 1e-4 from the next one finds it."""
+    made = SCENES["layers"]
+    train = gapbeam.solve({**made, "trains": [made["trains"][0] | {"both_directions": False}]}).trains["train 1"]
+    curves = train.envelope([1.75]).fields
+    at = curves.smallest_at["deflection"][0]
+    found = min(train.at([1.75], position=position).deflection[0] for position in np.linspace(at - 2e-3, at + 2e-3, 41))
+    assert curves.smallest["deflection"][0] == pytest.approx(found, rel=1e-9)
+    assert curves.smallest["deflection"][0] <= found * (1 + 1e-13)
+    assert found < 0.00744342
+
+
 def test_a_law_that_is_nearly_a_line():
     """Beside the polynomials in the position for a spring."""
     def beam(support):
@@ -199,6 +212,14 @@ def test_events():
     back = gapbeam.solve(mirrored).trains["bogie"].traversals[1]
     assert [(event.support, event.event) for event in back.events] == [(event.support, event.event) for event in train.events]
     assert [12.0 - event.position for event in back.events] == pytest.approx([event.position for event in train.events], abs=1e-9)
+
+
+def test_where_zones_meet():
+    """As the oracle has it, to 40 digits; the place is that of the highest point of the gap as it closes."""
+    train = gapbeam.solve(rail(supports=[], trains=[{"axles": [[0.0, 10.0]]}])).trains["train 1"]
+    first, last = (event for event in train.events if event.event in ("zones merge", "zone splits"))
+    assert (first.position, 12.0 - last.position) == pytest.approx([0.30114185288453195] * 2, abs=3e-14)
+    assert (first.x, 12.0 - last.x) == pytest.approx([4.857325820506625] * 2, abs=3e-9)
 
 
 def test_outputs(tmp_path):
