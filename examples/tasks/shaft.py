@@ -7,17 +7,12 @@ BEARINGS = {"front": (0, 0.0), "middle": (1, 0.0), "rear": (2, 0.15)}   # node, 
 shaft = gb.Scene(
     title="Shaft in three bearings, clearance 0.1 mm", units=gb.Units("N", "mm"), beam=gb.Beam([500.0, 600.0, 150.0], EI=1.3e11),
     supports=[
-        shell
+        gb.Support(node=node, name=f"{name}, {shell} shell", side=side, settlement=low, gap=gap)
         for name, (node, low) in BEARINGS.items()
-        for shell in (
-            gb.Support(node=node, name=f"{name}, lower shell", side="below", settlement=low),
-            gb.Support(node=node, name=f"{name}, upper shell", side="above", settlement=low, gap=CLEARANCE),
-        )
+        for shell, side, gap in (("lower", "below", 0.0), ("upper", "above", CLEARANCE))
     ],
-    loads=[
-        gb.UniformLoad(q=0.15, case="dead"),
-        gb.ForceLoad(x=250.0, F=-2500.0, case="gear"), gb.ForceLoad(node=3, F=900.0, case="belt"),
-    ],
+    loads=[gb.UniformLoad(q=0.15, case="dead"), gb.ForceLoad(x=250.0, F=-2500.0, case="gear"),
+           gb.ForceLoad(node=3, F=900.0, case="belt")],
     analysis=gb.Analysis(follow="events"),
 )  # fmt: skip
 

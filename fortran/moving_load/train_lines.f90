@@ -13,19 +13,17 @@ module gapbeam_train_lines
     use gapbeam_train_on_beam, only: distance_at_end
     use gapbeam_train_grid, only: places_of_jumps
     use gapbeam_train_states, only: kept_type
-    use gapbeam_train_tops, only: ruler_type
-    use gapbeam_train_limits, only: limit_type, find_limits, ruler_of, solve_in_run
-    use gapbeam_train_line_states, only: lines_type, part_type, most_states, values_at, find_state, take, take_all
+    use gapbeam_train_limits, only: limit_type, find_limits
+    use gapbeam_train_line_states, only: lines_type, part_type, table_type, most_states, most_cuts, not_wanted, closest, &
+        add_states, values_at, find_state, take, take_all
     use gapbeam_train_line_tops, only: climb_line
     use gapbeam_train_runs, only: runs_type
     implicit none
     private
     public :: find_lines
 
-    !> Values of the states of a run, shape (quantities, places, states), and their positions
-    type :: table_type
-        real(wp), allocatable :: value(:, :, :), at(:)
-    end type table_type
+    !> How often a place may ask for states between others; tuned
+    integer, parameter :: most_rounds = 4
 
     !> Positions at which axles stand at a place, and the values there right and left of the axle, shape (quantities, 2, positions)
     type :: passes_type
@@ -126,11 +124,13 @@ contains
         lines%scale_of(:) = 0.0_wp
         do i = 1, size(tables)
             associate (states => runs%runs(i)%states, table => tables(i))
-                allocate (table%value(size(lines%quantities), size(lines%x), size(states)), table%at(size(states)), stat=stat)
+                allocate (table%value(size(lines%quantities), size(lines%x), size(states)), table%at(size(states)), &
+                          table%cuts(size(states) - 1), stat=stat)
                 if (stat /= 0) then
                     call no_memory(error)
                     return
                 end if
+                table%cuts(:) = 0
                 do k = 1, size(states)
                     table%at(k) = runs%boxes(states(k))%of%position
                     call values_at(runs%boxes(states(k))%of, lines%quantities, lines%x, lines%left, table%value(:, :, k), error)
@@ -178,28 +178,58 @@ contains
         type(assembled_type), intent(in) :: assembled
         type(runs_type), intent(inout) :: runs
         integer, intent(in) :: run
-        type(table_type), intent(in) :: table
+        type(table_type), intent(inout) :: table
         integer, intent(in) :: k
         type(lines_type), intent(inout) :: lines
         type(error_type), allocatable, intent(out) :: error
-        type(ruler_type) :: ruler
         type(part_type) :: part
         type(passes_type) :: passes
-        integer :: i, q
+        real(wp), allocatable :: wanted(:)
+        integer :: i, m, q, round
 
-        ruler = ruler_of(assembled, runs, runs%runs(run))
         call pass_place(assembled, runs, run, table, k, lines, passes, error)
         if (allocated(error)) return
-        do i = 0, size(passes%at)
-            call cut_part(assembled, runs, run, table, k, lines, passes, i, part, error)
-            if (allocated(error)) return
-            if (.not. allocated(part%at)) cycle
-            do q = 1, size(lines%quantities)
-                call climb_line(assembled, runs, run, q, k, part, ruler, lines, error)
+        do round = 0, most_rounds
+            allocate (wanted(size(table%cuts)), source=not_wanted)
+            do i = 0, size(passes%at)
+                call cut_part(assembled, runs, run, table, k, lines, passes, i, part, error)
                 if (allocated(error)) return
+                if (.not. allocated(part%at)) cycle
+                allocate (part%may_add(size(part%at) - 1), source=.false.)
+                allocate (part%wanted(size(part%at) - 1), source=not_wanted)
+                if (round < most_rounds) then
+                    do m = 1, size(part%may_add)
+                        part%may_add(m) = any(beside(table, part%at(m:m + 1)) .and. table%cuts < most_cuts)
+                    end do
+                end if
+                do q = 1, size(lines%quantities)
+                    call climb_line(assembled, runs, run, q, k, part, lines, error)
+                    if (allocated(error)) return
+                end do
+                do m = 1, size(part%wanted)
+                    if (.not. part%wanted(m) < not_wanted) cycle
+                    where (beside(table, part%at(m:m + 1)) .and. table%cuts < most_cuts)
+                        wanted = min(max(part%wanted(m), table%at(:size(wanted))), table%at(2:))
+                    end where
+                end do
             end do
+            if (all(wanted >= not_wanted)) return
+            call add_states(assembled, runs, run, wanted, table, lines, error)
+            if (allocated(error)) return
+            deallocate (wanted)
         end do
     end subroutine climb_place
+
+    !> Ways between states of a table that share more than an end with another way
+    pure function beside(table, way)
+        type(table_type), intent(in) :: table
+        real(wp), intent(in) :: way(2)
+        logical :: beside(size(table%at) - 1)
+
+        associate (n => size(table%at))
+            beside(:) = table%at(:n - 1) < way(2) .and. table%at(2:) > way(1)
+        end associate
+    end function beside
 
     !> Consider the positions at which axles stand at a place
     subroutine pass_place(assembled, runs, run, table, k, lines, passes, error)
@@ -230,8 +260,10 @@ contains
             if (met(i) <= table%at(1) + beside) at_end = 1
             if (at_end > 0 .and. lines%on_jump(k)) cycle  ! take_limits has them
             if (at_end > 0) then
-                call values_on_both_sides(runs%boxes(runs%runs(run)%states(at_end))%of, lines%quantities, lines%x(k), &
-                                          lines%left(k), both, error)
+                associate (states => runs%runs(run)%states)
+                    call values_on_both_sides(runs%boxes(states(merge(1, size(states), at_end == 1)))%of, lines%quantities, &
+                                              lines%x(k), lines%left(k), both, error)
+                end associate
             else
                 call find_state(assembled, runs, run, lines, met(i), state, error)
                 if (allocated(error)) return
@@ -284,11 +316,9 @@ contains
         !> Its positions are not allocated if there is none
         type(part_type), intent(out) :: part
         type(error_type), allocatable, intent(out) :: error
-        type(kept_type) :: kept
         real(wp), allocatable :: middle(:, :)
         real(wp) :: start, stop
-        integer :: first, last, n
-        logical :: known
+        integer :: first, last, n, state
 
         n = size(table%at)
         start = table%at(1)
@@ -297,16 +327,24 @@ contains
         if (i < size(passes%at)) stop = passes%at(i + 1)
         first = count(table%at <= start) + 1
         last = n - count(table%at >= stop)
+        ! States next to a passing axle would only add rounding
+        if (i > 0 .and. first < last) then
+            if (table%at(first) - start < closest*(table%at(first + 1) - table%at(first))) first = first + 1
+        end if
+        if (i < size(passes%at) .and. first < last) then
+            if (stop - table%at(last) < closest*(table%at(last) - table%at(last - 1))) last = last - 1
+        end if
         if (last < first) then
             allocate (middle(size(lines%quantities), 1))
-            call solve_in_run(assembled, runs, runs%runs(run), start + (stop - start)/2, kept, known, error)
-            if (allocated(error)) return
-            known = known .and. start < kept%position .and. kept%position < stop
-            if (.not. known) return
-            call values_at(kept, lines%quantities, lines%x(k:k), lines%left(k:k), middle, error)
-            if (allocated(error)) return
-            call take_all(lines, k, middle(:, 1), kept%position)
-            part%at = [start, kept%position, stop]
+            call find_state(assembled, runs, run, lines, start + (stop - start)/2, state, error)
+            if (allocated(error) .or. state == 0) return
+            associate (kept => lines%boxes(state)%of)
+                if (.not. (start < kept%position .and. kept%position < stop)) return
+                call values_at(kept, lines%quantities, lines%x(k:k), lines%left(k:k), middle, error)
+                if (allocated(error)) return
+                call take_all(lines, k, middle(:, 1), kept%position)
+                part%at = [start, kept%position, stop]
+            end associate
             allocate (part%value(size(lines%quantities), 3))
             part%value(:, 2) = middle(:, 1)
         else
@@ -319,13 +357,22 @@ contains
 
     contains
 
-        !> Values at an end: on which side of a passing axle the field goes on, the neighbour tells
+        !> Values at an end: on which side of an axle the field goes on, the neighbour tells
         subroutine put_end(entry, pass, state, neighbour)
             integer, intent(in) :: entry, pass, state, neighbour
+            real(wp) :: force
             integer :: q
 
             if (pass < 1 .or. pass > size(passes%at)) then
                 part%value(:, entry) = table%value(:, k, state)
+                force = force_at(runs, runs%boxes(runs%runs(run)%states(1))%of%acts, lines%x(k) - table%at(state), &
+                                 4*distance_at_end(assembled, runs%train))
+                if (lines%shear == 0 .or. .not. abs(force) > 0.0_wp) return
+                associate (here => part%value(lines%shear, entry), inside => part%value(lines%shear, neighbour))
+                    associate (there => here + sign(force, inside - here))
+                        if (abs(there - inside) < abs(here - inside)) here = there
+                    end associate
+                end associate
                 return
             end if
             do q = 1, size(lines%quantities)
@@ -336,5 +383,17 @@ contains
         end subroutine put_end
 
     end subroutine cut_part
+
+    !> Force of the axles as far behind the position of the train
+    pure function force_at(runs, acts, offset, slack) result(force)
+        type(runs_type), intent(in) :: runs
+        !> Which axles act
+        logical, intent(in) :: acts(:)
+        !> The distance, and by how much another one is the same
+        real(wp), intent(in) :: offset, slack
+        real(wp) :: force
+
+        force = sum(runs%train%force, acts .and. abs(runs%train%offset - offset) <= slack)
+    end function force_at
 
 end module gapbeam_train_lines

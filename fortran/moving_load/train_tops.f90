@@ -6,7 +6,7 @@ module gapbeam_train_tops
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: ruler_type, angle_of, position_of, at_birth, nearer_birth, find_vertex, find_highest
+    public :: ruler_type, angle_of, position_of, at_birth, nearer_birth, find_vertex, find_highest, last_terms
 
     real(wp), parameter :: pi = acos(-1.0_wp)
     !> Share of the angle to the next state down to which is looked beside the birth of a zone: its square is that of the way, and
@@ -122,7 +122,7 @@ contains
         !> Is there one
         logical, intent(out) :: known
         real(wp) :: t(size(at)), c(size(at)), middle, half, next, low, value, slope, low_slope
-        integer :: k, step, power
+        integer :: k, power
 
         known = .false.
         place = 0.0_wp
@@ -133,12 +133,7 @@ contains
         t(:) = (at - middle)/half
         ! A power of two: products of great numbers would be beyond all numbers
         power = exponent(max(maxval(abs(heights)), tiny(half)))
-        c(:) = scale(heights, -power)
-        do k = 2, size(c)
-            do step = size(c), k, -1
-                c(step) = (c(step) - c(step - 1))/(t(step) - t(step - k + 1))
-            end do
-        end do
+        c(:) = divided_differences(t, scale(heights, -power))
         low = -1.0_wp
         call evaluate(low, value, low_slope)
         do k = 1, looks
@@ -194,5 +189,43 @@ contains
         end subroutine take_zero
 
     end subroutine find_highest
+
+    !> By how much the polynomial through points and the one without the first and the last of them differ at most, about
+    pure function last_terms(at, heights, left, right) result(difference)
+        !> The points, three at least, in ascending order
+        real(wp), intent(in) :: at(:), heights(:)
+        !> Bounds between which it is asked for
+        real(wp), intent(in) :: left, right
+        real(wp) :: difference
+        integer, parameter :: places = 16
+        real(wp) :: t(size(at)), c(size(at)), half, u
+        integer :: k, n, power
+
+        n = size(at)
+        half = (right - left)/2
+        t(:) = ([at(2:n - 1), at(1), at(n)] - (left + right)/2)/half
+        power = exponent(max(maxval(abs(heights)), tiny(half)))
+        c(:) = divided_differences(t, scale([heights(2:n - 1), heights(1), heights(n)], -power))
+        difference = 0.0_wp
+        do k = 0, places
+            u = -cos(pi*k/places)
+            difference = max(difference, abs((c(n - 1) + c(n)*(u - t(n - 1)))*product(u - t(:n - 2))))
+        end do
+        difference = scale(difference, power)
+    end function last_terms
+
+    !> Coefficients of the polynomial through points by Newton's formula
+    pure function divided_differences(t, heights) result(c)
+        real(wp), intent(in) :: t(:), heights(:)
+        real(wp) :: c(size(t))
+        integer :: k, step
+
+        c(:) = heights
+        do k = 2, size(c)
+            do step = size(c), k, -1
+                c(step) = (c(step) - c(step - 1))/(t(step) - t(step - k + 1))
+            end do
+        end do
+    end function divided_differences
 
 end module gapbeam_train_tops

@@ -51,9 +51,11 @@ def held(states, seats, rigid):
 def test_a_task_is_short(name):
     text = (TASKS / f"{name}.py").read_text(encoding="utf-8")
     assert text.startswith('"""')
-    asked = text.partition("# What a designer asks\n")[2]
+    described, _, asked = text.partition("# What a designer asks\n")
     lines = [line for line in asked.splitlines() if line.strip()]
     assert 4 <= len(lines) <= MOST_LINES
+    described = described.rpartition('"""\n')[2] if described.count('"""') == 2 else described
+    assert len([line for line in described.splitlines() if line.strip()]) <= MOST_LINES
     assert sorted(path.stem for path in TASKS.glob("*.py")) == sorted(NAMES)
 
 
@@ -181,7 +183,7 @@ def test_pile(tmp_path, monkeypatch, capsys):
     cu, y50 = 20.0 + 2.0 * x, 2.5 * 0.01 * 0.6
     most = np.minimum(3.0 * cu * 0.6 + 8.0 * x * 0.6 + 0.5 * cu * x, 9.0 * cu * 0.6)
     curve = 0.5 * most * np.minimum(np.cbrt(np.abs(w) / y50), 2.0)
-    assert (np.abs(curve - np.abs(p)) < 0.015 * most).all()
+    assert (np.abs(curve - np.abs(p)) < 0.005 * most).all()
     assert (p * w >= 0.0).all()
     assert names["again"].at(0.0).deflection > result.at(0.0).deflection
 

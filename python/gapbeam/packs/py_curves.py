@@ -11,9 +11,9 @@ from math import cos, radians, sin, tan
 from ..base.errors import SceneError
 from .given import check_above_zero, check_between, check_not_negative
 
-SEGMENTS = 10
+SEGMENTS = 16
 """Of a polyline up to the ultimate resistance."""
-CLAY_ERROR = {"matlock_clay": 0.011, "reese_clay": 0.016}
+CLAY_ERROR = {"matlock_clay": 0.0042, "reese_clay": 0.006}
 """How far polylines are below their curves at most, as a share of the ultimate resistance."""
 
 
@@ -44,13 +44,13 @@ def matlock_clay(z: float, *, D: float, cu: float, gamma: float, eps50: float, J
     Returns
     -------
     list of (float, float)
-        Law of a foundation: displacement, force per length. It is below the curve by 1.1 % of pu at most.
+        Law of a foundation: displacement, force per length. It is below the curve by 0.42 % of pu at most.
 
     Examples
     --------
     >>> law = matlock_clay(3.0, D=0.6, cu=26.0, gamma=8.0, eps50=0.01)
     >>> [(round(y, 6), round(p, 2)) for y, p in law[-3:]]
-    [(0.063773, 81.16), (0.12, 100.2), (0.24, 100.2)]
+    [(0.081472, 88.07), (0.12, 100.2), (0.24, 100.2)]
     """
     _check_clay("matlock_clay", z, D=D, cu=cu, gamma=gamma, eps50=eps50, J=J)
     return clay_points(ultimate_clay(z, D, cu, cu, gamma, J), 8.0 * 2.5 * eps50 * D, 3)
@@ -96,7 +96,7 @@ def reese_clay(
     Returns
     -------
     list of (float, float)
-        Law of a foundation: displacement, force per length. It is below the curve by 1.6 % of pu at most.
+        Law of a foundation: displacement, force per length. It is below the curve by 0.6 % of pu at most.
 
     Raises
     ------

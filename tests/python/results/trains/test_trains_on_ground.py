@@ -88,6 +88,7 @@ def test_where_a_plank_tips():
     assert "the beam tips about x = 4" in first.reason
     # Next to these positions hardly a zone is left, and values grow without bound
     assert result.envelope().extremes["pressure"]["max"].value > 1e6
+    assert (result.envelope().fields.smallest["pressure"] >= 0.0).all()
     with pytest.raises(ValueError, match="position: no equilibrium at position 9 of train man"):
         result.trains["man"].state(9.0)
 
@@ -150,6 +151,18 @@ SCENES = {
 def test_nothing_is_beyond_the_envelope(name):
     positions = np.random.default_rng(len(name)).uniform(size=10)
     assert_nothing_beyond(SCENES[name], gapbeam.solve(SCENES[name]), positions, np.array([0.0, 2.3, 5.0, 7.0, 12.0]))
+
+
+def test_the_smallest_between_two_states_of_the_grid():
+    """Where zones are born beside it, as a search among states nowhere farther than 1e-4 from the next one finds it."""
+    made = SCENES["layers"]
+    train = gapbeam.solve({**made, "trains": [made["trains"][0] | {"both_directions": False}]}).trains["train 1"]
+    curves = train.envelope([1.75]).fields
+    at = curves.smallest_at["deflection"][0]
+    found = min(train.at([1.75], position=position).deflection[0] for position in np.linspace(at - 2e-3, at + 2e-3, 41))
+    assert curves.smallest["deflection"][0] == pytest.approx(found, rel=1e-9)
+    assert curves.smallest["deflection"][0] <= found * (1 + 1e-13)
+    assert found < 0.00744342
 
 
 def test_a_law_that_is_nearly_a_line():
