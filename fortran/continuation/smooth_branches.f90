@@ -30,14 +30,14 @@ contains
         type(branch_points_type), intent(out) :: branch
         !> Whether a stable way goes on cannot be told
         type(error_type), allocatable, intent(out) :: error
-        real(wp), allocatable :: matrix(:, :), values(:), rows(:, :), null(:), point(:), first(:), tangent(:)
+        real(wp), allocatable :: matrix(:, :), values(:), rows(:, :), aside(:), point(:), first(:), tangent(:)
         real(wp) :: rise
         integer :: n, side, taken
         logical :: solved, stable
 
         n = size(tracer%force)
         associate (origin => tracer%origin, weights => tracer%arc%weights)
-            allocate (matrix(n, n + 1), values(n), rows(n, n), null(n + 1), point(n + 1), first(n + 1), tangent(n + 1))
+            allocate (matrix(n, n + 1), values(n), rows(n, n), aside(n + 1), point(n + 1), first(n + 1), tangent(n + 1))
             call jacobian_at(tracer, origin, matrix, solved)
             if (solved) call find_singular_values(matrix(:, :n), values, rows, solved)
             if (solved .and. n > 1) solved = .not. values(max(n - 1, 1)) < crossing_directions*values(1)
@@ -45,13 +45,13 @@ contains
                 call lose(error)
                 return
             end if
-            null(:n) = rows(n, :)
-            null(n + 1) = 0.0_wp
-            if (null(maxloc(abs(null), 1)) < 0.0_wp) null = -null
+            aside(:n) = rows(n, :)
+            aside(n + 1) = 0.0_wp
+            if (aside(maxloc(abs(aside), 1)) < 0.0_wp) aside = -aside
             taken = 0
             do side = 1, -1, -2
-                point(:) = origin + side*beside_branching*null*weights
-                call correct_point(tracer, null, point, error)
+                point(:) = origin + side*beside_branching*aside*weights
+                call correct_point(tracer, aside, point, error)
                 if (allocated(error)) return
                 rise = way*(point(n + 1) - origin(n + 1))
                 if (abs(rise) < branch_rises*max(abs(origin(n + 1)), weights(n + 1)*beside_branching)) call lose(error)
@@ -67,7 +67,7 @@ contains
             call add_point(first, branch, error)
             if (allocated(error)) return
             call check_pieces(tracer, first, error)
-            if (.not. allocated(error)) call tangent_at(tracer, first, taken*null, tangent, error)
+            if (.not. allocated(error)) call tangent_at(tracer, first, taken*aside, tangent, error)
             if (.not. allocated(error)) call go_on(tracer, way, goal, tangent, branch, error)
         end associate
         if (.not. is_lost(error)) return
