@@ -185,3 +185,33 @@ subroutine gbtinf(beam, train, ns, nm, nx, nb, closed, chosen, piece, dist, x, v
                         value, error)
     call report(error, status, message)
 end subroutine gbtinf
+
+! Parts of the beam on which an influence line has one sign
+subroutine gbtprt(beam, ns, nm, ne, closed, chosen, piece, dist, what, edge, sign_of, number, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_influence_parts, only: find_parts
+    implicit none
+    integer(8), intent(in) :: beam
+    ! As of gbtinf; the most parts, 4 for every piece of the beam and 4 more
+    integer, intent(in) :: ns, nm, ne
+    integer, intent(in) :: closed(ns), chosen(nm)
+    integer, intent(in) :: piece
+    double precision, intent(in) :: dist
+    ! Which of the values of gbtinf, from 1
+    integer, intent(in) :: what
+    ! Right ends of the parts, and the sign of the line on each; how many there are
+    double precision, intent(out) :: edge(ne)
+    integer, intent(out) :: sign_of(ne), number
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+
+    handle => behind(beam)
+    edge = 0.0d0
+    sign_of = 0
+    call find_parts(handle%beam%lowered, closed(:ns - 1) /= 0, chosen(:nm - 1) /= 0, piece, dist, what, edge, sign_of, number, &
+                    error)
+    call report(error, status, message)
+end subroutine gbtprt

@@ -15,7 +15,7 @@ PROMISE = (
     "environment is the caller's again"
 )
 TOP = Path(__file__).parents[2]
-BUILD = TOP / ".venv" / "build" / "sanitized"
+BUILD = TOP / ".venv" / "build" / "checks"
 DRIVER = BUILD / "tests" / "attack_models"
 AT_A_TIME = 200
 OUTCOMES = {
@@ -25,11 +25,11 @@ OUTCOMES = {
 
 
 def build():
-    """Build the driver, in the folder and with the options that `tests/run` has for its sanitized build."""
+    """Build the driver, in the folder and with the options that `tests/run` has for its build with checks."""
     tools = os.environ | {"PATH": os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))}
     commands = [["ninja", "-C", BUILD, DRIVER.relative_to(BUILD)]]
     if not (BUILD / "build.ninja").exists():
-        commands.insert(0, ["meson", "setup", BUILD, TOP, "--native-file", TOP / "tests" / "sanitized.ini"])
+        commands.insert(0, ["meson", "setup", BUILD, TOP, "--native-file", TOP / "tests" / "checked.ini"])
     for command in commands:
         if shutil.which(command[0], path=tools["PATH"]) is None:
             sys.exit(f"models: {command[0]} is needed to build them: sh tests/run sets it up")

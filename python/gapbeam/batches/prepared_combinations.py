@@ -33,7 +33,8 @@ class PreparedCombinations(OnOneBeam):
         plan = plan_combinations(read_scene({**scene, "combinations": job.scene["combinations"]}))
         if not self._solver.scene.analysis.is_one_step and at_once(job.scene, job.paths)["analysis"]["steps"] > 1:
             raise SceneError("analysis", "every combination is followed by itself")
-        if len(plan.scene.loads) > len(scene["loads"]) or any(other is not None for other in plan.scheme_of):
+        in_parts = any("parts" in one.expand.values() for one in plan.scene.combinations)
+        if in_parts or len(plan.scene.loads) > len(scene["loads"]) or any(other is not None for other in plan.scheme_of):
             raise SceneError("combinations", "their loads or contact states are not those of the scene")
         if plan.settlements.any() or beam.bars >= 0 or beam.ground_layers:
             raise SceneError("combinations", "moved supports, compression and zones of contact are looked at one by one")

@@ -287,6 +287,7 @@ gbtget = _engine.gbtget
 gbtenv = interruptible(_engine.gbtenv)
 gbtcur = interruptible(_engine.gbtcur)
 gbtinf = interruptible(_engine.gbtinf)
+gbtprt = interruptible(_engine.gbtprt)
 gbrmak = interruptible(_engine.gbrmak)
 gbrget = _engine.gbrget
 gbrext = interruptible(_engine.gbrext)

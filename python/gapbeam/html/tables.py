@@ -136,13 +136,14 @@ def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> Tab
 def _combinations(result: Result) -> TableData:
     columns = result.combinations.columns()
     fields = [name for name in ("moment", "shear", "deflection") if f"{name}_max" in columns]
-    head = ["combination", "status"]
+    head = ["combination", "status", *(["limit state"] if "limit_state" in columns else [])]
     for name in fields:
         head += [fmt.shown_heading(result.scene, name, f"{IN_WORDS[kind]} {name}") for kind in IN_WORDS]
     rows = []
     for k, (name, status) in enumerate(zip(columns["combination"], columns["status"], strict=True)):
         values = [_shown(result, of, float(columns[f"{of}_{kind}"][k])) for of in fields for kind in IN_WORDS]
-        rows.append([Cell(visible(name)), Cell(status), *values])
+        limit_state = [Cell(visible(columns["limit_state"][k]))] if "limit_state" in columns else []
+        rows.append([Cell(visible(name)), Cell(status), *limit_state, *values])
     return TableData("combinations", "Combinations", head, rows)
 
 

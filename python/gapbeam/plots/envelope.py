@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.answer import holds_values
+from ..results.cases.limit_states import names_in_pictures
 from ..results.formatting import stretch
 from ..results.trains.envelope import places_along
 from ..scene.loads import ForceLoad
@@ -77,7 +78,10 @@ def envelope_figure(result: Result) -> Figure:
     envelope = _envelope(result)
     sources = [] if envelope is None else getattr(envelope, "_members", None) or envelope.sources
     names = [source_name(one) for one in sources]
-    key = Key(len(set(names)))
+    known = names_in_pictures(result) if result.combinations else {}
+    told = {name: _told(name, one, known) for name, one in zip(names, sources, strict=True)}
+    names = [told[name][0] for name in names]
+    key = Key(len(set(names)), told)
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
     drawn = {panel[0]: _governing(envelope.fields, panel[0], names, key) for panel in panels}
     length, states = along(scene), plain_states(scene)
@@ -93,7 +97,7 @@ def envelope_figure(result: Result) -> Figure:
     top = supports.top + 4.0 if loads is None else loads.top
     lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
     foot = LINE * len(lines) + 0.08
-    text = _headline(result, sources)
+    text = _headline(result, sources, key.needed)
     handles = legend_handles(states) * (not supports.rows)
     sheet = Sheet(scene, heading_height(text, handles), supports.bottom, top, len(panels), foot)
     draw_ground(sheet.sketch, ground, ())
@@ -140,7 +144,15 @@ def _ends_of_ways(result: Result) -> list[np.ndarray]:
     return found
 
 
-def _headline(result: Result, sources: list[Any]) -> str:
+def _told(name: str, source: Any, known: dict[str, tuple[str, str]]) -> tuple[str, str]:
+    """Give the name that the key tells of a source, and its limit state."""
+    if source.combination not in known:
+        return name, ""
+    shown, limit_state = known[source.combination]
+    return visible(shown) + name.removeprefix(visible(source.combination)), limit_state
+
+
+def _headline(result: Result, sources: list[Any], several: bool) -> str:
     """Say what the picture is of."""
     text = "Largest and smallest values" if sources else outcome(result)
     if result.combinations:
@@ -151,7 +163,7 @@ def _headline(result: Result, sources: list[Any]) -> str:
     if result.scene.trains and sources:
         names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
         text += cut_text(f" while trains pass: {names}", 85)
-    return text + "; the strips tell which one governs" * (len({source_name(one) for one in sources}) > 1)
+    return text + "; the strips tell which one governs" * several
 
 
 def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:

@@ -32,10 +32,13 @@ class Key:
     ----------
     count : int
         Sources that there are: one alone needs no letter.
+    told : dict, optional
+        By name of the source that which is told, and its limit state.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, count: int, told: dict[str, tuple[str, str]] | None = None) -> None:
         self.needed = count > 1
+        self._told = told or {}
         self._letters: dict[str, str] = {}
 
     def letter(self, name: str) -> str:
@@ -51,7 +54,8 @@ class Key:
     def source(self, extreme: Extreme | TrainExtreme) -> str:
         """Word where a value comes from: a letter, and the position of the train."""
         position = getattr(extreme, "position", None)
-        words = [self.letter(source_name(extreme))] if self.needed else []
+        name = source_name(extreme)
+        words = [self.letter(self._told.get(name, (name, ""))[0])] if self.needed else []
         words += [] if position is None else [f"at {fmt.number(position, 4)}"]
         return with_minus_signs(" ".join(words))
 
@@ -59,7 +63,10 @@ class Key:
         """Write the key."""
         ends = {name.rpartition(", ")[1:] for name in self._letters}
         alike = "".join(ends.pop()) if len(ends) == 1 and len(self._letters) > 1 else ""  # the same train in all
-        entries = [f"{letter} = {name.removesuffix(alike)}".replace(" ", FIXED) for name, letter in self._letters.items()]
+        of = {name: f" ({visible(limit_state)})" for name, limit_state in self._told.values() if limit_state}
+        entries = [
+            f"{letter} = {name.removesuffix(alike)}{of.get(name, '')}".replace(" ", FIXED) for name, letter in self._letters.items()
+        ]
         return textwrap.wrap("; ".join(entries), CHARACTERS, break_on_hyphens=False)
 
     def write(self, picture: Figure, lines: list[str], left: float) -> None:

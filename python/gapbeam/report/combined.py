@@ -6,6 +6,7 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.cases.limit_states import envelopes_to_tell
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..results.envelopes.lifted import NONE
@@ -21,7 +22,7 @@ from .writer import Writer, chosen
 
 if TYPE_CHECKING:
     from ..results.cases.combined import CombinedResult
-    from ..results.envelopes.envelope import Extreme
+    from ..results.envelopes.envelope import Envelope, Extreme
     from ..results.envelopes.ground_envelope import GroundExtreme
     from ..results.envelopes.hints import Hint
     from ..scene.structs import Scene
@@ -54,9 +55,11 @@ def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False)
         write_trains(say, result)
     elif "solved" in result.statuses:
         _reactions(say, result)
-        _fields(say, result)
-        _supports(say, result)
-        _foundations(say, result)
+        for name, envelope in envelopes_to_tell(result):
+            of = f"{'all combinations' if name is None else visible(name)} {_when(result)}"
+            _fields(say, result, envelope, of)
+            _supports(say, result, envelope, of)
+            _foundations(say, result, envelope, of)
         _factors_between(say, result)
     write_over_path(say, result)
     _list(say, result)
@@ -184,10 +187,9 @@ def _columns_of(reaction: np.ndarray, lifted: np.ndarray) -> list[int]:
     return sorted(ranked[:MOST_SUPPORTS])
 
 
-def _fields(say: Writer, result: "CombinedResult") -> None:
-    scene, envelope = result.scene, result.envelope()
-    say.heading(f"What governs, all combinations {_when(result)}")
-    rows = []
+def _fields(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
+    scene, rows = result.scene, []
+    say.heading(f"What governs, {of}")
     for quantity, row in fmt.reported(envelope.extremes).items():
         values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
         for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
@@ -197,13 +199,13 @@ def _fields(say: Writer, result: "CombinedResult") -> None:
     say.line(f"{positive_fields(scene)} Combinations with equal values stand beside each other.", "dim")
 
 
-def _supports(say: Writer, result: "CombinedResult") -> None:
+def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
     scene = result.scene
     if not scene.supports:
         return
-    say.heading(f"Supports, all combinations {_when(result)}")
+    say.heading(f"Supports, {of}")
     one_sided = any(support.side != "both" for support in scene.supports)
-    rows, names, envelope = [], fmt.numbered(scene.supports), result.envelope()
+    rows, names = [], fmt.numbered(scene.supports)
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
     for k in chosen(len(names), lifted, MOST_ROWS):
         if k is None:
@@ -224,13 +226,13 @@ def _supports(say: Writer, result: "CombinedResult") -> None:
     say.line("Reactions upward positive.", "dim")
 
 
-def _foundations(say: Writer, result: "CombinedResult") -> None:
+def _foundations(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
     """Tell what the foundations carry at most and at least, and where the beam hangs free."""
     scene = result.scene
     if not scene.foundation:
         return
-    say.heading(f"Foundations, all combinations {_when(result)}")
-    names, found = fmt.numbered(scene.foundation), result.envelope().foundations
+    say.heading(f"Foundations, {of}")
+    names, found = fmt.numbered(scene.foundation), envelope.foundations
     rows = []
     for name, row in zip(names, found, strict=True):
         for kind, words in IN_WORDS.items():
@@ -249,7 +251,7 @@ def _foundations(say: Writer, result: "CombinedResult") -> None:
         say.line("Resultants upward positive. There is no free span.", "dim")
         return
     say.line("Resultants upward positive.", "dim")
-    say.heading(f"Free spans, all combinations {_when(result)}")
+    say.heading(f"Free spans, {of}")
     say.table(["", "", *free_span_headings(scene), "combination"], rows, left=(0, 1, 6))
     say.line("Clearance: largest distance between beam and ground.", "dim")
 
@@ -312,8 +314,12 @@ def _list(say: Writer, result: "CombinedResult") -> None:
 
 def _about(combination: object) -> list[str]:
     """Say what else a combination asks for."""
-    words = [f"{visible(str(key))} settles {fmt.number(value, 4)}" for key, value in combination.settlements.items()]
+    words = [visible(combination.limit_state)] if combination.limit_state else []
+    words += [f"{visible(str(key))} settles {fmt.number(value, 4)}" for key, value in combination.settlements.items()]
     if combination.scheme_of is not None:
         words.append(f"contact state of {visible(combination.scheme_of)}")
-    words += [f"all patterns of {visible(case)} ({rule})" for case, rule in combination.expand.items()]
+    words += [
+        f"{visible(case)} on parts of spans" if rule == "parts" else f"all patterns of {visible(case)} ({rule})"
+        for case, rule in combination.expand.items()
+    ]
     return words

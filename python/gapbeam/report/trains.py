@@ -6,6 +6,7 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.cases.limit_states import envelopes_to_tell
 from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
 from ..results.views.extreme import IN_WORDS
@@ -39,11 +40,12 @@ def write_trains(say: Writer, result: "Result") -> None:
     """
     if not result.scene.trains:
         return
-    envelope = result.envelope()
-    _gaps(say, envelope)
-    _fields(say, result, envelope)
-    _supports(say, result, envelope)
-    _foundations(say, result, envelope)
+    _gaps(say, result.envelope())
+    for name, envelope in envelopes_to_tell(result):
+        of = "" if name is None else f", {visible(name)}"
+        _fields(say, result, envelope, of)
+        _supports(say, result, envelope, of)
+        _foundations(say, result, envelope, of)
     _events(say, result)
 
 
@@ -60,9 +62,9 @@ def _headings(result: "Result") -> list[str]:
     return [*(["combination"] if result.combinations else []), "train"]
 
 
-def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
+def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
     scene, rows = result.scene, []
-    say.heading("What governs while trains pass, all other loads in full")
+    say.heading(f"What governs while trains pass, all other loads in full{of}")
     for quantity, row in fmt.reported(envelope.extremes).items():
         for kind, words in IN_WORDS.items():
             one = row[kind]
@@ -76,7 +78,7 @@ def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
              f"larger side counts. {positive_fields(scene)}", "dim")  # fmt: skip
 
 
-def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
+def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
     """Extremes of reactions, and of openings where there are any."""
     scene = result.scene
     if not scene.supports:
@@ -96,7 +98,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
         opening = row["opening"]["max"]
         if opening is not None and opening.value > 0.0:
             rows.append(["", "opening", fmt.shown(scene, "opening", opening.value), *_source(result, opening)])
-    say.heading("Supports while trains pass")
+    say.heading(f"Supports while trains pass{of}")
     say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4), len(rows))
     if None in which:
         lost = sorted(set(lifted) - set(which))
@@ -107,7 +109,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
     say.line("Reactions upward positive; openings" + (f" in {length}" if length else "") + " where there are any.", "dim")
 
 
-def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope") -> None:
+def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
     """What the foundations carry at most and at least, and where the beam hangs free."""
     scene = result.scene
     if not scene.foundation:
@@ -123,11 +125,11 @@ def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope") -> No
                 ends = one.span.from_, one.span.to, one.span.to - one.span.from_
                 numbers = [*(fmt.number(value, 4) for value in ends), fmt.shown(scene, "sag", one.span.sag)]
                 spans.append([name if kind == "longest" else "", kind, *numbers, *_source(result, one)])
-    say.heading("Foundations while trains pass")
+    say.heading(f"Foundations while trains pass{of}")
     say.table(["", "", fmt.stacked(scene, "resultant"), *_headings(result)], rows, (0, 1, 3, 4))
     say.line("Resultants upward positive." + ("" if spans else " There is no free span."), "dim")
     if spans:
-        say.heading("Free spans while trains pass")
+        say.heading(f"Free spans while trains pass{of}")
         say.table(["", "", *free_span_headings(scene), *_headings(result)], spans, (0, 1, 6, 7))
         say.line("Clearance: largest distance between beam and ground.", "dim")
 

@@ -93,6 +93,10 @@ def _one_load(scene: Scene, combination: str | None) -> Scene:
         if combination is not None:
             raise SceneError("--combination", "the scene has no combinations; leave it out")
         return scene
+    for i, one in enumerate(scene.combinations):
+        if "parts" in one.expand.values():
+            problem = 'a proof is of loads that stand somewhere; write those on parts of spans as loads of a case of their own'
+            raise SceneError(f"combinations[{i}].expand", problem)
     plan = plan_combinations(scene)
     name = plan.names[-1] if combination is None else combination
     if name not in plan.names:

@@ -234,6 +234,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
     }),
     "CombinationResult": ("A combination in its own contact state; of several states the last one.", STATE | {
         "name": ("string", "Its name."),
+        "limit_state?": ("string", "Name of its limit state; only where it has one."),
         "status": ("Status", "Its outcome."),
         "reason?": ("string | null", "Why it is not solved, in words."),
         "motion?": ("[[number]] | null", "Mechanism of an unstable beam: position and deflection, in any scale."),
@@ -266,6 +267,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "without_trains?": ("string", "Why the beam is unstable while no train is on it."),
         "combinations?": ("[CombinationResult]", "Combinations, in the order of the scene."),
         "envelope?": ("Envelope", "Envelope; with combinations or trains."),
+        "envelopes?": ("{Envelope}", "Envelopes of the combinations of each limit state, by its name."),
     }),
 }
 """Tables of the output: purpose; by key its type and meaning. [] is a list, {} a table by name, | one of several."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import isfinite
@@ -14,8 +14,8 @@ import numpy as np
 from ..base.errors import SceneError
 from ..base.records import read_only
 from .columns import SIDES
-from .loads import LinearLoad, UniformLoad
-from .names import cases_of, find, labels
+from .cut_loads import Placement, check_parts, cut_loads
+from .names import cases_of, find
 from .structs import Combination, Scene, Support
 from .tables import Table
 from .trains import joined, train_name
@@ -47,6 +47,8 @@ class Plan:
         Factor of every train, combinations by trains.
     idle : tuple of str
         Cases that act in none of them.
+    origin : tuple of int
+        The number in the scene of the combination that each is a pattern of.
     """
 
     scene: Scene
@@ -56,6 +58,12 @@ class Plan:
     scheme_of: tuple[int | None, ...]
     trains: np.ndarray
     idle: tuple[str, ...]
+    origin: tuple[int, ...]
+
+    @property
+    def limit_states(self) -> tuple[str, ...]:
+        """The limit state of each, empty where it has none."""
+        return tuple(self.scene.combinations[i].limit_state for i in self.origin)
 
     def __len__(self) -> int:
         """Count the combinations."""
@@ -137,13 +145,15 @@ def _held(support: Support, acts: bool) -> Support:
     return msgspec.structs.replace(support, side="both", gap=0.0, settlement=level)
 
 
-def plan_combinations(scene: Scene) -> Plan:
+def plan_combinations(scene: Scene, placed: Mapping[int, Sequence[Placement]] | None = None) -> Plan:
     """Take the combinations of a scene.
 
     Parameters
     ----------
     scene : Scene
         Keys and types are right, and names are unique.
+    placed : mapping, optional
+        Of combinations with ``parts``, by number, where the loads of that case stand; without it they stand everywhere.
 
     Returns
     -------
@@ -157,19 +167,19 @@ def plan_combinations(scene: Scene) -> Plan:
     there = dict.fromkeys((*cases_of(scene.loads), *(train.case for train in scene.trains)))
     for i, combination in enumerate(scene.combinations):
         _check(i, combination, there, {train.case for train in scene.trains})
-    patterned = dict.fromkeys(case for one in scene.combinations for case, rule in one.expand.items() if rule == "spans")
-    cut, spans = _cut(scene, list(patterned))
+    cut, spans, middles = cut_loads(scene, placed or {})
     column = {case: k for k, case in enumerate(there)}
     case_of_load = np.array([column[case] for case in cases_of(cut.loads)], dtype=int)
     loads_of = {case: np.flatnonzero(case_of_load == k) for case, k in column.items()}
     names: list[str] = []
     factors: list[np.ndarray] = []
     origin: list[int] = []
-    _check_count(scene, spans)
+    _check_count(scene, spans, placed or {})
     of_cases = np.array([[one.factors.get(case, 0.0) for case in there] for one in scene.combinations], dtype=float)
     of_loads = of_cases.reshape(len(scene.combinations), len(there))[:, case_of_load]
     for i, combination in enumerate(scene.combinations):
-        for name, row in _patterns(combination, of_loads[i], loads_of, spans):
+        stand = [(one.name, one.acts(middles)) for one in (placed or {}).get(i, ())]
+        for name, row in _patterns(combination, of_loads[i], loads_of, spans, stand):
             names.append(name)
             factors.append(row)
             origin.append(i)
@@ -186,7 +196,7 @@ def plan_combinations(scene: Scene) -> Plan:
     idle = [case for case in there if case not in acts and not table[:, loads_of[case]].any()]
     return Plan(
         cut, tuple(names), read_only(table), read_only(movements[origin]), _schemes(scene, names, origin), read_only(moving),
-        tuple(idle),
+        tuple(idle), tuple(origin),
     )
 
 
@@ -210,6 +220,7 @@ def _check(i: int, combination: Combination, cases: dict[str, None], moving: set
         if not combination.factors.get(key):
             problem = "has no factor" if key not in combination.factors else "has the factor 0, so all its patterns are the same"
             raise SceneError(f"{place}.expand.{key_of(key)}", f"{problem}; give it one in factors")
+    check_parts(place, combination)
 
 
 def _settlements(scene: Scene, i: int) -> np.ndarray:
@@ -228,77 +239,16 @@ def _settlements(scene: Scene, i: int) -> np.ndarray:
     return row
 
 
-def _cut(scene: Scene, cases: list[str]) -> tuple[Scene, dict[str, np.ndarray]]:
-    """Cut the distributed loads of some cases at the ends of spans.
-
-    Returns
-    -------
-    scene : Scene
-        With more loads.
-    spans : dict
-        By case the span of every load, -1 for those of other cases.
-    """
-    if not cases:
-        return scene, {}
-    ends = scene.span_ends()
-    _check_spans(scene, ends)
-    loads: list[Any] = []
-    of: list[int] = []
-    for i, load in enumerate(scene.loads):
-        if load.case not in cases:
-            loads.append(load)
-            of.append(-1)
-            continue
-        if not isinstance(load, UniformLoad | LinearLoad):
-            raise SceneError(f"loads[{i}]", f'a case with expand = "spans" has distributed loads only; give this one another '
-                             f"case than {shown(load.case)}")  # fmt: skip
-        left, right = load.from_, float(ends[-1]) if load.to is None else load.to
-        for k in range(len(ends) - 1):
-            a, b = max(left, float(ends[k])), min(right, float(ends[k + 1]))
-            if b - a <= 1e-9 * float(ends[-1]):
-                continue
-            loads.append(_part(load, left, right, a, b, k))
-            of.append(k)
-    found = np.array(of, dtype=int)
-    names = np.array([load.case for load in loads], dtype=object)
-    return (
-        msgspec.structs.replace(scene, loads=loads),
-        {case: np.where(names == case, found, -1) for case in cases},
-    )
-
-
-def _part(load: Any, left: float, right: float, a: float, b: float, span: int) -> Any:
-    """A distributed load between two places."""
-    name = None if load.name is None else f"{load.name}, span {span}"
-    if isinstance(load, UniformLoad):
-        return msgspec.structs.replace(load, from_=a, to=b, name=name)
-    at = [load.q[0] + (load.q[1] - load.q[0]) * ((x - left) / (right - left)) for x in (a, b)]
-    q = (load.q[0] if a == left else at[0], load.q[1] if b == right else at[1])
-    return msgspec.structs.replace(load, from_=a, to=b, q=q, name=name)
-
-
-def _check_spans(scene: Scene, ends: np.ndarray) -> None:
-    """Patterns go from span end to span end: a support between would be passed over without a word."""
-    x = scene.positions(scene.supports)
-    names = labels(scene.supports)
-    for k, support in enumerate(scene.supports):
-        if support.direction == "normal" and np.abs(ends - x[k]).min(initial=np.inf) > 1e-9 * ends[-1]:
-            i = next(i for i, one in enumerate(scene.combinations) if "spans" in one.expand.values())
-            case = next(case for case, rule in scene.combinations[i].expand.items() if rule == "spans")
-            raise SceneError(
-                f"combinations[{i}].expand.{key_of(case)}",
-                f'"spans" loads the spans of the beam one by one, but support {names[k]} at x = {number(x[k])} stands inside a '
-                "span; make beam.spans end at the supports",
-            )
-
-
-def _check_count(scene: Scene, spans: dict[str, np.ndarray]) -> None:
+def _check_count(scene: Scene, spans: dict[str, np.ndarray], placed: Mapping[int, Sequence[Placement]]) -> None:
     """Refuse more combinations than anybody looks at."""
     total = 0
     for i, combination in enumerate(scene.combinations):
         made = 1
         for case, rule in combination.expand.items():
-            made *= 2 if rule == "signs" else 2 ** len(set(spans[case][spans[case] >= 0].tolist()))
+            if rule == "parts":
+                made *= len(placed.get(i, (1,)))
+            else:
+                made *= 2 if rule == "signs" else 2 ** len(set(spans[case][spans[case] >= 0].tolist()))
         total += made
         if total > MOST and combination.expand:
             raise SceneError(
@@ -309,13 +259,21 @@ def _check_count(scene: Scene, spans: dict[str, np.ndarray]) -> None:
 
 
 def _patterns(
-    combination: Combination, plain: np.ndarray, loads_of: dict[str, np.ndarray], spans: dict[str, np.ndarray]
+    combination: Combination, plain: np.ndarray, loads_of: dict[str, np.ndarray], spans: dict[str, np.ndarray],
+    stand: Sequence[tuple[str, np.ndarray]],
 ) -> Iterator[tuple[str, np.ndarray]]:
     """Names and factors of what a combination stands for."""
     ways = []
     for case, rule in combination.expand.items():
         if rule == "signs":
             ways.append([(f"{case} {sign}", loads_of[case], value) for sign, value in (("+", 1.0), ("-", -1.0))])
+            continue
+        if rule == "parts":
+            seen: dict[bytes, tuple[str, np.ndarray, np.ndarray]] = {}
+            for name, row in stand:
+                there = row[loads_of[case]]
+                seen.setdefault(there.tobytes(), (name, loads_of[case], there))
+            ways += [list(seen.values())] if stand else []
             continue
         span = spans[case]
         reached = sorted(set(span[span >= 0].tolist()))

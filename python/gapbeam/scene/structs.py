@@ -242,17 +242,21 @@ class Combination(Table, forbid_unknown_fields=True, kw_only=True):
     scheme_of : str, optional
         Name of another combination: this one is solved with the supports that act there. Those that are open there stay open,
         those that are closed hold both ways.
-    expand : dict of {"signs", "spans"}
+    expand : dict of {"parts", "signs", "spans"}
         Cases that stand for several combinations. signs: with its factor and with that factor negative; spans: its distributed
-        loads on every choice of the spans that they reach, none included. Several cases: every pattern of each with every
-        pattern of the others.
+        loads on every choice of the spans that they reach, none included; parts: its uniform loads on those parts of spans where
+        the influence lines of reactions, and of moment, shear and deflection at ends and tenths of spans, have one sign. Several
+        cases with signs or spans: every pattern of each with every pattern of the others.
+    limit_state : str
+        Name of the limit state that it belongs to, such as ULS; default none. Every limit state has an envelope of its own.
     """
 
     name: str
     factors: dict[str, float]
     settlements: dict[int | str, float] = {}
     scheme_of: str | None = None
-    expand: dict[str, Literal["signs", "spans"]] = {}
+    expand: dict[str, Literal["parts", "signs", "spans"]] = {}
+    limit_state: str = ""
 
 
 class Scene(Table, forbid_unknown_fields=True, kw_only=True):

@@ -3,7 +3,7 @@ program test_train
     use, intrinsic :: ieee_arithmetic, only: ieee_status_type, ieee_get_status, ieee_set_status, ieee_set_halting_mode, ieee_all
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
-    use gapbeam_quantities, only: bending_count
+    use gapbeam_quantities, only: bending_count, of_shear
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, span_type, support_type, uniform_load, gapbeam_below, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, copy_model
@@ -18,6 +18,7 @@ program test_train
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link
     use gapbeam_train_curves, only: find_curves
     use gapbeam_train_influence, only: find_influence
+    use gapbeam_influence_parts, only: find_parts, most_parts
     use gapbeam_pieces, only: gapbeam_opens, gapbeam_closes
     implicit none
     integer :: status
@@ -70,6 +71,8 @@ contains
         type(train_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
         real(wp) :: value(2, bending_count, 1), position(2, bending_count, 1), line(bending_count + 2, 2)
+        real(wp) :: edge(most_parts(2))
+        integer :: sign_of(most_parts(2)), number
 
         call make([1.0_wp, 1.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0_wp, lowered, track)
         train = axles([0.0_wp], [8.0_wp])
@@ -93,6 +96,12 @@ contains
                             [0.25_wp, 1.5_wp], line, error)
         call check_close(line(3, :), [0.125_wp - 0.25_wp*0.9375_wp/8, -0.375_wp/8], "influence on a moment")
         call check_close(line(bending_count + 1, :), [0.25_wp*(3 - 0.0625_wp)/2, 0.5_wp*(3 - 0.25_wp)/2], "influence on a reaction")
+        ! Shear at midspan: a force in the other span adds that of the moment at the support, which is negative
+        call find_parts(lowered, [.true., .true., .true.], [.false., .true., .false.], 1, 0.5_wp, of_shear, edge, sign_of, number, &
+                        error)
+        call check(number == 3, "parts of a line")
+        call check_close(edge(:3), [0.5_wp, 1.0_wp, 2.0_wp], "ends of the parts")
+        call check(all(sign_of(:3) == [-1, 1, -1]), "signs of the parts")
     end subroutine an_end_lifts
 
     !> A train without uniform loads

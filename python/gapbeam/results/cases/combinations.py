@@ -75,12 +75,15 @@ class Combinations(Pickled, Mapping[str, Result]):
         Returns
         -------
         dict
-            ``combination``, ``status``; of every field its extremes and their places (``moment_max``, ``moment_max_x``), of every
+            ``combination``, ``status``, ``limit_state`` where there are any; of every field its extremes and their places
+            (``moment_max``, ``moment_max_x``), of every
             support its reaction (``reaction R-104``, or by number), at full load; with trains the extremes over all their
             positions, of reactions too (``reaction R-104_max``). Not-a-number where a combination is not solved.
         """
         found, statuses, fields = self._solved
         table: dict[str, Any] = {"combination": list(self._plan.names), "status": list(statuses)}
+        if any(self._plan.limit_states):
+            table["limit_state"] = list(self._plan.limit_states)
         scene = self._plan.scene
         if scene.trains:
             return table | extremes_while_trains_pass(self)

@@ -21,6 +21,7 @@ from ..envelopes.envelope import AT_SUPPORTS, Envelope
 from ..envelopes.hints import Hint, find_hints
 from ..paths.compression import larger
 from ..result import Result
+from ..state.arguments import whole
 from ..state.fields import Fields
 from ..trains.envelope import TrainEnvelope, places_given
 from ..trains.members import Member, Standing
@@ -29,6 +30,8 @@ from ..views.labelled import Labelled, by_support
 from .combinations import Combinations
 from .combined_data import combined_data
 from .combined_solver import AtOnce, OneByOne
+from .limit_states import members_of, without_others
+from .parts import place_parts
 
 if TYPE_CHECKING:
     from ..state.step import Step
@@ -80,7 +83,7 @@ class CombinedResult(Result):
         What else is to be known: load cases that act in none of them, schemes that are not decided.
     """
 
-    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
+    def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray, remarks: Sequence[str] = ()):
         super().__init__(scene, beam, rule)
         self.names = plan.names
         self._plan = plan
@@ -107,6 +110,7 @@ class CombinedResult(Result):
         self._seconds = perf_counter() - begin
         self.remarks = [f"no combination has loads of the case {shown(case)}" for case in plan.idle]
         self.remarks += self._near
+        self.remarks += remarks
         self.remarks += [words for k in range(len(plan)) if (words := self._doubt(k))]
         fallen = [k for k, status in enumerate(self.statuses) if status != "solved"]
         if fallen:
@@ -218,26 +222,60 @@ class CombinedResult(Result):
         """Refuse: trains pass in every combination."""
         return self._chosen(None)
 
-    def envelope(self, points: int = 20, *, x: Any = None) -> Envelope | TrainEnvelope:
-        """Largest and smallest values of all combinations that are solved, each at its full load, as `Result.envelope`."""
-        if self.scene.trains:
-            return super().envelope(points, x=x)
-        places = places_given(self._beam, x)
-        sources = [Source(name) for name in self.names]
-        found = self._found
-        return Envelope(
-            self, self._fields_there, sources, found.at_supports, found.extremes, found.places,
-            lambda k: self.combinations[k], lambda: self._curves(points, places), places is not None,
-        )  # fmt: skip
+    @property
+    def limit_states(self) -> tuple[str, ...]:
+        """Names of the limit states that combinations belong to, in the order of the scene."""
+        return tuple(dict.fromkeys(name for name in self._plan.limit_states if name))
 
-    def _members(self) -> Iterator[Member]:
+    def envelope(self, points: int = 20, *, x: Any = None, limit_state: str | None = None) -> Envelope | TrainEnvelope:
+        """Largest and smallest values of all combinations that are solved, each at its full load, as `Result.envelope`.
+
+        Parameters
+        ----------
+        points, x
+            As there.
+        limit_state : str, optional
+            Only the combinations of this limit state.
+
+        Raises
+        ------
+        ValueError
+            There is no such limit state, or none of its combinations is solved.
+        """
+        places, chosen = places_given(self._beam, x), members_of(limit_state, self._plan.limit_states)
+        if self.scene.trains:
+            return TrainEnvelope(self, list(self._members(chosen)), places, whole("points", points, least=1))
+        sources = [Source(name) for name in self.names]
+        at_supports, extremes = (without_others(values, chosen) for values in (self._found.at_supports, self._found.extremes))
+        envelope = Envelope(
+            self, self._fields_there, sources, at_supports, extremes, self._found.places,
+            lambda k: self.combinations[k], lambda: self._curves(points, places, chosen), places is not None,
+        )  # fmt: skip
+        envelope.limit_state = limit_state
+        return envelope
+
+    def _has_envelope_of(self, limit_state: str) -> bool:
+        """Whether there is anything in the envelope of a limit state."""
+        return any(
+            self.statuses[k] == "solved" or self.combinations[k].has_envelope
+            for k in np.flatnonzero(members_of(limit_state, self._plan.limit_states)).tolist()
+        )
+
+    def _members(self, chosen: np.ndarray | None = None) -> Iterator[Member]:
         """Go through the trains in every combination, and the combinations in which none acts.
+
+        Parameters
+        ----------
+        chosen : numpy.ndarray of bool, optional
+            Which combinations; default all.
 
         Yields
         ------
         Member
         """
         for k, name in enumerate(self.names):
+            if chosen is not None and not chosen[k]:
+                continue
             result = self.combinations[k]
             if not result.has_answer:
                 continue
@@ -286,9 +324,15 @@ class CombinedResult(Result):
         return there
 
     def _curves(
-        self, points: int, x: np.ndarray | None
+        self, points: int, x: np.ndarray | None, chosen: np.ndarray
     ) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         """Places along the beam, and the fields there of some combinations at a time."""
+        x, parts = self._curves_of_all(points, x)
+        return x, ((part, without_others(values, chosen[part])) for part, values in parts)
+
+    def _curves_of_all(
+        self, points: int, x: np.ndarray | None
+    ) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         if x is not None:
             piece, distance = map(
                 np.concatenate, zip(self._beam.find(x, False), self._beam.find(x, True), strict=True)
@@ -326,8 +370,9 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     SceneError
         A combination makes no sense, or moves supports so that they leave no room for each other.
     """
-    plan = plan_combinations(scene)
+    placed, remarks = place_parts(scene, beam, rule)
+    plan = plan_combinations(scene, placed)
     if plan.scene is not scene:
         taken = columns(plan.scene)
         beam = Beam(taken, curves(plan.scene, taken))
-    return CombinedResult(scene, plan, beam, rule, read_only(start))
+    return CombinedResult(scene, plan, beam, rule, read_only(start), remarks)

@@ -52,13 +52,16 @@ def combined_data(result: CombinedResult, points: int = 20, combinations: Callab
     data |= limits_data(result)
     if result.has_envelope:
         data["envelope"] = result.envelope(points).to_dict()
+        if names := [name for name in result.limit_states if result._has_envelope_of(name)]:
+            data["envelopes"] = {name: result.envelope(points, limit_state=name).to_dict() for name in names}
     return data
 
 
 def _each(result: CombinedResult) -> Iterator[dict[str, Any]]:
     """Give the combinations as plain data, each made when its turn comes."""
     for k, name in enumerate(result.names):
-        yield {"name": name, **_one(result.combinations[k])}
+        limit_state = result._plan.limit_states[k]
+        yield {"name": name, **({"limit_state": limit_state} if limit_state else {}), **_one(result.combinations[k])}
 
 
 def _one(result: Result) -> dict[str, Any]:

@@ -201,7 +201,11 @@ class Envelope(PartVerbs):
         For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
     foundations : list of dict
         For every foundation ``{"resultant": {"max": ..., "min": ...}, "free_span": {"longest": ..., "deepest": ...}}``.
+    limit_state : str or None
+        The limit state whose combinations count; None: all.
     """
+
+    limit_state: str | None = None
 
     def __init__(
         self, result: Result, fields: dict[str, int], sources: Sequence[Source], at_supports: np.ndarray, extremes: np.ndarray,
@@ -229,6 +233,9 @@ class Envelope(PartVerbs):
         return (self._state_of(k).state for k in self._solved)
 
     renamed: ClassVar = {"bound": "_bound", "result_of": "_result_of", "state_of": "_state_of", "keys": "_keys"}
+
+    def _curves_at(self, x: Any) -> Curves:
+        return self._result.envelope(x=x, **({} if self.limit_state is None else {"limit_state": self.limit_state})).fields
 
     def _bound(self, k: int, quantity: str) -> float:
         """Give the error bound of a quantity in a combination.

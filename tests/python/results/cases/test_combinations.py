@@ -330,7 +330,7 @@ def test_json_csv_and_report():
         ({"scheme_of": "cold"}, 'combinations "cold".scheme_of: is the combination itself'),
         ({"scheme_of": "warm"}, 'combinations "cold".scheme_of: there is no combination "warm"'),
         ({"expand": {"wind": "signs"}}, 'combinations "cold".expand.wind: has no factor'),
-        ({"expand": {"wind": "sign"}}, 'combinations[0].expand.wind: expected "signs" or "spans", got "sign"'),
+        ({"expand": {"wind": "sign"}}, 'combinations[0].expand.wind: expected "parts", "signs" or "spans", got "sign"'),
         ({"factors": {"live": 1.0}, "expand": {"live": "spans"}}, 'loads[1]: a case with expand = "spans" has distributed loads'),
         ({"name": None}, "combinations[0].name"),
         ({"factor": {}}, 'combinations[0].factor: unknown key; did you mean "factors"?'),

@@ -214,6 +214,14 @@ def test_events():
     assert [12.0 - event.position for event in back.events] == pytest.approx([event.position for event in train.events], abs=1e-9)
 
 
+def test_where_zones_meet():
+    """As the oracle has it, to 40 digits; the place is that of the highest point of the gap as it closes."""
+    train = gapbeam.solve(rail(supports=[], trains=[{"axles": [[0.0, 10.0]]}])).trains["train 1"]
+    first, last = (event for event in train.events if event.event in ("zones merge", "zone splits"))
+    assert (first.position, 12.0 - last.position) == pytest.approx([0.30114185288453195] * 2, abs=3e-14)
+    assert (first.x, 12.0 - last.x) == pytest.approx([4.857325820506625] * 2, abs=3e-9)
+
+
 def test_outputs(tmp_path):
     result = gapbeam.solve(rail(trains=[{**rail()["trains"][0], "from": 3.0, "to": 5.0}]))
     data = json.loads(to_json(result))
