@@ -21,7 +21,7 @@ FORTRAN = {
     "precision": "extended precision, audit of every answer, certificates and error bounds",
     "scene": "from the user's numbers to the assembled model",
     "response": "what is asked of a state: fields, extremes, pressures, values at supports",
-    "continuation": "from event to event while the load grows, through limit points, over ground",
+    "continuation": "from event to event, through limit points, over ground",
     "moving_load": "trains, what they make at most, influence lines",
     "cases": "many cases, side by side in wide registers, and combinations",
     "face": "the same objects for C, Fortran, Fortran 77 and f2py: marshalling only",

@@ -18,11 +18,14 @@ module gapbeam_limits
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
-    public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents
+    public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
     !> continuation/smooth_events, response/smooth_state
     integer, parameter :: most_tangents = 100
+    !> Steps after which a branch beyond a bifurcation on smooth laws is given up; tuned: some fifty do. Read by
+    !> continuation/smooth_branches
+    integer, parameter :: most_branch_points = 5000
     !> Segments after which a path through a history is cut off: without a history there are finitely many, with one a beam may
     !> flip to and fro without end. Read by face/api_history and, through the engine, by gapbeam.results.paths
     integer, parameter :: most_path_segments = 20000

@@ -8,7 +8,8 @@ module gapbeam_path_tolerances
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
-    public :: longest_beyond, farthest_beyond
+    public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
+    public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
@@ -62,10 +63,11 @@ module gapbeam_path_tolerances
     !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is.
     !> Read by continuation/arc_roots, continuation/arc_states
     real(wp), parameter :: arc_settled = 4*epsilon(1.0_wp)
-    !> The same where changes grow no smaller any more: rounding of the solve with springs. Read by continuation/arc_states
+    !> The same where changes grow no smaller any more: rounding of the solve with springs. Read by continuation/arc_states,
+    !> continuation/branch_points
     real(wp), parameter :: arc_rounding = 1e-13_wp
     !> The same after many corrections; and share of the largest eigenvalue below which one is rounding; tuned. Read by
-    !> continuation/arc_states
+    !> continuation/arc_states, continuation/branch_points, continuation/smooth_branches
     real(wp), parameter :: arc_noise = 1e-9_wp
     !> Relative singular value below which the path branches: the way to the other branch is left out then; tuned. Read by
     !> continuation/arc_states
@@ -83,6 +85,28 @@ module gapbeam_path_tolerances
     real(wp), parameter :: longest_beyond = 0.02_wp
     !> How far a root is looked for beyond the two states of an arc, in the same sizes; tuned. Read by continuation/arc_roots
     real(wp), parameter :: farthest_beyond = 0.2_wp
+    !> How far beside a bifurcation its branches are looked for, in sizes of the deflections; tuned. Read by
+    !> continuation/smooth_branches
+    real(wp), parameter :: beside_branching = 0.01_wp
+    !> First step along a branch, in sizes of the deflections and the factor; tuned. Read by continuation/smooth_branches
+    real(wp), parameter :: first_branch_step = 0.005_wp
+    !> Longest such step; tuned. Read by continuation/smooth_branches
+    real(wp), parameter :: longest_branch_step = 0.05_wp
+    !> Steps shorter than this are none: the branch is lost; tuned. Read by continuation/smooth_branches
+    real(wp), parameter :: shortest_branch_step = 1e-7_wp
+    !> Most that the direction of a branch may change in a step, so that none is taken to another branch; tuned. Read by
+    !> continuation/smooth_branches
+    real(wp), parameter :: branch_bend = 0.1_wp
+    !> Relative change of the load factor by which a branch rises or falls: less is rounding. Read by continuation/smooth_branches
+    real(wp), parameter :: branch_rises = 1e-10_wp
+    !> Relative singular value below which a direction is left out where branches cross; tuned. Read by
+    !> continuation/smooth_branches
+    real(wp), parameter :: crossing_directions = 1e-4_wp
+    !> How near to a crossing of branches the equations are looked at; tuned. Read by continuation/branch_points
+    real(wp), parameter :: nearest_crossing = 1e-5_wp
+    !> How many times less dependent, relative to the distance, than farther away they may be near one; tuned. Read by
+    !> continuation/branch_points
+    real(wp), parameter :: less_independent = 4.0_wp
 
     !
     ! Trains

@@ -7,7 +7,8 @@ module gapbeam_arc_states
     use gapbeam_certificate, only: certificate_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: certify_state
-    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_in, forces_at, lose, is_lost
+    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_in, forces_at, &
+        tangent_matrix, lose, is_lost
     implicit none
     private
     public :: find_on_arc, rate_beside, eigenvalues_at, wrongness_of, holds_at
@@ -116,7 +117,7 @@ contains
         !> No numbers, or none that solve them
         type(error_type), allocatable, intent(out) :: error
         real(wp), allocatable :: matrix(:, :), columns(:, :)
-        integer :: n, j
+        integer :: n
         logical :: regular
 
         n = size(deflection)
@@ -125,11 +126,7 @@ contains
         regular = all(abs(found%slope) <= huge(wrong)) .and. all(abs(deflection) <= huge(wrong))
         if (regular) then
             allocate (matrix(n + 1, n + 1), columns(n + 1, 2))
-            do j = 1, n
-                matrix(:n, j) = arc%flexibility(:, j)*(found%slope(j) - arc%springs(j))
-                matrix(j, j) = matrix(j, j) + 1
-            end do
-            matrix(:n, n + 1) = -arc%under_load*arc%weights(n + 1)/arc%weights(1)
+            call tangent_matrix(arc, found%slope, matrix(:n, :))
             matrix(n + 1, :) = arc%along
             columns(:, :) = 0.0_wp
             columns(:n, 1) = (deflection - found%point(:n))/arc%weights(1)

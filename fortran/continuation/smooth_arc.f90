@@ -18,7 +18,8 @@ module gapbeam_smooth_arc
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, put_line
     implicit none
     private
-    public :: arc_type, arc_state_type, known_type, new_arc, solve_with_springs, deflections_in, forces_at, lose, is_lost
+    public :: arc_type, arc_state_type, known_type, new_arc, solve_with_springs, deflections_in, forces_at, tangent_matrix, &
+        lose, is_lost
 
     !> A state on the smooth laws
     type :: arc_state_type
@@ -236,5 +237,22 @@ contains
             end associate
         end do
     end subroutine forces_at
+
+    !> Derivatives of the equations by relative deflections and load factor, in relative deflections
+    pure subroutine tangent_matrix(arc, slope, matrix)
+        type(arc_type), intent(in) :: arc
+        !> Slopes of the smooth laws, shape (n)
+        real(wp), intent(in) :: slope(:)
+        !> Shape (n, n + 1)
+        real(wp), intent(out) :: matrix(:, :)
+        integer :: n, j
+
+        n = size(slope)
+        do j = 1, n
+            matrix(:, j) = arc%flexibility(:, j)*(slope(j) - arc%springs(j))
+            matrix(j, j) = matrix(j, j) + 1
+        end do
+        matrix(:, n + 1) = -arc%under_load*arc%weights(n + 1)/arc%weights(1)
+    end subroutine tangent_matrix
 
 end module gapbeam_smooth_arc

@@ -4,7 +4,7 @@
 ! of the end of a piece, and 1 where the force tells how far it is
 
 ! The path on the smooth laws along the line between two states
-subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, weight, spring, flexib, load, status, message)
+subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, laws_given, report
     use gapbeam_handles, only: arc_tag, new_handle, finish_handle
     use gapbeam_smooth_arc, only: new_arc
@@ -18,8 +18,6 @@ subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, weight, spr
     double precision, intent(in) :: ends(n + 1, 2), turn(n + 1)
     integer, intent(in) :: turns
     integer(8), intent(out) :: arc
-    ! Sizes; springs in place of the laws; deflections due to a force at each law, a column each, and due to the live loads
-    double precision, intent(out) :: weight(n + 1), spring(n), flexib(n, n), load(n)
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
@@ -27,10 +25,6 @@ subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, weight, spr
     type(error_type), allocatable :: error
 
     handle => behind(beam)
-    weight = 0.0d0
-    spring = 0.0d0
-    flexib = 0.0d0
-    load = 0.0d0
     call new_handle(arc_tag, made, error)
     if (.not. allocated(error)) then
         associate (lowered => handle%beam%lowered)
@@ -42,12 +36,6 @@ subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, weight, spr
                              made%arc, error)
             end if
         end associate
-    end if
-    if (.not. allocated(error)) then
-        weight = made%arc%weights
-        spring = made%arc%springs
-        flexib = made%arc%flexibility
-        load = made%arc%under_load
     end if
     call finish_handle(made, error)
     arc = number_of(made)
@@ -187,23 +175,51 @@ subroutine gbaeig(arc, n, slope, values, status, message)
     call report(error, status, message)
 end subroutine gbaeig
 
-! Are all other supports on their pieces in a state, to a share of the largest reaction or deflection
-subroutine gbahol(arc, n, point, most, holds, status, message)
+! Stable way on from a bifurcation, where the load goes WAY, until it comes to GOAL or stops growing
+subroutine gbabra(arc, n, origin, way, goal, points, count, arrive, lost, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, behind, report
-    use gapbeam_arc_states, only: holds_at
+    use gapbeam_limits, only: most_branch_points
+    use gapbeam_smooth_branches, only: branch_points_type, tracer_at, follow_branch
     implicit none
     integer(8), intent(in) :: arc
-    integer, intent(in) :: n
-    double precision, intent(in) :: point(n), most
-    integer, intent(out) :: holds, status
+    integer, intent(in) :: n, way
+    double precision, intent(in) :: origin(n), goal
+    ! From the bifurcation on, COUNT of them; 1 where it comes to GOAL; 1 where it goes on, but cannot be followed
+    double precision, intent(out) :: points(n, 10003)
+    integer, intent(out) :: count, arrive, lost, status
     character(len=240), intent(out) :: message
     !f2py threadsafe
     type(handle_type), pointer :: handle
     type(error_type), allocatable :: error
-    logical :: they_are
+    type(branch_points_type) :: branch
 
     handle => behind(arc)
-    call holds_at(handle%arc, point, most, they_are, error)
-    holds = merge(1, 0, they_are)
+    points = 0.0d0
+    call follow_branch(tracer_at(handle%arc, origin), way, goal, branch, error)
     call report(error, status, message)
-end subroutine gbahol
+    count = min(branch%number, 2*most_branch_points + 3)
+    if (count > 0) points(:, :count) = branch%points(:, :count)
+    arrive = merge(1, 0, branch%arrives)
+    lost = merge(1, 0, branch%lost)
+end subroutine gbabra
+
+! The point of such a way at a load factor between those of its first and last point
+subroutine gbafac(arc, n, count, origin, points, factor, point, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_smooth_branches, only: tracer_at, point_at_factor
+    implicit none
+    integer(8), intent(in) :: arc
+    integer, intent(in) :: n, count
+    double precision, intent(in) :: origin(n), points(n, count), factor
+    double precision, intent(out) :: point(n)
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    type(handle_type), pointer :: handle
+    type(error_type), allocatable :: error
+
+    handle => behind(arc)
+    point = 0.0d0
+    call point_at_factor(tracer_at(handle%arc, origin), points, factor, point, error)
+    call report(error, status, message)
+end subroutine gbafac

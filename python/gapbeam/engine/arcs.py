@@ -132,6 +132,24 @@ class ArcState(NamedTuple):
         return self.arc.beam.with_breakpoints(self.breakpoints)
 
 
+class Branch(NamedTuple):
+    """What comes after a bifurcation.
+
+    Attributes
+    ----------
+    points : numpy.ndarray
+        Deflections at the laws and load factor (columns), from the bifurcation on; that alone where no way on is stable.
+    arrives : bool
+        Whether it ends at the load factor wanted; else the load cannot grow beyond its end.
+    lost : bool
+        Whether a stable way goes on, but not to be followed: another support passes an end of its piece, for instance.
+    """
+
+    points: np.ndarray
+    arrives: bool
+    lost: bool
+
+
 class Arc:
     """The path on the smooth laws along the line between two states; places are 0 and 1 at these.
 
@@ -151,12 +169,6 @@ class Arc:
     ----------
     beam : Beam
         As above.
-    weights : numpy.ndarray
-        Sizes of the deflections and of the load factor.
-    springs : numpy.ndarray
-        Stiffnesses of the springs in place of the laws.
-    flexibility, under_load : numpy.ndarray
-        Deflections due to a force at each law, and due to the live loads, with these springs.
 
     Raises
     ------
@@ -169,10 +181,9 @@ class Arc:
         ends = np.array([[*start.deflection, start.factor], [*stop.deflection, stop.factor]])
         between = np.zeros(len(ends[0])) if turn is None else np.array([*turn.deflection, turn.factor])
         laws = np.column_stack((beam.breakpoints, np.zeros(4)))
-        self._handle, *found = _checked(
+        (self._handle,) = _checked(
             _engine.gbamak(beam.handle, beam.links, extended(closed), laws, ends.T, between, turn is not None)
         )
-        self.weights, self.springs, self.flexibility, self.under_load = found
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
@@ -196,7 +207,7 @@ class Arc:
             There is none near.
         """
         beam = self.beam
-        point, rate, slope, laws = self._call(_engine.gbaget, beam.supports + 1, len(self.springs), place)
+        point, rate, slope, laws = self._call(_engine.gbaget, beam.supports + 1, len(beam.curves), place)
         return ArcState(self, place, point, rate, slope, laws[:, :-1])
 
     def root(self, test: Test, low: float = -np.inf, high: float = np.inf, first: float = 0.0) -> ArcState:
@@ -325,26 +336,52 @@ class Arc:
         """
         return self._call(_engine.gbaeig, slope)[0]
 
-    def holds_at(self, point: np.ndarray, tolerance: float) -> bool:
-        """Tell whether all other supports are on their pieces in a state.
+    def branch(self, origin: np.ndarray, way: int, goal: float) -> Branch:
+        """Follow a stable way on from a bifurcation until the load cannot grow any more.
 
         Parameters
         ----------
-        point : numpy.ndarray
-            Deflections at the smooth laws, and the load factor.
-        tolerance : float
-            Share of the largest reaction or deflection that is nothing.
+        origin : numpy.ndarray
+            The bifurcation: deflections at the laws and load factor.
+        way : int
+            1 or -1: where the load goes.
+        goal : float
+            Load factor at which to end.
 
         Returns
         -------
-        bool
+        Branch
 
         Raises
         ------
         LostError
-            There is no such state.
+            Whether a stable way goes on cannot be told.
         """
-        return bool(self._call(_engine.gbahol, point, tolerance)[0])
+        points, count, arrives, lost = self._call(_engine.gbabra, origin, way, goal)
+        return Branch(points.T[:count].copy(), bool(arrives), bool(lost))
+
+    def at_factor(self, points: np.ndarray, origin: np.ndarray, factor: float) -> np.ndarray:
+        """Find the point of a branch at a load factor.
+
+        Parameters
+        ----------
+        points : numpy.ndarray
+            As `Branch.points`, along which the factor rises or falls.
+        origin : numpy.ndarray
+            The bifurcation.
+        factor : float
+            Between those of the first and the last one.
+
+        Returns
+        -------
+        numpy.ndarray
+
+        Raises
+        ------
+        LostError
+            There is none.
+        """
+        return self._call(_engine.gbafac, origin, points.T, factor)[0]
 
     def _call(self, routine: Callable, *about: Any) -> tuple:
         return _checked(routine(self.beam.handle, self.beam.links, self._handle, *about))

@@ -226,8 +226,8 @@ def _solve(beam: Handle, links: int, *about: Any) -> tuple:
 
 
 def _make_arc(beam: Handle, links: int, *about: Any) -> tuple:
-    arc, *found = _engine.gbamak(beam, *about)
-    return Owned(arc), *found
+    arc, status, message = _engine.gbamak(beam, *about)
+    return Owned(arc), status, message
 
 
 def _recover(beam: Handle, pieces: int, state: Owned) -> tuple:
@@ -260,7 +260,8 @@ gbaget = interruptible(lambda beam, links, *about: _engine.gbaget(*about), lambd
 gbaroo = interruptible(lambda beam, links, *about: _engine.gbaroo(*about), lambda beam, links, *_: links)
 gbalok = interruptible(lambda beam, links, *about: _engine.gbalok(*about), lambda beam, links, *_: links)
 gbaeig = interruptible(lambda beam, links, *about: _engine.gbaeig(*about), lambda *_: 0)
-gbahol = interruptible(lambda beam, links, *about: _engine.gbahol(*about), lambda beam, links, *_: links)
+gbabra = interruptible(lambda beam, links, *about: _engine.gbabra(*about), lambda beam, links, *_: links)
+gbafac = interruptible(lambda beam, links, *about: _engine.gbafac(*about), lambda beam, links, *_: links)
 gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
 gbreco = interruptible(_recover, lambda beam, pieces, *_: pieces)

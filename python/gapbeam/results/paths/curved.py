@@ -20,7 +20,6 @@ from ...engine.beam import GIVEN, Beam
 from ..state.breakpoints import passed_breakpoints
 from ..state.smooth import SmoothLaws
 from ..state.step import Step
-from .branching import Tracer
 from .polyline_path import BRANCHES, EVENT, GIVEN_FACTOR, NEAR, THROUGH, TURNS_ROUND, UNKNOWN, PolylinePath
 
 LIMIT_POINT, BIFURCATION = 1, 2
@@ -56,7 +55,7 @@ class CurvedPath(PolylinePath):
     def __init__(self, beam: Beam, history: History, target: float, stops: bool):
         super().__init__(beam, history, target)
         h, self._stops = history, stops
-        self._traced: tuple[int, Tracer, list[np.ndarray]] | None = None
+        self._traced: tuple[int, Arc, np.ndarray, np.ndarray] | None = None
         self.unreached: int | None = None
         k = 0
         while k < len(self._joins):
@@ -141,9 +140,8 @@ class CurvedPath(PolylinePath):
         h, goal = self.history, self._target
         way = int(self._rough.about[k, 1])
         last = leg == int(self._rough.about[-1, 0])
-        tracer = Tracer(arc, state)
         try:
-            points, arrives, lost = tracer.follow(way, goal if last else self._goal(leg))
+            points, arrives, lost = arc.branch(state.point, way, goal if last else self._goal(leg))
         except LostError:
             return
         stays = len(points) == 1  # no way on is stable
@@ -159,7 +157,7 @@ class CurvedPath(PolylinePath):
                     Status.NOT_CONVERGED,
                 )
             return
-        self._traced = k + 1, tracer, points
+        self._traced = k + 1, arc, state.point, points
         kept = np.append(np.arange(k + 1), [] if stays else k).astype(int)
         about, along = h.about[kept], h.along[kept]
         if not stays:
@@ -314,9 +312,9 @@ class CurvedPath(PolylinePath):
             if (at, end) in self._points and along[at, end] == factor:
                 return self._through(at, self._points[at, end], factor)
         if self._traced is not None and self._traced[0] == k:
-            _, tracer, points = self._traced
+            _, arc, origin, points = self._traced
             try:
-                deflection = tracer.at_factor(points, factor)[:-1]
+                deflection = arc.at_factor(points, origin, factor)[:-1]
             except LostError:
                 return Step(self.beam(k), factor, GIVEN, self.closed(k), settled=True, exact=False)
             return self._through(k, deflection, factor)
