@@ -162,8 +162,8 @@ contains
             known = top%known
             place = top%place
             first = min(max(j - on_each_side, 1), max(n - nearest + 1, 1))
-            places = at(first:min(first + nearest - 1, n))
-            heights = values(first:min(first + nearest - 1, n))
+            allocate (places, source=at(first:min(first + nearest - 1, n)))
+            allocate (heights, source=values(first:min(first + nearest - 1, n)))
             width = right - left
             found(:, :) = 0.0_wp
             do step = 1, most_steps
