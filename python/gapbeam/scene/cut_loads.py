@@ -167,7 +167,7 @@ def _check_load(i: int, load: Any, in_parts: bool) -> None:
 def _part(load: Any, left: float, right: float, a: float, b: float, words: str) -> Any:
     """A distributed load between two places."""
     name = None if load.name is None else f"{load.name}, {words}"
-    if isinstance(load, UniformLoad):
+    if isinstance(load, UniformLoad) or (a, b) == (left, right):  # which may be no length at all
         return msgspec.structs.replace(load, from_=a, to=b, name=name)
     at = [load.q[0] + (load.q[1] - load.q[0]) * ((x - left) / (right - left)) for x in (a, b)]
     q = (load.q[0] if a == left else at[0], load.q[1] if b == right else at[1])
