@@ -3,7 +3,7 @@ module gapbeam_polynomial
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: roots_between, highest_degree
+    public :: roots_between, value, highest_degree
 
     !> Deflection under linear load is of degree 5; its slope of degree 4
     integer, parameter :: highest_degree = 4

@@ -5,7 +5,7 @@ module gapbeam_arc_roots
     use gapbeam_path_tolerances, only: arc_settled, no_zero, longest_beyond, farthest_beyond
     use gapbeam_error, only: error_type
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_smooth_arc, only: arc_type, lose, is_lost
+    use gapbeam_smooth_arc, only: arc_type, or_one, lose, is_lost
     use gapbeam_arc_states, only: find_on_arc, eigenvalues_at
     implicit none
     private
@@ -20,11 +20,10 @@ module gapbeam_arc_roots
     !> A function of the place along an arc
     type :: arc_test_type
         integer :: kind = of_factor
-        !> The load factor that is given
-        real(wp) :: factor = 0.0_wp
         !> The eigenvalue, in ascending order, or the support of the engine
         integer :: number = 0
-        !> Of that support the end of its piece, in the engine's units, and whether the force tells how far it is
+        !> The load factor that is given; or of that support the end of its piece, in the engine's units, and whether the force
+        !> tells how far it is
         real(wp) :: level = 0.0_wp, force = 0.0_wp
         logical :: by_force = .false.
     end type arc_test_type
@@ -46,7 +45,7 @@ contains
         associate (found => arc%known(number)%one)
             select case (test%kind)
             case (of_factor)
-                value = found%point(size(found%point)) - test%factor
+                value = found%point(size(found%point)) - test%level
             case (of_rate)
                 value = found%rate(size(found%rate))
             case (of_eigenvalue)
@@ -79,14 +78,6 @@ contains
         end function distance
 
     end subroutine test_value
-
-    !> A size, or 1 where there is none
-    pure function or_one(length) result(number)
-        real(wp), intent(in) :: length
-        real(wp) :: number
-
-        number = merge(length, 1.0_wp, length > 0.0_wp)
-    end function or_one
 
     !> Find a state, and the value of a function there
     subroutine look(arc, test, place, number, value, error)

@@ -19,7 +19,7 @@ module gapbeam_smooth_arc
     implicit none
     private
     public :: arc_type, arc_state_type, known_type, new_arc, solve_with_springs, deflections_in, forces_at, tangent_matrix, &
-        lose, is_lost
+        or_one, lose, is_lost
 
     !> A state on the smooth laws
     type :: arc_state_type

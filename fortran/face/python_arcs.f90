@@ -23,18 +23,16 @@ subroutine gbamak(beam, ns, n, closed, laws, ends, turn, turns, arc, status, mes
     !f2py threadsafe
     type(handle_type), pointer :: handle, made
     type(error_type), allocatable :: error
+    double precision, allocatable :: turning(:)
 
     handle => behind(beam)
     call new_handle(arc_tag, made, error)
     if (.not. allocated(error)) then
+        ! What is not allocated is not present
+        if (turns /= 0) allocate (turning, source=turn)
         associate (lowered => handle%beam%lowered)
-            if (turns /= 0) then
-                call new_arc(lowered, closed(:ns - 1) /= 0, laws_given(lowered, laws(:, :ns - 1)), ends(:, 1), ends(:, 2), &
-                             made%arc, error, turn)
-            else
-                call new_arc(lowered, closed(:ns - 1) /= 0, laws_given(lowered, laws(:, :ns - 1)), ends(:, 1), ends(:, 2), &
-                             made%arc, error)
-            end if
+            call new_arc(lowered, closed(:ns - 1) /= 0, laws_given(lowered, laws(:, :ns - 1)), ends(:, 1), ends(:, 2), made%arc, &
+                         error, turning)
         end associate
     end if
     call finish_handle(made, error)
@@ -103,7 +101,7 @@ subroutine gbaroo(arc, kind, number, about, bounds, all, places, count, status, 
     handle => behind(arc)
     places = 0.0d0
     count = 0
-    test = arc_test_type(kind, about(1), number, about(1), about(2), about(3) > 0.0d0)
+    test = arc_test_type(kind, number, about(1), about(2), about(3) > 0.0d0)
     if (all /= 0) then
         call find_roots(handle%arc, test, states, error)
     else
@@ -147,8 +145,8 @@ subroutine gbalok(arc, kind, number, about, place, beside, right, value, status,
             if (right /= 0) then
                 call wrongness_of(handle%arc, handle%arc%known(k)%one%state, value, error)
             else
-                call test_value(handle%arc, arc_test_type(kind, about(1), number, about(1), about(2), about(3) > 0.0d0), k, &
-                                value, error)
+                call test_value(handle%arc, arc_test_type(kind, number, about(1), about(2), about(3) > 0.0d0), k, value, &
+                                error)
             end if
         end if
     end if

@@ -5,7 +5,7 @@
 module gapbeam_influence_parts
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_polynomial, only: roots_between, highest_degree
+    use gapbeam_polynomial, only: roots_between, value_of => value, highest_degree
     use gapbeam_quantities, only: bending_count, of_deflection, of_rotation, of_moment, of_shear
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train, only: track_type, new_track
@@ -131,13 +131,5 @@ contains
         ! From the first of these places on, moved to 0
         c(:) = [t(0) - t(1)/2 + t(2)/4 - t(3)/8, t(1) - t(2) + 0.75_wp*t(3), t(2) - 1.5_wp*t(3), t(3)]
     end function cubic
-
-    !> Value of a cubic
-    pure function value_of(c, s) result(value)
-        real(wp), intent(in) :: c(0:3), s
-        real(wp) :: value
-
-        value = c(0) + s*(c(1) + s*(c(2) + s*c(3)))
-    end function value_of
 
 end module gapbeam_influence_parts

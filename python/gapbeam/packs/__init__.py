@@ -1,4 +1,4 @@
-"""vehicles, p-y curves, ground of piles, with sources.
+"""Vehicles, p-y curves, ground of piles, with sources.
 
 All are parts of a scene. Forces are in kN, lengths in m, unless a function says that any consistent units do. What had no source
 that could be found and quoted is left out: the shape of the mounds of AS 2870.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from math import isfinite
 
 from ..base.errors import SceneError
@@ -22,29 +23,12 @@ def check_above_zero(place: str, **numbers: float) -> None:
     SceneError
         Names the pack, the number and its value.
     """
-    for name, value in numbers.items():
-        if not (isfinite(value) and value > 0.0):
-            raise SceneError(f"{place}: {name}", f"expected a number above 0, got {value:g}")
+    _check(place, numbers, lambda value: value > 0.0, "a number above 0")
 
 
 def check_not_negative(place: str, **numbers: float) -> None:
-    """Refuse numbers below 0.
-
-    Parameters
-    ----------
-    place : str
-        Name of the pack.
-    **numbers : float
-        By their names.
-
-    Raises
-    ------
-    SceneError
-        Names the pack, the number and its value.
-    """
-    for name, value in numbers.items():
-        if not (isfinite(value) and value >= 0.0):
-            raise SceneError(f"{place}: {name}", f"expected 0 or more, got {value:g}")
+    """Refuse numbers below 0; as `check_above_zero`."""
+    _check(place, numbers, lambda value: value >= 0.0, "0 or more")
 
 
 def check_between(place: str, name: str, value: float, least: float, most: float) -> None:
@@ -66,3 +50,9 @@ def check_between(place: str, name: str, value: float, least: float, most: float
     """
     if not least <= value <= most:
         raise SceneError(f"{place}: {name}", f"expected {least:g} to {most:g}, got {value:g}")
+
+
+def _check(place: str, numbers: Mapping[str, float], is_right: Callable[[float], bool], expected: str) -> None:
+    for name, value in numbers.items():
+        if not (isfinite(value) and is_right(value)):
+            raise SceneError(f"{place}: {name}", f"expected {expected}, got {value:g}")

@@ -179,7 +179,7 @@ def _check_spans(scene: Scene, ends: np.ndarray) -> None:
     x = scene.positions(scene.supports)
     names = labels(scene.supports)
     for k, support in enumerate(scene.supports):
-        if support.direction == "normal" and np.abs(ends - x[k]).min(initial=np.inf) > 1e-9 * ends[-1]:
+        if support.direction == "normal" and np.abs(ends - x[k]).min(initial=np.inf) > SAME * ends[-1]:
             i = next(i for i, one in enumerate(scene.combinations) if "spans" in one.expand.values())
             case = next(case for case, rule in scene.combinations[i].expand.items() if rule == "spans")
             raise SceneError(
