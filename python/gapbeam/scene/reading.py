@@ -121,11 +121,31 @@ def _plan(scene: Scene) -> None:
             plan_combinations(scene)
 
 
+def beam_of(scene: Scene) -> Beam:
+    """Make the beam of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right.
+
+    Returns
+    -------
+    Beam
+
+    Raises
+    ------
+    RefusalError
+        It makes no sense.
+    """
+    taken = columns(scene)
+    return Beam(taken, curves(scene, taken))
+
+
 def _prepared(scene: Scene) -> Beam:
     with names_in_errors(scene):
         try:
-            taken = columns(scene)
-            return Beam(taken, curves(scene, taken))
+            return beam_of(scene)
         except RefusalError as refused:
             raise refusal(scene, *refused.codes) from None
 

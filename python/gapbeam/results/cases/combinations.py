@@ -13,9 +13,9 @@ from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, chec
 from ...base.records import Pickled
 from ...engine.beam import Beam, RefusalError
 from ...engine.combinations import Combined
-from ...scene.columns import columns, curves
 from ...scene.combinations import Plan
 from ...scene.names import labels, names_in_errors
+from ...scene.reading import beam_of
 from ...scene.refusals import refusal
 from ...scene.wording import shown
 from ..envelopes.full_load import at_full_load
@@ -208,8 +208,7 @@ class Combinations(Pickled, Mapping[str, Result]):
             return result
         acts = [state != "open" for state in before.steps[-1].state]
         scene = plan.scene_of(k, acts)
-        taken = columns(scene)
-        beam = Beam(taken, curves(scene, taken))
+        beam = beam_of(scene)
         result = Result(scene, beam, self._rule)
         follow_load(result, starting_scheme(beam))
         if result.reason:

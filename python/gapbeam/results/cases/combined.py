@@ -12,9 +12,9 @@ from ...base.errors import WITHOUT_ANSWER, SceneError
 from ...base.memory import refuse_beyond
 from ...base.records import read_only
 from ...engine.beam import Beam
-from ...scene.columns import columns, curves
 from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label
+from ...scene.reading import beam_of
 from ...scene.structs import Scene
 from ...scene.wording import shown
 from ..envelopes.envelope import AT_SUPPORTS, Envelope
@@ -373,6 +373,5 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     placed, remarks = place_parts(scene, beam, rule)
     plan = plan_combinations(scene, placed)
     if plan.scene is not scene:
-        taken = columns(plan.scene)
-        beam = Beam(taken, curves(plan.scene, taken))
+        beam = beam_of(plan.scene)
     return CombinedResult(scene, plan, beam, rule, read_only(start), remarks)

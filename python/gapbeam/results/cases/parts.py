@@ -16,11 +16,11 @@ from msgspec.structs import replace
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError
 from ...engine.beam import SOLVED, Beam
 from ...engine.influence import influence_parts
-from ...scene.columns import columns, curves
 from ...scene.combinations import MOST, plan_combinations
 from ...scene.cut_loads import Placement
 from ...scene.loads import UniformLoad
 from ...scene.names import labels
+from ...scene.reading import beam_of
 from ...scene.structs import Scene
 from ...scene.wording import key_of, number, shown
 from ..state.schemes import starting_scheme
@@ -133,8 +133,7 @@ class Parts:
 
     def _made(self, lanes: list[UniformLoad]) -> Beam:
         scene = replace(self._one, loads=[*self._others, *lanes])
-        taken = columns(scene)
-        return Beam(taken, curves(scene, taken))
+        return beam_of(scene)
 
     def targets(self) -> Iterator[Target]:
         """Give what the loads are placed for: supports first, then fields at ends and tenths of spans."""

@@ -16,8 +16,8 @@ from ...base.errors import GapbeamError, Status
 from ...engine.beam import Beam, RefusalError
 from ...engine.states import Solution
 from ...engine.trains import Traversal
-from ...scene.columns import columns, curves
 from ...scene.loads import ForceLoad, UniformLoad
+from ...scene.reading import beam_of
 from ...scene.structs import Scene, Support
 from ...scene.trains import LEFT, Course
 
@@ -106,7 +106,7 @@ def held_traversal(scene: Scene, course: Course, near: float, from_: float, to: 
         held = _hold(scene, course, near, from_ + (to - from_) / 2)
         if held is None:
             return None
-        traversal = traversal_of(_beam_of(held), course, from_, to)
+        traversal = traversal_of(beam_of(held), course, from_, to)
         if (traversal.status != Status.SOLVED).any():
             return None
         reactions = [np.abs(one.values[:, 0, : one.count[:, 0].min(), 0]).max() for one in traversal.extremes()[1]]
@@ -126,7 +126,7 @@ def _hold(scene: Scene, course: Course, near: float, position: float) -> Scene |
     for x in 2 * (0.0, end, *scene.beam.hinges):  # one that is held may move when another is
         if not free.indifferent:
             return scene
-        beam = _beam_of(scene)
+        beam = beam_of(scene)
         level = _deflection(beam, free, x)
         carrying_nothing, movable = [], False
         for away in (0.0, AWAY, -AWAY):
@@ -151,13 +151,8 @@ def _carries_nothing(solution: Solution) -> bool:
     return solution.status == Status.SOLVED and reactions[-1] <= NOTHING * reactions.max()
 
 
-def _beam_of(scene: Scene) -> Beam:
-    taken = columns(scene)
-    return Beam(taken, curves(scene, taken))
-
-
 def _solve(scene: Scene) -> Solution:
-    beam = _beam_of(scene)
+    beam = beam_of(scene)
     return beam.solve(1.0, "block", np.ones(beam.supports, dtype=np.int32))
 
 

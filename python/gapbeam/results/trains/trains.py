@@ -28,9 +28,10 @@ import numpy as np
 from ...base.errors import EngineError
 from ...base.hints import no_such
 from ...base.records import Record
-from ...engine.beam import GIVEN, Beam
+from ...engine.beam import GIVEN
 from ...engine.tolerances import POSITION_TOLERANCE
-from ...scene.columns import ROTATION, columns, curves
+from ...scene.columns import ROTATION
+from ...scene.reading import beam_of
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
 from ...scene.wording import choice, shown
 from ..state.arguments import finite
@@ -227,8 +228,7 @@ class TrainResult(TrainVerbs):
         # Extremes beside the end, where an axle has just left, are farther off
         position = at_ends(position, self._joined, direction, self._result._beam.places.end, POSITION_TOLERANCE)
         scene = loaded(self._result.scene, traversal.course, traversal.near, position)
-        taken = columns(scene)
-        result = self._result._another(scene, Beam(taken, curves(scene, taken)), self._result._rule if scheme is None else GIVEN)
+        result = self._result._another(scene, beam_of(scene), self._result._rule if scheme is None else GIVEN)
         result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
