@@ -30,15 +30,13 @@ from ...scene.ground_tables import is_table
 from ...scene.loads import ForceLoad
 from ...scene.names import label
 from ...scene.structs import Foundation, Scene, Support
+from ..envelopes.envelope import AT_SUPPORTS
 from ..state.breakpoints import piece_of
 from ..state.ground import TOUCHING, Contact
 from ..state.smooth import SmoothLaws
 
 if TYPE_CHECKING:
     from .trains import TrainState
-
-AT_SUPPORTS = ("reaction", "deflection", "opening", "couple")
-"""Rows of `Solution.at_supports`."""
 
 
 def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str) -> np.ndarray:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import Status
-from ...engine.quantities import BENDING
+from ...engine.influence import LINES
 from ...engine.trains import NOT_UNIQUE, Extremes, Traversal
 from ...scene.trains import LEFT, Course
 from ..state.breakpoints import EVENTS
@@ -142,7 +142,7 @@ class ExactTraversal:
         """
         piece, distance = self.engine.beam.find(np.array([x]), side == "left")
         values = self.engine.influence(state.solution.closed, chosen, int(piece[0]), float(distance[0]), places)
-        return values[(*BENDING, "reaction", "couple").index(what)]
+        return values[LINES.index(what)]
 
     def members(self, train: TrainResult, combination: str | None) -> list[Passing]:
         """Give what an envelope is made of.
