@@ -69,15 +69,18 @@ class Installation:
 def install(folder: Path, *options: str, like: Installation | None = None) -> Installation:
     """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing.
 
-    What another installation beside that folder was built of is copied, so that only what the options change is compiled.
+    What another installation beside that folder was built of is copied, so that only what the options change is compiled; without
+    one, what `tests/run` built the package of, beside it, since the compiler's commands hold relative places.
     """
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
-    prefix, build = folder / "prefix", folder / "build"
-    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", *options]
-    if like:
-        shutil.copytree(like.build, build, symlinks=True)
+    made = like.build if like else TOP / ".venv" / "build" / "package"
+    prefix, build = folder / "prefix", made.parent / f"library-{folder.name}" if made.exists() else folder / "build"
+    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", "-Dpython=disabled", *options]
+    if made.exists():
+        shutil.rmtree(build, ignore_errors=True)
+        shutil.copytree(made, build, symlinks=True)
         setup += ["--reconfigure"]
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
