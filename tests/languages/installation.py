@@ -10,6 +10,7 @@ import pytest
 
 TOP = Path(__file__).resolve().parents[2]
 LANGUAGES = TOP / "examples" / "languages"
+BUILDS = Path(".venv", "build")
 NEEDED = ("meson", "ninja", "gfortran", "cc", "pkg-config")
 
 
@@ -69,17 +70,20 @@ class Installation:
 def install(folder: Path, *options: str, like: Installation | None = None) -> Installation:
     """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing.
 
-    What another installation beside that folder was built of is copied, so that only what the options change is compiled; without
-    one, what `tests/run` built the package of, beside it, since the compiler's commands hold relative places.
+    What another installation, or else the package that `tests/run` made, was built of is copied, so that only what the options
+    change is compiled. The sources go along, since the compiler's commands hold places relative to the build.
     """
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
-    made = like.build if like else TOP / ".venv" / "build" / "package"
-    prefix, build = folder / "prefix", made.parent / f"library-{folder.name}" if made.exists() else folder / "build"
-    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", "-Dpython=disabled", *options]
+    tree, prefix = folder / "tree", folder / "prefix"
+    build, made = tree / BUILDS / "library", like.build if like else TOP / BUILDS / "package"
+    shutil.copytree(TOP / "fortran", tree / "fortran")
+    for name in ("meson.build", "meson.options"):
+        shutil.copy2(TOP / name, tree)
+    off = ("-Dpython=disabled", "-Dtests=disabled")
+    setup = ["meson", "setup", build, tree, f"--prefix={prefix}", "-Dlibdir=lib", *off, *options]
     if made.exists():
-        shutil.rmtree(build, ignore_errors=True)
         shutil.copytree(made, build, symlinks=True)
         setup += ["--reconfigure"]
     for command in (setup, ["meson", "install", "-C", build]):
@@ -98,7 +102,7 @@ def install_once(folders, name: str, *options: str, like: Installation | None = 
     with open(f"{folder}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if (folder / "done").exists():
-            return Installation(folder / "prefix", folder / "build")
+            return Installation(folder / "prefix", folder / "tree" / BUILDS / "library")
         found = install(folder, *options, like=like)
         (folder / "done").touch()
         return found
