@@ -10,7 +10,7 @@ module gapbeam_history_start
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: find_beginning, find_movements, has_dead_loads, find_rest
+    public :: find_beginning, find_movements, growth_of, has_dead_loads, find_rest
 
 contains
 
@@ -54,6 +54,17 @@ contains
             end associate
         end do
     end subroutine find_movements
+
+    !> Movement of every support of the engine at load factor 1, in its units
+    pure function growth_of(assembled) result(growth)
+        type(assembled_type), intent(in) :: assembled
+        real(qp) :: growth(size(assembled%normal))
+
+        growth(:) = 0.0_qp
+        if (allocated(assembled%growth)) then
+            growth(:) = scale(real(assembled%growth(assembled%normal), qp), -assembled%units%deflection)
+        end if
+    end function growth_of
 
     !> Let the live loads act the other way
     subroutine reverse_live(beam)

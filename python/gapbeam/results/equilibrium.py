@@ -9,6 +9,7 @@ import numpy as np
 
 from ..scene.loads import AxialLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.names import DEAD
+from ..scene.table import Point
 from . import formatting as fmt
 
 if TYPE_CHECKING:
@@ -75,14 +76,14 @@ def resultants_of_loads(scene: Scene, factor: float) -> list[Sums]:
     Returns
     -------
     list of Sums
-        In the order of the loads; of imposed curvature zeros.
+        In the order of the loads; of imposed curvatures and movements of supports zeros.
     """
     found = []
-    end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if not hasattr(one, "from_")])
+    end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if isinstance(one, Point)])
     places = iter(np.asarray(x, dtype=float).tolist())
     for load in scene.loads:
         share = 1.0 if load.case == DEAD else factor
-        at = 0.0 if hasattr(load, "from_") else next(places)
+        at = next(places) if isinstance(load, Point) else 0.0
         force = moment = axial = 0.0
         if isinstance(load, ForceLoad):
             force, moment = share * load.F, share * load.F * at
