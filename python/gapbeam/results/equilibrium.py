@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 NONE = 1e-12
 """Sums below this share of what is added up are said to be zero."""
+FAR = 2.0**960
+"""Numbers above this are added up in this unit."""
 
 
 class Sums(NamedTuple):
@@ -130,8 +132,11 @@ def _sum(values: Iterable[float]) -> float:
     values = list(values)
     if not all(map(math.isfinite, values)):
         return float(np.sum(values))
-    total = math.fsum(values)
-    return 0.0 if abs(total) <= NONE * max(map(abs, values), default=0.0) else total
+    largest = max(map(abs, values), default=0.0)
+    # A sum on the way may be out of range where the last one is not
+    unit = FAR if largest > FAR else 1.0
+    total = unit * math.fsum(value / unit for value in values)
+    return 0.0 if abs(total) <= NONE * largest else total
 
 
 def balance_in_words(scene: Scene, step: Step) -> list[str]:
