@@ -93,8 +93,8 @@ contains
 
     end subroutine check_rigid_pieces
 
-    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law. That loads
-    !> move supports is known on a path alone
+    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law. That
+    !> loads move supports is known on a path alone
     function depends_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends
