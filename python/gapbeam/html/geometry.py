@@ -8,6 +8,7 @@ import numpy as np
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
+from ..scene.columns import curvature_by_temperature
 from ..scene.names import DEAD, label, labels
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for load in scene.loads:
+    for k, load in enumerate(scene.loads):
         kind = load.__struct_config__.tag
         if kind == "movement":
             continue
@@ -112,7 +113,11 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
             one["value"] = load.M if kind == "moment" else load.F
         else:
             from_, to = fmt.stretch(scene, load)
-            ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
+            if kind == "temperature":
+                kind = one["type"] = "curvature"
+                ends = 2 * [curvature_by_temperature(scene, load, k)]
+            else:
+                ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
             one |= {"from": from_, "to": to, "ends": ends}
         found.append(one)
     return found

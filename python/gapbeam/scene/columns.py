@@ -16,7 +16,16 @@ from ..engine.laws import PARAMETERS
 from .ground_laws import ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
-from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, MovementLoad, UniformLoad
+from .loads import (
+    AxialLoad,
+    CurvatureLoad,
+    ForceLoad,
+    LinearLoad,
+    MomentLoad,
+    MovementLoad,
+    TemperatureLoad,
+    UniformLoad,
+)
 from .names import find
 from .structs import Scene
 from .table import kind_of
@@ -42,6 +51,7 @@ KINDS = {
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
     MovementLoad: (MOVEMENT, "value"),
+    TemperatureLoad: (CURVATURE, "gradient"),
 }
 """Kinds of load, as in gapbeam_scene, and the key of their value."""
 
@@ -78,7 +88,7 @@ def columns(scene: Scene) -> Columns:
     hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
-    load_codes, load_values = _loads(scene.loads, scene.supports)
+    load_codes, load_values = _loads(scene)
     if not scene.combinations:
         _settle(load_codes[:, :-1], load_values[:, :-1], values)
     return Columns(
@@ -206,7 +216,35 @@ def _settle(codes: np.ndarray, values: np.ndarray, supports: np.ndarray) -> None
         values[2, k] = 0.0
 
 
-def _loads(items: Sequence[Any], supports: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+def curvature_by_temperature(scene: Scene, load: TemperatureLoad, k: int) -> float:
+    """Give the curvature that a temperature makes, positive where the upper side gets longer.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    load : TemperatureLoad
+        The load.
+    k : int
+        Its number.
+
+    Raises
+    ------
+    SceneError
+        It speaks of what the beam has not.
+    """
+    if load.dT:
+        raise SceneError(f"loads[{k}].dT", f"an elongation by temperature is not available in this version, got {number(load.dT)}; "
+                         "give a gradient only")  # fmt: skip
+    for key, value in (("alpha", scene.beam.alpha), ("depth", scene.beam.depth)):
+        if value is None or not 0.0 < value < np.inf:
+            problem = "is missing" if value is None else f"expected a finite number above 0, got {number(value)}"
+            raise SceneError(f"beam.{key}", f"{problem}; loads[{k}] is a temperature and takes it")
+    return -scene.beam.alpha * load.gradient / scene.beam.depth
+
+
+def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    items, supports = scene.loads, scene.supports
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
     of = _column(items, "case")
@@ -225,6 +263,9 @@ def _loads(items: Sequence[Any], supports: Sequence[Any]) -> tuple[np.ndarray, n
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
         given = _numbers(group, key)
+        if one is TemperatureLoad and np.isfinite(given).all():
+            of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
+            given = np.array([curvature_by_temperature(scene, load, k) for k, load in of_items])
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
 

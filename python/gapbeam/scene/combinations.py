@@ -13,9 +13,9 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .columns import SIDES
+from .columns import SIDES, curvature_by_temperature
 from .cut_loads import Placement, check_parts, cut_loads
-from .loads import MovementLoad
+from .loads import CurvatureLoad, MovementLoad, TemperatureLoad
 from .names import cases_of, find
 from .structs import Combination, Scene, Support
 from .tables import Table
@@ -24,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa", "value")
+VALUES = ("F", "M", "q", "kappa", "gradient", "value")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -116,8 +116,8 @@ def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
     )
 
 
-def settle_movements(scene: Scene) -> Scene:
-    """Make loads that move supports settlements, as they are at full load.
+def with_plain_loads(scene: Scene) -> Scene:
+    """Make loads that move supports settlements, as they are at full load, and temperatures curvatures.
 
     Parameters
     ----------
@@ -128,9 +128,12 @@ def settle_movements(scene: Scene) -> Scene:
     for k, load in enumerate(scene.loads):
         if isinstance(load, MovementLoad):
             moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
+        elif isinstance(load, TemperatureLoad):
+            kappa = curvature_by_temperature(scene, load, k)
+            loads.append(CurvatureLoad(from_=load.from_, to=load.to, kappa=kappa, name=load.name, case=load.case))
         else:
             loads.append(load)
-    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads) if moves.any() else scene
+    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads)
 
 
 def refuse_movements(scene: Scene, problem: str) -> None:

@@ -1,4 +1,4 @@
-"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, axial forces, movements of supports."""
+"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, temperatures, axial forces, movements of supports."""
 
 from __future__ import annotations
 
@@ -106,6 +106,22 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
     kappa: float
 
 
+class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
+    """A temperature that varies over the depth of the beam; default: over its whole length. It takes beam.alpha and beam.depth.
+
+    Parameters
+    ----------
+    gradient : float
+        Temperature of the lower side less that of the upper side (no unit) in degrees, linear in between. Positive bends as a sagging
+        moment does: the same as an imposed curvature of -alpha*gradient/depth.
+    dT : float
+        Rise of the temperature of the whole section (no unit) in degrees. The elongation that it makes is not available in this version.
+    """
+
+    gradient: float = 0.0
+    dT: float = 0.0
+
+
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
     """A movement of a support across the beam, beside its settlement: what jacks, sinks, or is lifted by heat.
 
@@ -128,4 +144,4 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
     case: str = "live"
 
 
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad | MovementLoad
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad | MovementLoad | TemperatureLoad

@@ -75,6 +75,10 @@ class Beam(Table, forbid_unknown_fields=True):
         Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
+    alpha : float, optional
+        Thermal expansion (no unit) per degree, for loads of type temperature.
+    depth : float, optional
+        Depth of the section (length), over which temperatures vary.
     width : float, optional
         Width on the ground (length), by which pressures are set beside `limits.pressure`; it changes no result.
     direction : {"right", "down"}
@@ -87,6 +91,8 @@ class Beam(Table, forbid_unknown_fields=True):
     GA: Positive | list[Positive] = inf
     EA: Positive | list[Positive] = inf
     hinges: list[float] = []
+    alpha: Positive | None = None
+    depth: Positive | None = None
     width: Positive | None = None
     direction: Literal["right", "down"] = "right"
 

@@ -37,7 +37,7 @@ VALUES = {
     ("type", "udl"): 'did you mean "uniform"?', ("type", "distributed"): 'did you mean "uniform" or "linear"?',
     ("type", "line"): 'did you mean "uniform" or "linear"?', ("type", "trapezoidal"): 'did you mean "linear"?',
     ("type", "triangular"): 'did you mean "linear"?', ("type", "couple"): 'did you mean "moment"?',
-    ("type", "temperature"): 'did you mean "curvature"?', ("type", "thermal"): 'did you mean "curvature"?',
+    ("type", "thermal"): 'did you mean "temperature"?',
     ("type", "moving"): "loads that move are trains",
 }  # fmt: skip
 """What was probably meant by a value, by its key and the value in lower case."""
