@@ -10,6 +10,7 @@ module gapbeam_path_tolerances
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
     public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
     public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
+    public :: nothing_on_arc, wide_of_polyline, left_its_start, further_than_asked, off_its_law, off_its_polyline
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
@@ -107,6 +108,21 @@ module gapbeam_path_tolerances
     !> How many times less dependent, relative to the distance, than farther away they may be near one; tuned. Read by
     !> continuation/branch_points
     real(wp), parameter :: less_independent = 4.0_wp
+    !> Share of the largest reaction or deflection, or of an arc, that is nothing on smooth laws: far above the rounding of the
+    !> states, far below what polylines leave out; tuned. Read by continuation/path_on_laws, continuation/smooth_path
+    real(wp), parameter :: nothing_on_arc = 1e-9_wp
+    !> Distance of states, in sizes of the deflections and the factor, against which the error of the polyline of a smooth law is
+    !> small; tuned. Read by continuation/path_on_laws
+    real(wp), parameter :: wide_of_polyline = 0.05_wp
+    !> Place along an arc from which on it has left what is at its start; tuned. Read by continuation/smooth_path,
+    !> continuation/smooth_turns
+    real(wp), parameter :: left_its_start = 0.01_wp
+    !> By what share of its last leg a path is followed further on the polylines, where it does not come to its end on the laws;
+    !> tuned. Read by continuation/smooth_path
+    real(wp), parameter :: further_than_asked = 0.1_wp
+    !> Share of the largest reaction by which a force may be beside its smooth law, far above rounding; and where the state is known
+    !> on their polylines only, by what these leave out; tuned. Read by continuation/path_states
+    real(wp), parameter :: off_its_law = 1e-6_wp, off_its_polyline = 0.05_wp
 
     !
     ! Trains

@@ -7,7 +7,7 @@ module gapbeam_arc_states
     use gapbeam_certificate, only: certificate_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: certify_state
-    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_in, forces_at, &
+    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_of, forces_at, &
         tangent_matrix, lose, is_lost
     implicit none
     private
@@ -48,7 +48,7 @@ contains
                 call forces_at(arc, x(:n), force, found%slope, past)
                 call solve_with_springs(arc, x(:n), force, x(n + 1), found%state, error)
                 if (allocated(error)) return
-                deflection(:) = deflections_in(arc, found%state)
+                deflection(:) = deflections_of(arc%assembled, arc%numbers, found%state)
                 call correct(arc, found, deflection, solved, wrong, error)
                 if (allocated(error)) return
                 found%rate(:) = solved(:, 2)*arc%weights
