@@ -55,7 +55,7 @@ contains
         associate (h => view%history, n => view%history%number)
             allocate (h%on_laws, stat=stat)
             if (stat == 0) allocate (h%on_laws%joins(n), h%on_laws%rough(2, n), h%on_laws%ends(2, n), h%on_laws%lands(n), &
-                                     h%on_laws%runs(2, 0), stat=stat)
+                                     stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return
@@ -197,6 +197,7 @@ contains
         real(wp), allocatable, intent(out) :: point(:)
         !> There is no such state
         type(error_type), allocatable, intent(out) :: error
+        type(assembled_type), pointer :: beam
         type(state_type) :: state
         real(wp) :: factor
 
@@ -207,15 +208,14 @@ contains
             end if
             factor = known%rough(which, k)
             if (which == start_of_stretch .and. known%lands(k)) factor = known%rough(stop_of_stretch, k - 1)
-            associate (beam => beam_of(view, k))
-                call new_state(beam, state, error)
-                if (allocated(error)) return
-                state%closed(:) = s%closed
-                state%laws = laws_at(beam, s)
-                call solve_state(beam, factor, rule_extended, state, error)
-                if (.not. allocated(error) .and. state%status /= gapbeam_solved) call lose(error)
-                if (.not. allocated(error)) point = [deflections_of(beam, smooth_supports(beam), state), factor]
-            end associate
+            beam => beam_of(view, k)
+            call new_state(beam, state, error)
+            if (allocated(error)) return
+            state%closed(:) = s%closed
+            allocate (state%laws, source=laws_at(beam, s))
+            call solve_state(beam, factor, rule_extended, state, error)
+            if (.not. allocated(error) .and. state%status /= gapbeam_solved) call lose(error)
+            if (.not. allocated(error)) point = [deflections_of(beam, smooth_supports(beam), state), factor]
         end associate
     end subroutine end_of
 

@@ -53,7 +53,7 @@ contains
             call find_lines(beam, history, number, factor, laws, how, error)
             if (allocated(error)) return
         else
-            laws = laws_at(beam, history%stretches(stretch))
+            allocate (laws, source=laws_at(beam, history%stretches(stretch)))
         end if
         if (present(exact)) exact = how /= on_polylines
         state%closed(:) = history%stretches(number)%closed

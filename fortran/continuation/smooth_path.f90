@@ -182,7 +182,7 @@ contains
         number = 0
         call arc_about(view, k, k, arc, error, forward=.false.)
         if (allocated(error)) return
-        ends = passed_ends(view, k)
+        allocate (ends, source=passed_ends(view, k))
         call find_on_arc(arc, 0.0_wp, begin, error)
         if (.not. allocated(error)) call test_value(arc, ends(1), begin, value, error)
         if (allocated(error)) return
@@ -275,8 +275,7 @@ contains
         integer :: k
 
         associate (known => view%history%on_laws, n => view%history%number)
-            first = [(k, k=1, n)]
-            first = pack(first, [(begins(k), k=1, n)])
+            allocate (first, source=pack([(k, k=1, n)], [(begins(k), k=1, n)]))
             allocate (known%runs(2, size(first)))
             known%runs(1, :) = first
             known%runs(2, :) = [first(2:) - 1, spread(n, 1, min(1, size(first)))]

@@ -266,6 +266,7 @@ def follow_branches(result: Result) -> BranchPath:
     -------
     BranchPath
     """
+    begin = perf_counter()
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
     followed = Followed(result._beam, factors, analysis.at_limit, MOST_PATH_SEGMENTS)
