@@ -65,7 +65,7 @@ def judge(made, seed=0):
 def path_faults(made, path):
     """How the engine's segments differ from the exact ones."""
     found = Followed(gapbeam.scene.reading.read_beam(made)[1], np.array([1.0]), "follow", 2000).history()
-    rows = [(leg, direction, index, ways, *ends) for ends, (leg, direction, index, ways, _) in
+    rows = [(leg, direction, index, ways, *ends) for ends, (leg, direction, index, ways, *_) in
             zip(found.along.tolist(), found.about.tolist(), strict=True)]  # fmt: skip
     ways = {special.segment: len(special.ways) for special in path.specials if len(special.ways) > 1}
     exact = [(s.leg, s.rate, s.index, ways.get(k, 1), float(s.start.factor), float(s.end.factor))

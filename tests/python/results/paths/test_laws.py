@@ -253,7 +253,7 @@ def stretches(scene, factors=(1.0,)):
     beam = gapbeam.scene.reading.read_beam(scene)[1]
     found = Followed(beam, np.array(factors), "follow", 2000).history()
     both = zip(found.along.tolist(), found.about.tolist(), strict=True)
-    rows = [(leg, *ends, direction, index, ways) for ends, (leg, direction, index, ways, _) in both]
+    rows = [(leg, *ends, direction, index, ways) for ends, (leg, direction, index, ways, *_) in both]
     return rows, found.ending
 
 
