@@ -94,10 +94,9 @@ contains
 
         n = ubound(b, 1)
         right(0:n) = b
-        left(0) = b(0)
-        do k = 1, n
-            right(0:n - k) = (1 - u)*right(0:n - k) + u*right(1:n - k + 1)
+        do k = 0, n
             left(k) = right(0)
+            right(0:n - k - 1) = (1 - u)*right(0:n - k - 1) + u*right(1:n - k)
         end do
     end subroutine halve
 

@@ -1,12 +1,13 @@
 """Copy compiled Fortran modules from where the compiler leaves them, so that meson knows them by name and installs them.
 
-Usage: copy_modules.py FOLDER DESTINATION MODULE...
+Usage: copy_modules.py DESTINATION FOLDER OTHER-FOLDER MODULE...
 """
 
 import shutil
 import sys
 from pathlib import Path
 
-folder, destination, *names = sys.argv[1:]
-for name in names:
-    shutil.copyfile(Path(folder, name), Path(destination, name))
+destination, *folders = map(Path, sys.argv[1:4])
+for name in sys.argv[4:]:
+    (found,) = (folder / name for folder in folders if (folder / name).exists())
+    shutil.copyfile(found, destination / name)

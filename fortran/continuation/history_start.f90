@@ -82,7 +82,7 @@ contains
         end if
         where (dead%model%loads%case == gapbeam_dead)
             dead%model%loads%case = gapbeam_live
-        elsewhere
+        else where
             dead%model%loads%value = 0.0_wp
             dead%model%loads%value_to = 0.0_wp
         end where

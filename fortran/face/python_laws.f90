@@ -21,7 +21,7 @@ subroutine gblawp(law, param, n, points)
     double precision, intent(out) :: points(2, 256)
     double precision, allocatable :: found(:, :)
 
-    found = law_points(law, param)
+    allocate (found, source=law_points(law, param))
     n = size(found, 2)
     points = 0.0d0
     points(:, :n) = found

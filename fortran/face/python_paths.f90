@@ -111,8 +111,8 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, along, about, closed, laws
     integer(8), intent(in) :: beam, hist
     ! Links; supports of the engine, stretches, limits, ways not taken and runs, one more than there are
     integer, intent(in) :: nl, ns, nh, nk, nw, nr
-    ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end is
-    ! on the smooth laws
+    ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end
+    ! is on the smooth laws
     double precision, intent(out) :: along(2, nh)
     integer, intent(out) :: about(6, nh)
     ! Scheme: 1 closed, 0 open; contact level, force, slope and slope before of every support as it has become

@@ -32,9 +32,8 @@ module gapbeam_train_climb
         !> Position of its state; is it only next to that
         real(wp) :: at = 0.0_wp
         logical :: is_limit = .false.
-        type(kept_type), allocatable :: kept
-        !> Number of the state among those of the runs, or 0
-        integer :: state = 0
+        !> Number of the state among those of the runs, or 0; then that of the hill on which it is the top
+        integer :: state = 0, hill = 0
     end type peak_type
 
     !> Where polynomials through states have their top: the place as the angle of a ruler
@@ -99,7 +98,8 @@ contains
         top%place = angle_of(ruler, position_of(measure, place))
     end function top_of
 
-    !> Go to the top near a state by polynomials, by parabolas, or by golden sections where they lead nowhere
+    !> Go to the top near a state by polynomials, by parabolas, or by golden sections where they lead nowhere; its own state becomes
+    !> the top of the runs
     subroutine climb(assembled, runs, run, table, k, asked, foretold, enough, top, error)
         type(assembled_type), intent(in) :: assembled
         type(runs_type), intent(inout) :: runs
@@ -114,7 +114,7 @@ contains
         type(peak_type), intent(out) :: top
         type(error_type), allocatable, intent(out) :: error
         type(ruler_type) :: ruler
-        type(kept_type) :: kept
+        type(kept_type), allocatable :: kept
         real(wp), allocatable :: at(:), heights(:)
         real(wp) :: left, right, width, best, last, place, height, best_height
         logical :: known, solved
@@ -124,11 +124,12 @@ contains
         first = max(k - 2, 1)
         final = min(k + 2, size(table%at))
         if (k == 1) final = min(k + 2, size(table%at))
-        at = angle_of(ruler, table%at(first:final))
-        heights = table%value(first:final)
+        allocate (at, source=angle_of(ruler, table%at(first:final)))
+        allocate (heights, source=table%value(first:final))
         best = at(k - first + 1)
         best_height = table%value(k)
         top = peak_type(value=best_height, state=runs%runs(run)%states(k), at=table%at(k))
+        if (allocated(runs%top%of)) deallocate (runs%top%of)
         left = at(max(k - 1, 1) - first + 1)
         right = at(min(k + 1, size(table%at)) - first + 1)
         width = right - left
@@ -164,6 +165,7 @@ contains
             real(wp), intent(in) :: there
             real(wp) :: value
 
+            if (.not. allocated(kept)) allocate (kept)
             call solve_in_run(assembled, runs, runs%runs(run), position_of(ruler, there), kept, solved, error)
             if (allocated(error) .or. .not. solved) return
             call value_of(asked, kept, value, error)
@@ -179,7 +181,8 @@ contains
                 best = there
                 best_height = value
                 top = peak_type(value=value, at=kept%position)
-                top%kept = kept
+                if (allocated(runs%top%of)) deallocate (runs%top%of)
+                call move_alloc(kept, runs%top%of)
             else if (there > best) then
                 right = there
             else

@@ -13,6 +13,7 @@ module gapbeam_train_peaks
     use gapbeam_train_asked, only: asked_type, of_field, value_of, keep_extremes
     use gapbeam_train_limits, only: limit_type, ruler_of, shown_position
     use gapbeam_train_climb, only: peak_type, table_type, foretold_type, foretell, climb, alike_heights
+    use gapbeam_train_states, only: box_type, kept_type
     use gapbeam_train_runs, only: runs_type
     implicit none
     private
@@ -45,6 +46,8 @@ contains
         type(table_type), allocatable :: tables(:)
         type(hill_type), allocatable :: hills(:)
         type(peak_type), allocatable :: found(:)
+        type(box_type), allocatable :: tops(:)
+        type(kept_type), allocatable :: kept
         type(peak_type) :: top
         type(foretold_type) :: foretold
         real(wp) :: best, scale_of, step
@@ -70,6 +73,7 @@ contains
         end do
         step = longest_step(tables)
         call find_hills(assembled, runs, tables, limits, asked, scale_of, best, found, hills)
+        allocate (tops(size(hills)))
         do i = 1, size(hills)
             k = maxloc(hills%reach, 1)
             if (hills(k)%reach < best) exit
@@ -81,12 +85,26 @@ contains
                 if (allocated(error)) return
             end associate
             if (top%state > 0 .and. any(limits%state == top%state)) cycle
+            top%hill = i
+            call move_alloc(runs%top%of, tops(i)%of)
             found = [found, top]
             best = max(best, top%value)
         end do
         call take_ties(best - train_equal*max(abs(best), scale_of), step, found, peaks)
         do i = 1, size(peaks)
-            call place_peak(assembled, runs, asked, peaks(i), error)
+            if (peaks(i)%is_limit) then
+                if (asked%smallest) peaks(i)%value = -peaks(i)%value
+                cycle
+            end if
+            associate (box => runs%boxes(max(peaks(i)%state, 1)), is_top => peaks(i)%state == 0)
+                if (is_top) then
+                    call move_alloc(tops(peaks(i)%hill)%of, kept)
+                else
+                    call move_alloc(box%of, kept)
+                end if
+                call place_peak(assembled, runs, asked, kept, peaks(i), error)
+                if (.not. is_top) call move_alloc(kept, box%of)
+            end associate
             if (allocated(error)) return
         end do
     end subroutine find_peaks
@@ -281,30 +299,29 @@ contains
     end subroutine take_ties
 
     !> Place and side of a peak, and the position that is shown
-    subroutine place_peak(assembled, runs, asked, peak, error)
+    subroutine place_peak(assembled, runs, asked, kept, peak, error)
         type(assembled_type), intent(in) :: assembled
-        type(runs_type), intent(inout) :: runs
+        type(runs_type), intent(in) :: runs
         type(asked_type), intent(in) :: asked
+        !> Its state
+        type(kept_type), intent(inout) :: kept
         type(peak_type), intent(inout) :: peak
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: value, sides(1, 2)
 
-        if (.not. peak%is_limit) then
-            if (.not. allocated(peak%kept)) peak%kept = runs%boxes(peak%state)%of
-            peak%position = shown_position(assembled, runs, peak%kept)
-            call value_of(asked, peak%kept, value, error, peak%x, peak%span)
-            if (.not. allocated(error) .and. asked%of == of_field) then
-                call fields_at_places(peak%kept%placed, peak%kept%state, [asked%number], [peak%x], .true., sides(:, 1:1), error)
-                if (.not. allocated(error)) call fields_at_places(peak%kept%placed, peak%kept%state, [asked%number], [peak%x], &
-                                                                  .false., sides(:, 2:2), error)
-                if (allocated(error)) return
-                if (asked%smallest) sides(:, :) = -sides
-                if (abs(sides(1, 2) - sides(1, 1)) > jumps*abs(peak%value)) then
-                    peak%side = merge(1, 2, abs(sides(1, 1) - peak%value) < abs(sides(1, 2) - peak%value))
-                end if
+        peak%position = shown_position(assembled, runs, kept)
+        call value_of(asked, kept, value, error, peak%x, peak%span)
+        if (allocated(error)) return
+        if (asked%of == of_field) then
+            call fields_at_places(kept%placed, kept%state, [asked%number], [peak%x], .true., sides(:, 1:1), error)
+            if (.not. allocated(error)) then
+                call fields_at_places(kept%placed, kept%state, [asked%number], [peak%x], .false., sides(:, 2:2), error)
             end if
             if (allocated(error)) return
-            deallocate (peak%kept)
+            if (asked%smallest) sides(:, :) = -sides
+            if (abs(sides(1, 2) - sides(1, 1)) > jumps*abs(peak%value)) then
+                peak%side = merge(1, 2, abs(sides(1, 1) - peak%value) < abs(sides(1, 2) - peak%value))
+            end if
         end if
         if (asked%smallest) peak%value = -peak%value
     end subroutine place_peak

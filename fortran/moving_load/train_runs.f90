@@ -47,6 +47,8 @@ module gapbeam_train_runs
         integer :: rule = 0
         real(wp) :: from = 0.0_wp, to = 0.0_wp
         type(box_type), allocatable :: boxes(:)
+        !> The state of the top that was climbed last, where it is none of those
+        type(box_type) :: top
         type(run_type), allocatable :: runs(:)
         type(lost_type), allocatable :: lost(:)
         !> In the order in which they happen

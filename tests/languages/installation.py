@@ -10,6 +10,7 @@ import pytest
 
 TOP = Path(__file__).resolve().parents[2]
 LANGUAGES = TOP / "examples" / "languages"
+BUILDS = Path(".venv", "build")
 NEEDED = ("meson", "ninja", "gfortran", "cc", "pkg-config")
 
 
@@ -69,15 +70,21 @@ class Installation:
 def install(folder: Path, *options: str, like: Installation | None = None) -> Installation:
     """Build and install the library under a folder, with options of meson; skip the test where a tool for that is missing.
 
-    What another installation beside that folder was built of is copied, so that only what the options change is compiled.
+    What another installation, or else the package that `tests/run` made, was built of is copied, so that only what the options
+    change is compiled. The sources go along, since the compiler's commands hold places relative to the build.
     """
     missing = [name for name in NEEDED if shutil.which(name) is None]
     if missing:
         pytest.skip(f"not on this machine: {', '.join(missing)}")
-    prefix, build = folder / "prefix", folder / "build"
-    setup = ["meson", "setup", build, TOP, f"--prefix={prefix}", "-Dlibdir=lib", "-Dtests=disabled", *options]
-    if like:
-        shutil.copytree(like.build, build, symlinks=True)
+    tree, prefix = folder / "tree", folder / "prefix"
+    build, made = tree / BUILDS / "library", like.build if like else TOP / BUILDS / "package"
+    shutil.copytree(TOP / "fortran", tree / "fortran")
+    for name in ("meson.build", "meson.options"):
+        shutil.copy2(TOP / name, tree)
+    off = ("-Dpython=disabled", "-Dtests=disabled")
+    setup = ["meson", "setup", build, tree, f"--prefix={prefix}", "-Dlibdir=lib", *off, *options]
+    if made.exists():
+        shutil.copytree(made, build, symlinks=True)
         setup += ["--reconfigure"]
     for command in (setup, ["meson", "install", "-C", build]):
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
@@ -95,7 +102,7 @@ def install_once(folders, name: str, *options: str, like: Installation | None = 
     with open(f"{folder}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if (folder / "done").exists():
-            return Installation(folder / "prefix", folder / "build")
+            return Installation(folder / "prefix", folder / "tree" / BUILDS / "library")
         found = install(folder, *options, like=like)
         (folder / "done").touch()
         return found

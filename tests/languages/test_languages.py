@@ -502,7 +502,9 @@ def soft_scene(seed):
     history = [[1.0], [1.0, 0.0], [0.6, -0.3, 1.0], [1.0, 0.0, 0.8]][int(rng.integers(4))]
     return {
         "beam": {"spans": [2.0, 3.0], "EI": float(rng.choice([10.0, 100.0]))}, "supports": supports,
-        "loads": [{"type": "force", "x": 2.0, "F": total * float(rng.uniform(0.5, 1.5))}, {"type": "uniform", "q": 0.5, "case": "dead"}],
+        "loads": [
+            {"type": "force", "x": 2.0, "F": total * float(rng.uniform(0.5, 1.5))}, {"type": "uniform", "q": 0.5, "case": "dead"},
+        ],
         "analysis": {"follow": "events", "at_limit": ("stop", "jump", "follow")[seed % 3], "history": history},
     }  # fmt: skip
 

@@ -24,8 +24,8 @@ GIVEN = "given"
 RULE_GIVEN, RULE_EXTENDED = 2, 3
 """Its code, as in gapbeam_extended_precision, and that where lines are followed beyond where it holds, as tangents are."""
 ON_LINES, BY_TANGENTS, WITH_LINES, ON_POLYLINES = 0, 1, 2, 3
-"""How a state meets smooth laws: on the polylines, or lines, in place of them; by tangents on the laws themselves; on lines that have
-to give their forces; on polylines, as far as these give them. The last three as in gapbeam_path_states."""
+"""How a state meets smooth laws: on the polylines, or lines, in place of them; by tangents on the laws themselves; on lines that
+have to give their forces; on polylines, as far as these give them. The last three as in gapbeam_path_states."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 LAW_ROW, FIRST_CURVE = 6, 3

@@ -170,7 +170,7 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 
 
 class Owned(int):
-    """A number by which the compiled layer knows an object: a beam, room for its cases, a state, the fields of one, a path, a train.
+    """A number by which the compiled layer knows an object: a beam, room for its cases, a state, its fields, a path, a train.
 
     The object is freed with the last reference to the number; calls that go on after Ctrl-C keep theirs. Nothing of it is written
     in Python, which hears signals between its own instructions: a Ctrl-C inside `__del__` would be printed and lost. The property
