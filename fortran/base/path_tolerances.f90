@@ -10,7 +10,7 @@ module gapbeam_path_tolerances
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
     public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
     public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
-    public :: nothing_on_arc, wide_of_polyline, left_its_start, further_than_asked, off_its_law, off_its_polyline
+    public :: nothing_on_arc, wide_of_polyline, further_than_asked, off_its_law, off_its_polyline
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
@@ -73,13 +73,14 @@ module gapbeam_path_tolerances
     !> Relative singular value below which the path branches: the way to the other branch is left out then; tuned. Read by
     !> continuation/arc_states
     real(wp), parameter :: dependent_branches = 1e-6_wp
-    !> Distance along an arc at which its direction on one side of a place is looked at first; tuned. Read by
-    !> continuation/arc_states
+    !> Distance along an arc at which its direction on one side of a place, or whether a support has left the end of a piece, is
+    !> looked at first; tuned. Read by continuation/arc_states, continuation/smooth_path
     real(wp), parameter :: nearest_beside = 1e-6_wp
-    !> The farthest one, where there is no state nearer; tuned. Read by continuation/arc_states
+    !> The farthest one, where there is no state nearer; tuned. Read by continuation/arc_states, continuation/smooth_path
     real(wp), parameter :: farthest_beside = 1e-2_wp
     !> Share of its values nearby up to which a function along an arc is zero where it changes its sign; more: another path has
-    !> been met. Read by continuation/arc_roots
+    !> been met. Turns within 0.002 of the start of an arc, where branches cross, are not told from rounding then: the rate of the
+    !> load is of second order there. Read by continuation/arc_roots, continuation/smooth_turns
     real(wp), parameter :: no_zero = 1e-6_wp
     !> Longest step with which a root is looked for beyond the two states of an arc, and most that the path may leave a line between
     !> places that are looked at, in sizes of the deflections and the factor; tuned. Read by continuation/arc_roots
@@ -114,15 +115,14 @@ module gapbeam_path_tolerances
     !> Distance of states, in sizes of the deflections and the factor, against which the error of the polyline of a smooth law is
     !> small; tuned. Read by continuation/path_on_laws
     real(wp), parameter :: wide_of_polyline = 0.05_wp
-    !> Place along an arc from which on it has left what is at its start; tuned. Read by continuation/smooth_path,
-    !> continuation/smooth_turns
-    real(wp), parameter :: left_its_start = 0.01_wp
     !> By what share of its last leg a path is followed further on the polylines, where it does not come to its end on the laws;
     !> tuned. Read by continuation/smooth_path
     real(wp), parameter :: further_than_asked = 0.1_wp
-    !> Share of the largest reaction by which a force may be beside its smooth law, far above rounding; and where the state is known
-    !> on their polylines only, by what these leave out; tuned. Read by continuation/path_states
-    real(wp), parameter :: off_its_law = 1e-6_wp, off_its_polyline = 0.05_wp
+    !> Share of the largest reaction by which a force may be beside its smooth law: far above rounding; tuned. Read by
+    !> continuation/path_states
+    real(wp), parameter :: off_its_law = 1e-6_wp
+    !> The same where the state is known on the polylines only: what these leave out; tuned. Read by continuation/path_states
+    real(wp), parameter :: off_its_polyline = 0.05_wp
 
     !
     ! Trains

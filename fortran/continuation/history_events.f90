@@ -1,10 +1,9 @@
 !> Events of the supports along a load path, from stretch to stretch.
 module gapbeam_history_events
     use gapbeam_kinds, only: wp
-    use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acts_in, as_one_piece, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
         gapbeam_closes
     use gapbeam_events, only: event_type, add_event
     use gapbeam_history, only: history_type
@@ -83,10 +82,6 @@ contains
                     end associate
                     before = acts_in(assembled, i, a%closed, a%laws)
                     after = acts_in(assembled, i, b%closed, b%laws)
-                    if (is_smooth(assembled%model%supports(i)%law)) then
-                        before = as_one_piece(before)
-                        after = as_one_piece(after)
-                    end if
                     change = no_change
                     if (assembled%beam%supports(first)%breakpoint > 0) then
                         change = what_happens(before, after)

@@ -12,7 +12,7 @@ module gapbeam_path_on_laws
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_pieces, only: acting_type, acts_in, as_one_piece
+    use gapbeam_pieces, only: acting_type, acts_in
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose, is_lost
     use gapbeam_arc_states, only: eigenvalues_at, wrongness_of
@@ -152,8 +152,7 @@ contains
                     if (beam%with_law(i)) then
                         piece = acts_in(beam, i, a%closed, a%laws)
                         if (is_smooth(beam%model%supports(i)%law)) then
-                            piece = as_one_piece(piece)
-                            after = as_one_piece(acts_in(beam, i, b%closed, a%laws))
+                            after = acts_in(beam, i, b%closed, a%laws)
                             if (piece%condition == after%condition) cycle
                         end if
                         by_force = abs(piece%slope) > huge(piece%slope)
