@@ -70,17 +70,17 @@ module gapbeam_path_tolerances
     !> The same after many corrections; and share of the largest eigenvalue below which one is rounding; tuned. Read by
     !> continuation/arc_states, continuation/branch_points, continuation/smooth_branches
     real(wp), parameter :: arc_noise = 1e-9_wp
-    !> Relative singular value below which the path branches: the way to the other branch is left out then; tuned. Read by
-    !> continuation/arc_states
+    !> Relative singular value below which the path branches: the way to the other branch is left out then, and where the load
+    !> turns round is not told; tuned. Read by continuation/arc_states
     real(wp), parameter :: dependent_branches = 1e-6_wp
-    !> Distance along an arc at which its direction on one side of a place, or whether a support has left the end of a piece, is
-    !> looked at first; tuned. Read by continuation/arc_states, continuation/smooth_path
+    !> Distance along an arc at which its direction on one side of a place is looked at first; tuned. Read by
+    !> continuation/arc_states
     real(wp), parameter :: nearest_beside = 1e-6_wp
-    !> The farthest one, where there is no state nearer; tuned. Read by continuation/arc_states, continuation/smooth_path
+    !> The farthest one, where there is no state nearer; and where a support has left the end of its piece at which it is at the
+    !> start of an arc: what it does nearer is not seen; tuned. Read by continuation/arc_states, continuation/smooth_path
     real(wp), parameter :: farthest_beside = 1e-2_wp
     !> Share of its values nearby up to which a function along an arc is zero where it changes its sign; more: another path has
-    !> been met. Turns within 0.002 of the start of an arc, where branches cross, are not told from rounding then: the rate of the
-    !> load is of second order there. Read by continuation/arc_roots, continuation/smooth_turns
+    !> been met. Read by continuation/arc_roots
     real(wp), parameter :: no_zero = 1e-6_wp
     !> Longest step with which a root is looked for beyond the two states of an arc, and most that the path may leave a line between
     !> places that are looked at, in sizes of the deflections and the factor; tuned. Read by continuation/arc_roots

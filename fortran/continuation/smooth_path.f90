@@ -5,7 +5,7 @@
 !> of its piece, and the load factors that are gone to. What is not found there stays as it is on the polylines, and says so.
 module gapbeam_smooth_path
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: nothing_on_arc, nearest_beside, farthest_beside, further_than_asked
+    use gapbeam_path_tolerances, only: nothing_on_arc, farthest_beside, further_than_asked
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
@@ -188,8 +188,8 @@ contains
         if (allocated(error)) return
         low = merge(0.0_wp, -huge(low), is_known(view, k, start_of_stretch))
         first = 0.0_wp
-        if (abs(value) < nothing_on_arc) call leave_breakpoint(arc, ends(1), first, error)
-        if (allocated(error)) return
+        ! It may have been at the same breakpoint at the start of the arc
+        if (abs(value) < nothing_on_arc) first = farthest_beside
         call find_root(arc, ends(1), max(low, merge(first, low, first > 0.0_wp)), huge(low), first, number, error)
         if (allocated(error)) return
         associate (s => view%history%stretches(k), at => arc%known(number)%one%at, h => view%history)
@@ -211,28 +211,6 @@ contains
             end associate
         end associate
     end subroutine find_event
-
-    !> Where a support has left the end of a piece at which it is at the start of an arc
-    subroutine leave_breakpoint(arc, test, place, error)
-        type(arc_type), intent(inout) :: arc
-        !> How far it is from there
-        type(arc_test_type), intent(in) :: test
-        !> The nearest that is seen to be so
-        real(wp), intent(out) :: place
-        !> There is no state near
-        type(error_type), allocatable, intent(out) :: error
-        real(wp) :: value
-        integer :: number
-
-        place = nearest_beside
-        do
-            call find_on_arc(arc, place, number, error)
-            if (.not. allocated(error)) call test_value(arc, test, number, value, error)
-            if (allocated(error) .or. place >= farthest_beside) return
-            if (abs(value) > nothing_on_arc) return
-            place = min(10*place, farthest_beside)
-        end do
-    end subroutine leave_breakpoint
 
     !> Whether the load goes as it does on the polylines after an event
     subroutine check_way_on(view, k, error)

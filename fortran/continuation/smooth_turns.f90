@@ -1,10 +1,9 @@
 !> Where the load turns round on smooth laws: on their polylines it may do so more than once, or not at all.
 module gapbeam_smooth_turns
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: no_zero
     use gapbeam_error, only: error_type
     use gapbeam_smooth_arc, only: arc_type, lose, is_lost
-    use gapbeam_arc_states, only: find_on_arc, rate_beside
+    use gapbeam_arc_states, only: find_on_arc, rate_beside, look_at_direction
     use gapbeam_arc_roots, only: arc_test_type, of_rate, find_root, find_roots
     use gapbeam_path_on_laws, only: view_type, arc_about, end_of, is_near, is_known, keep_end, check_on_laws, through, &
         turns_round, branches, start_of_stretch, stop_of_stretch
@@ -116,32 +115,24 @@ contains
     end subroutine find_states
 
     !> Leave out turns that are none: where branches cross the load is stationary on the one of them that is no turn, and its rate
-    !> there is rounding, of either sign. Halfway to a turn that is made by this alone the rate is rounding too
+    !> is not told, of either sign. Nor is it halfway to a turn that is made by this alone, since there the equations are nearer to
+    !> dependent ones
     subroutine leave_out_rounding(arc, states, error)
         !> From the crossing on
         type(arc_type), intent(inout) :: arc
         !> Where its rate changes sign
         integer, allocatable, intent(inout) :: states(:)
         type(error_type), allocatable, intent(out) :: error
-        logical, allocatable :: turning(:)
-        real(wp) :: nothing
-        integer :: k, n, number
+        logical, allocatable :: told(:)
+        integer :: k, number
 
-        n = size(arc%numbers) + 1
-        nothing = 0.0_wp
-        do k = 1, arc%number
-            nothing = max(nothing, no_zero*abs(arc%known(k)%one%rate(n)))
-        end do
-        call find_on_arc(arc, 0.0_wp, number, error)
-        if (allocated(error)) return
-        if (abs(arc%known(number)%one%rate(n)) > nothing) return
-        allocate (turning(size(states)))
+        allocate (told(size(states)))
         do k = 1, size(states)
             call find_on_arc(arc, arc%known(states(k))%one%at/2, number, error)
+            if (.not. allocated(error)) call look_at_direction(arc, number, told(k), error)
             if (allocated(error)) return
-            turning(k) = abs(arc%known(number)%one%rate(n)) > nothing
         end do
-        states = pack(states, turning)
+        states = pack(states, told)
     end subroutine leave_out_rounding
 
     !> Choose as many of the turns as there are on the laws, to and fro in turn; limits of the load before others
