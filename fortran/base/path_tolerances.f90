@@ -61,8 +61,9 @@ module gapbeam_path_tolerances
     !
     ! Paths on smooth laws
     !
-    !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is.
-    !> Read by continuation/arc_roots, continuation/arc_states
+    !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is;
+    !> share of a typical force of a law that is nothing. Read by continuation/arc_roots, continuation/arc_states,
+    !> continuation/path_states
     real(wp), parameter :: arc_settled = 4*epsilon(1.0_wp)
     !> The same where changes grow no smaller any more: rounding of the solve with springs. Read by continuation/arc_states,
     !> continuation/branch_points

@@ -1,8 +1,7 @@
 !> States at load factors on a path; with smooth laws of supports on the laws themselves, wherever they are known there.
 module gapbeam_path_states
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: off_its_law, off_its_polyline
-    use gapbeam_tolerances, only: rounding_unit
+    use gapbeam_path_tolerances, only: off_its_law, off_its_polyline, arc_settled
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: named, of_supports
@@ -224,7 +223,7 @@ contains
                 call force_and_slope(s, past, force, slope)
                 off = abs(reaction_at(beam, state%reaction, numbers(j)) - way*force)
                 ! Nothing where nothing acts: rounding of what the law gives
-                least = rounding_unit*law_force(s%law, s%parameter, law_scale(s%law, s%parameter))
+                least = arc_settled*law_force(s%law, s%parameter, law_scale(s%law, s%parameter))
                 if (off <= largest + least .or. off <= most) cycle
                 most = off
                 worst = numbers(j)

@@ -1,4 +1,4 @@
-!> Arcs of paths on smooth laws beside closed forms: states, limit points, load factors, where the beam gives way, and branches beyond
+!> Arcs on smooth laws beside closed forms: states, limit points, load factors, where the beam gives way, and branches beyond
 program test_smooth_arc
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
