@@ -63,7 +63,9 @@ end subroutine gbpath
 subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, report
     use gapbeam_handles, only: history_tag, new_handle, finish_handle
+    use gapbeam_error, only: no_memory
     use gapbeam_history_record, only: runs_of
+    use gapbeam_history_events, only: find_events
     use gapbeam_smooth_path, only: follow_on_laws
     use gapbeam_state, only: name_range
     implicit none
@@ -73,8 +75,8 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
     double precision, intent(in) :: factor(nf)
     ! At a limit: 0 stop, 1 jump, 2 follow the path; stretches after which it is cut off
     integer, intent(in) :: limit, most
-    ! Stretches, limits, ways not taken, runs of stretches, how it ended (gapbeam_history_record), linear solves
-    integer, intent(out) :: sizes(6)
+    ! Stretches, limits, ways not taken, runs of stretches, events, how it ended (gapbeam_history_record), linear solves
+    integer, intent(out) :: sizes(7)
     ! Handle of the path
     integer(8), intent(out) :: hist
     integer, intent(out) :: status
@@ -91,26 +93,32 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
         allocate (found%history%path, stat=stat)
         if (stat == 0) call follow_on_laws(handle%beam%lowered, factor, limit, most, found%history%path, error)
         call name_range(handle%beam%lowered, error)
+        if (stat == 0 .and. .not. allocated(error)) then
+            call find_events(handle%beam%lowered, found%history%path, found%history%events, stat)
+        end if
+        if (stat /= 0) call no_memory(error)
     end if
     call finish_handle(found, error)
     hist = number_of(found)
     call report(error, status, message)
     if (allocated(error)) return
     associate (path => found%history%path)
-        sizes = [path%number, size(path%limits), size(path%others), size(runs_of(path), 2), path%ending, path%solves]
+        sizes = [path%number, size(path%limits), size(path%others), size(runs_of(path), 2), size(found%history%events), &
+                 path%ending, path%solves]
     end associate
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, along, about, closed, laws, factors, which, motion, others, scheme, runs)
+subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, laws, factors, which, motion, others, scheme, &
+                  runs, at, events)
     use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_history_record, only: laws_at, runs_of
     use gapbeam_path_states, only: is_exact
     use gapbeam_polyline, only: node_support_type
     implicit none
     integer(8), intent(in) :: beam, hist
-    ! Links; supports of the engine, stretches, limits, ways not taken and runs, one more than there are
-    integer, intent(in) :: nl, ns, nh, nk, nw, nr
+    ! Links; supports of the engine, stretches, limits, ways not taken, runs and events, one more than there are
+    integer, intent(in) :: nl, ns, nh, nk, nw, nr, ne
     ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end
     ! is on the smooth laws
     double precision, intent(out) :: along(2, nh)
@@ -128,6 +136,9 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, along, about, closed, laws
     integer(1), intent(out) :: scheme(ns, nw)
     ! First and last stretch (from 1) of every part on which all supports stay on their piece, a smooth law being one
     integer, intent(out) :: runs(2, nr)
+    ! Of every event: load factor; support of the scene (from 1), what happens as in gapbeam_pieces
+    double precision, intent(out) :: at(ne)
+    integer, intent(out) :: events(2, ne)
     type(handle_type), pointer :: handle, found
     type(node_support_type), allocatable :: now(:)
     integer :: k
@@ -144,6 +155,14 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, along, about, closed, laws
     others = 0
     scheme = int(0, kind(scheme))
     runs = 0
+    at = 0.0d0
+    events = 0
+    do k = 1, ne - 1
+        associate (event => found%history%events(k))
+            at(k) = event%factor
+            events(:, k) = [event%support, event%change]
+        end associate
+    end do
     associate (path => found%history%path)
         if (allocated(path%motion)) motion = path%motion
         do k = 1, nh - 1

@@ -224,6 +224,10 @@ class History:
         Their schemes, k by supports of the engine.
     runs : numpy.ndarray of int
         First and last stretch of every part on which all supports stay on their piece, a smooth law being one; r by 2.
+    event_factors : numpy.ndarray
+        Load factors at which something happens to a support.
+    events : numpy.ndarray of int
+        Number of the support in the scene, and what happens, as gapbeam_pieces numbers it; e by 2.
     ending : str
         How it ended: one of ENDINGS; empty at the last factor.
     motion : numpy.ndarray or None
@@ -241,6 +245,8 @@ class History:
     others: np.ndarray
     other_schemes: np.ndarray
     runs: np.ndarray
+    event_factors: np.ndarray
+    events: np.ndarray
     ending: str
     motion: np.ndarray | None
     solves: int

@@ -96,14 +96,14 @@ class Followed:
             More breakpoints at one factor than can be tried, numbers out of range, or what cannot be told on smooth laws.
         """
         beam, (sizes, handle) = self.beam, self._found
-        count, limits, others, runs, ending, solves = sizes.tolist()
-        along, about, closed, breakpoints, where, which, motion, ways, schemes, parts = _engine.gbhget(
-            beam.handle, handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1, runs + 1
+        count, limits, others, runs, events, ending, solves = sizes.tolist()
+        along, about, closed, breakpoints, where, which, motion, ways, schemes, parts, at, happens = _engine.gbhget(
+            beam.handle, handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1, runs + 1, events + 1
         )
         return History(
             along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(breakpoints, 2, 0)[:count, :, :-1],
-            where[:limits], which.T[:limits], ways.T[:others], schemes.T[:others, :-1], parts.T[:runs] - 1, ENDINGS[ending],
-            motion if motion.any() else None, solves,
+            where[:limits], which.T[:limits], ways.T[:others], schemes.T[:others, :-1], parts.T[:runs] - 1, at[:events],
+            happens.T[:events] - (1, 0), ENDINGS[ending], motion if motion.any() else None, solves,
         )  # fmt: skip
 
     def lines(self, beam: Beam, stretch: int, factor: float) -> tuple[np.ndarray, int, int]:

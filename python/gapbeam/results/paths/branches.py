@@ -13,7 +13,7 @@ from ...base.records import Pickled, read_only
 from ...engine.beam import BY_TANGENTS, GIVEN, ON_POLYLINES, Beam
 from ...engine.paths import ENDINGS, Followed
 from ...engine.tolerances import MOST_PATH_SEGMENTS
-from ..state.breakpoints import piece_of, what_happens
+from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.step import Step
 from .branch_segments import BranchSegment, Limit, OtherWay
 from .path import Event
@@ -87,34 +87,8 @@ class BranchPath(Pickled):
         beam, h = self._beam, self._history
         x = beam.node_x[beam.places.support_nodes]
         places = dict(zip(beam.numbers.tolist(), x.tolist(), strict=True))
-        found: list[Event] = []
-        before = None
-        passed: list[tuple[int, str]] = []
-        for k, (leg, direction, _, _, skipped, _) in enumerate(h.about.tolist()):
-            if skipped:
-                # What is passed in a jump happens where it begins
-                passed += self._changes(k - 1, k)
-                before = k
-                continue
-            factor = float(h.along[k, 0])
-            if direction == 0 and k + 1 < len(h.about):
-                held = np.flatnonzero(h.closed[k + 1] > h.closed[k])
-                if leg > 0 and len(held):
-                    number = int(beam.numbers[held[0]])
-                    found.append(Event(factor, number, places[number], "turns"))
-            if before is not None and leg > 0:
-                changes, passed = [*passed, *self._changes(before, k)], []
-                at_start = factor == 0.0 and self._leg_begins(k) and leg == 1
-                found += [Event(factor, i, places[i], what) for i, what in changes if not at_start]
-            before = k
-        if passed and self._history.limits.size:
-            # The path ends at a limit: what happens there is all that happens
-            limit = self.limits[-1]
-            found += [Event(limit.factor, i, places[i], what) for i, what in limit.causes]
-        return found
-
-    def _leg_begins(self, k: int) -> bool:
-        return k == 0 or self._history.about[k, 0] != self._history.about[k - 1, 0]
+        happens = zip(h.event_factors.tolist(), h.events.tolist(), strict=True)
+        return [Event(factor, support, places[support], EVENTS[what]) for factor, (support, what) in happens]
 
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
