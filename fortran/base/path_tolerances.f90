@@ -71,8 +71,8 @@ module gapbeam_path_tolerances
     !> The same after many corrections; and share of the largest eigenvalue below which one is rounding; tuned. Read by
     !> continuation/arc_states, continuation/branch_points, continuation/smooth_branches
     real(wp), parameter :: arc_noise = 1e-9_wp
-    !> Relative singular value below which the path branches: the way to the other branch is left out then, and where the load
-    !> turns round is not told; tuned. Read by continuation/arc_states
+    !> Relative singular value below which the path branches: the way to the other branch is left out then; tuned. Read by
+    !> continuation/arc_states
     real(wp), parameter :: dependent_branches = 1e-6_wp
     !> Distance along an arc at which its direction on one side of a place is looked at first; tuned. Read by
     !> continuation/arc_states
@@ -102,8 +102,9 @@ module gapbeam_path_tolerances
     real(wp), parameter :: branch_bend = 0.1_wp
     !> Relative change of the load factor by which a branch rises or falls: less is rounding. Read by continuation/smooth_branches
     real(wp), parameter :: branch_rises = 1e-10_wp
-    !> Relative singular value below which a direction is left out where branches cross; tuned. Read by
-    !> continuation/smooth_branches
+    !> Relative singular value below which a direction is left out where branches cross, and where the load is stationary since they
+    !> do, not since it turns round: some 1e-6 at crossings found as such; a turn nearer to one is not seen; tuned. Read by
+    !> continuation/arc_states, continuation/smooth_branches
     real(wp), parameter :: crossing_directions = 1e-4_wp
     !> How near to a crossing of branches the equations are looked at; tuned. Read by continuation/branch_points
     real(wp), parameter :: nearest_crossing = 1e-5_wp

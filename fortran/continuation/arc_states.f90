@@ -1,7 +1,8 @@
 !> States of the path on smooth laws, at places along an arc, and what tells whether they are stable and stand.
 module gapbeam_arc_states
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside
+    use gapbeam_path_tolerances, only: arc_settled, arc_rounding, arc_noise, dependent_branches, crossing_directions, &
+        nearest_beside, farthest_beside
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_dense_solver, only: solve_least_squares, symmetric_eigenvalues, find_singular_values
     use gapbeam_certificate, only: certificate_type
@@ -167,7 +168,7 @@ contains
         call equations_at(arc, arc%known(number)%one%slope, matrix)
         call find_singular_values(matrix, values, directions, told)
         if (.not. told) call lose(error)
-        told = told .and. values(n) > dependent_branches*values(1)
+        told = told .and. values(n) > crossing_directions*values(1)
     end subroutine look_at_direction
 
     !> Keep a state

@@ -3,7 +3,7 @@ module gapbeam_smooth_turns
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_smooth_arc, only: arc_type, lose, is_lost
-    use gapbeam_arc_states, only: find_on_arc, rate_beside, look_at_direction
+    use gapbeam_arc_states, only: rate_beside, look_at_direction
     use gapbeam_arc_roots, only: arc_test_type, of_rate, find_root, find_roots
     use gapbeam_path_on_laws, only: view_type, arc_about, end_of, is_near, is_known, keep_end, check_on_laws, through, &
         turns_round, branches, start_of_stretch, stop_of_stretch
@@ -97,7 +97,7 @@ contains
         call find_roots(arc, test, states, error)
         if (allocated(error)) return
         if (begins .and. turns(1) > 1) then
-            if (view%history%on_laws%joins(turns(1) - 1) == branches) call leave_out_rounding(arc, states, error)
+            if (view%history%on_laws%joins(turns(1) - 1) == branches) call leave_out_crossings(arc, states, error)
             if (allocated(error)) return
         end if
         if (size(turns) > 1) return
@@ -114,26 +114,24 @@ contains
         states = [number]
     end subroutine find_states
 
-    !> Leave out turns that are none: where branches cross the load is stationary on the one of them that is no turn, and its rate
-    !> is not told, of either sign. Nor is it halfway to a turn that is made by this alone, since there the equations are nearer to
-    !> dependent ones
-    subroutine leave_out_rounding(arc, states, error)
+    !> Leave out turns that are none: where branches cross the load is stationary on the one of them that is no turn. The equations
+    !> are dependent there, as they are not where the load turns round
+    subroutine leave_out_crossings(arc, states, error)
         !> From the crossing on
-        type(arc_type), intent(inout) :: arc
+        type(arc_type), intent(in) :: arc
         !> Where its rate changes sign
         integer, allocatable, intent(inout) :: states(:)
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: told(:)
-        integer :: k, number
+        integer :: k
 
         allocate (told(size(states)))
         do k = 1, size(states)
-            call find_on_arc(arc, arc%known(states(k))%one%at/2, number, error)
-            if (.not. allocated(error)) call look_at_direction(arc, number, told(k), error)
+            call look_at_direction(arc, states(k), told(k), error)
             if (allocated(error)) return
         end do
         states = pack(states, told)
-    end subroutine leave_out_rounding
+    end subroutine leave_out_crossings
 
     !> Choose as many of the turns as there are on the laws, to and fro in turn; limits of the load before others
     subroutine choose_turns(view, turns, number, kept, error)
