@@ -53,7 +53,7 @@ contains
         logical :: moves
         integer :: stat
 
-        moves = any(abs(settlements) > 0.0_wp)
+        moves = any(abs(settlements) > 0.0_wp) .or. allocated(base%given_settlement)
         if (present(varied)) moves = moves .or. associated(varied%supports)
         stat = 0
         if (moves .or. combined%moved) then
@@ -72,6 +72,7 @@ contains
             assembled%model%loads%value_to = factors*loads%value_to
             if (present(varied)) call take_varied(varied, assembled%model)
             if (moves .or. combined%moved) then
+                if (allocated(base%given_settlement)) assembled%model%supports%settlement = base%given_settlement
                 assembled%model%supports%settlement = assembled%model%supports%settlement + settlements
                 call assemble_model(assembled, error)
             else

@@ -22,7 +22,7 @@ module gapbeam_history
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_state, only: detail_of
-    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
+    use gapbeam_history_start, only: find_beginning, find_movements, growth_of, has_dead_loads, find_rest
     use gapbeam_history_record, only: history_type, stretch_type, limit_type, other_way_type, new_history, laws_at, &
         add_stretch, add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
         no_limit, limit_point, bifurcation, mechanism, ended, cut_off
@@ -89,8 +89,8 @@ contains
             call end_if_stopped(beam%watch, error)
             if (allocated(error) .or. history%ending /= no_limit) return
             walk%laws%contact = walk%laws%contact + walk%settling
-            walk%settling(:) = 0.0_qp
         end if
+        walk%settling(:) = growth_of(assembled)
         factor = 0.0_qp
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle

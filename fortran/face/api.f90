@@ -7,7 +7,7 @@ module gapbeam_api
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_scene, only: model_type, load_type, gapbeam_axial
+    use gapbeam_scene, only: model_type, load_type, gapbeam_movement
     use gapbeam_assembled_model, only: assembled_type, copy_model
     use gapbeam_units, only: bound_outside, quantity_unit
     use gapbeam_assemble, only: assemble_model
@@ -74,7 +74,7 @@ contains
         if (allocated(error)) return
         call hold_environment(environment)
         if (same_places(beam%lowered%model%loads, loads)) then
-            call check_loads(loads, beam%lowered%ends, any(beam%lowered%model%supports%direction == gapbeam_axial), error)
+            call check_loads(loads, beam%lowered%model, beam%lowered%ends, error)
             if (.not. allocated(error)) call exchange_loads(beam%lowered, loads, error)
         else
             allocate (other, stat=stat)
@@ -85,6 +85,7 @@ contains
             end if
             if (stat == 0) then
                 other%model%loads(:) = loads
+                if (allocated(beam%lowered%given_settlement)) other%model%supports%settlement = beam%lowered%given_settlement
                 call assemble_model(other, error)
             else
                 call no_memory(error)
@@ -118,7 +119,7 @@ contains
         call assemble_loads(lowered, none)
     end subroutine exchange_loads
 
-    !> Do two lists of loads differ in their values only
+    !> Do two lists of loads differ in their values only, and none moves a support
     pure function same_places(a, b) result(same)
         type(load_type), intent(in) :: a(:), b(:)
         logical :: same
@@ -127,7 +128,7 @@ contains
         same = .false.
         if (size(a) /= size(b)) return
         do i = 1, size(a)
-            if (a(i)%kind /= b(i)%kind .or. a(i)%node /= b(i)%node) return
+            if (a(i)%kind /= b(i)%kind .or. a(i)%node /= b(i)%node .or. a(i)%kind == gapbeam_movement) return
             if (.not. abs(a(i)%x - b(i)%x) <= 0.0_wp .or. .not. abs(a(i)%to - b(i)%to) <= 0.0_wp) return
         end do
         same = .true.

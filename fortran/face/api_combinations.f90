@@ -6,7 +6,7 @@ module gapbeam_api_combinations
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown, whole
     use gapbeam_check, only: check_loads
-    use gapbeam_scene, only: load_type, gapbeam_axial
+    use gapbeam_scene, only: load_type
     use gapbeam_combinations, only: combination_type, combine
     use gapbeam_api_objects, only: prepared_type, require_beam, require_size, bad_argument
     implicit none
@@ -58,7 +58,7 @@ contains
             loads(:) = model%loads
             loads%value = factors*loads%value
             loads%value_to = factors*loads%value_to
-            call check_loads(loads, beam%lowered%ends, any(model%supports%direction == gapbeam_axial), error)
+            call check_loads(loads, model, beam%lowered%ends, error)
         end associate
         if (.not. allocated(error)) call combine(beam%lowered, factors, moves, made, error)
         if (.not. allocated(error)) call move_alloc(made%assembled, combined%lowered)

@@ -180,7 +180,8 @@ contains
                              "beside a foundation that is not available in this version; give laws that rise")
         else
             call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
-                             "of a support falls, keeps a set, or may let go of the beam: use follow_history and solve_on_path")
+                             "of a support falls, keeps a set, or may let go of the beam, or a load moves a support: use "// &
+                             "follow_history and solve_on_path")
         end if
     end subroutine require_no_path
 

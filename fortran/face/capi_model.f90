@@ -4,7 +4,7 @@ module gapbeam_capi_model
         c_f_pointer, c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
-    use gapbeam_scene, only: model_type, load_type
+    use gapbeam_scene, only: model_type, load_type, gapbeam_movement
     implicit none
     private
     public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
@@ -256,7 +256,7 @@ contains
             if (has_integers(c%load_kind, n, integers)) loads%kind = integers
             if (has_integers(c%load_case, n, integers)) loads%case = integers
             if (has_reals(c%load_x, n, reals)) loads%x = reals
-            if (has_integers(c%load_node, n, integers)) loads%node = integers
+            if (has_integers(c%load_node, n, integers)) loads%node = integers + merge(1, 0, loads%kind == gapbeam_movement)
             if (has_reals(c%load_to, n, reals)) loads%to = reals
             if (has_reals(c%load_value, n, reals)) loads%value = reals
             do i = 1, n

@@ -50,10 +50,10 @@ module gapbeam
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
         foundation_type, ground_point_type, ground_law_point_type, &
-        point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, &
+        point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
+        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
         gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle, &

@@ -33,7 +33,7 @@ contains
     end function energy_between
 
     !> Work that the live loads in full would do along the displacements of a state; those along the axis are left out. Of imposed
-    !> curvatures what the moments do along them
+    !> curvatures what the moments do along them, of movements of supports what the reactions do
     pure function work_of_live_loads(assembled, state, starts) result(work)
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
@@ -75,6 +75,11 @@ contains
                 call add(parts, couple*there%rotation)
             end associate
         end do
+        if (allocated(assembled%growth)) then
+            do i = 1, size(state%reaction)
+                call add(parts, state%reaction(i)*scale(assembled%growth(assembled%normal(i)), -assembled%units%deflection))
+            end do
+        end if
         work = scale(total(parts), assembled%units%force + assembled%units%deflection)
 
     contains

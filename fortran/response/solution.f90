@@ -13,7 +13,7 @@ module gapbeam_solution
     use gapbeam_assemble_units, only: name_farthest
     implicit none
     private
-    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, way_to_contact
+    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, way_to_contact, has_own_laws, laws_in
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -216,10 +216,38 @@ contains
         type(state_type), intent(in) :: state
         integer, intent(in) :: support
         real(wp) :: way
+        real(wp) :: moved
 
+        moved = 0.0_wp
+        if (allocated(assembled%growth)) moved = state%factor*assembled%growth(support)
         associate (s => assembled%model%supports(support), node => assembled%node_of_point(assembled%support_point(support)))
-            way = s%side*(scale(contact_level(s), -assembled%units%deflection) - state%deflection(node))
+            way = s%side*(scale(contact_level(s) + moved, -assembled%units%deflection) - state%deflection(node))
         end associate
     end function way_to_contact
+
+    !> Do supports of a state act otherwise than those of the beam without live loads
+    pure function has_own_laws(assembled, state) result(it_has)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        logical :: it_has
+
+        it_has = allocated(state%laws) .or. allocated(assembled%growth)
+    end function has_own_laws
+
+    !> The supports of a state: their laws as they are, where they have moved to at its load factor
+    pure function laws_in(assembled, state) result(laws)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        type(node_support_type) :: laws(size(assembled%beam%supports))
+
+        if (allocated(state%laws)) then
+            laws(:) = state%laws
+        else
+            laws(:) = assembled%beam%supports
+        end if
+        if (allocated(assembled%growth)) then
+            laws%contact = laws%contact + state%factor*scale(assembled%growth(assembled%normal), -assembled%units%deflection)
+        end if
+    end function laws_in
 
 end module gapbeam_solution

@@ -23,7 +23,7 @@ module gapbeam_state
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
-    use gapbeam_solution, only: state_type, forget, check_range
+    use gapbeam_solution, only: state_type, forget, check_range, has_own_laws, laws_in
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
@@ -56,9 +56,9 @@ contains
         if (allocated(error)) return
         if (allocated(assembled%layers)) then
             call settle_on_ground(assembled, ground_of(assembled), rule, state, error, near)
-        else if (allocated(state%laws)) then
+        else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
-            changed%supports(:) = state%laws
+            changed%supports(:) = laws_in(assembled, state)
             call settle(assembled, changed, rule, state, error)
         else
             call settle(assembled, assembled%beam, rule, state, error)
@@ -301,9 +301,9 @@ contains
         allocate (starts(size(assembled%pieces)), length_error(size(assembled%beam%links)))
         call recover_state(assembled, state, starts)
         call find_length_errors(assembled, length_error)
-        if (allocated(state%laws)) then
+        if (has_own_laws(assembled, state)) then
             changed = assembled%beam
-            changed%supports(:) = state%laws
+            changed%supports(:) = laws_in(assembled, state)
             call certify(changed, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
                          state%moment_right, state%reaction, starts, length_error, certificate, error)
         else

@@ -8,7 +8,7 @@ module gapbeam_support_values
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_laws, only: past_the_gap
-    use gapbeam_solution, only: state_type, couple_at_node, way_to_contact
+    use gapbeam_solution, only: state_type, couple_at_node, way_to_contact, laws_in
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
     private
@@ -33,10 +33,12 @@ contains
         !> of the piece, shape (nsupport)
         integer, intent(out) :: condition(:)
         integer :: j, k, last
+        type(node_support_type), allocatable :: laws(:)
         logical :: has_law
         real(wp) :: past
         integer :: way
 
+        if (any(assembled%with_law)) allocate (laws, source=laws_in(assembled, state))
         associate (units => assembled%units, beam => assembled%beam, axial => assembled%axial)
             do k = 1, size(reaction)
                 reaction(k) = 0.0_wp
@@ -64,13 +66,8 @@ contains
                         reaction(k) = scale(sum(state%reaction(j:last)), units%force)
                     end if
                     if (has_law) then
-                        if (allocated(state%laws)) then
-                            call state_of_law(state%laws(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                              condition(k), opening(k))
-                        else
-                            call state_of_law(beam%supports(j:last), s%side, state%closed(j:last), state%deflection(node), &
-                                              condition(k), opening(k))
-                        end if
+                        call state_of_law(laws(j:last), s%side, state%closed(j:last), state%deflection(node), condition(k), &
+                                          opening(k))
                         opening(k) = scale(opening(k), units%deflection)
                         if (is_smooth(s%law)) then
                             call past_the_gap(s, deflection(k), past, way)

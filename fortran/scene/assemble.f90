@@ -8,10 +8,11 @@ module gapbeam_assemble
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
-    use gapbeam_scene, only: gapbeam_by_x, gapbeam_axial, gapbeam_couple, gapbeam_right_end, gapbeam_unchanged
+    use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_movement, gapbeam_dead, gapbeam_right_end, &
+        gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
-    use gapbeam_check, only: check_spans, check_rest, check_loads
+    use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
     use gapbeam_support_laws, only: gather_points
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_foundations, only: check_foundations
@@ -66,9 +67,10 @@ contains
             if (allocated(error)) return
             call check_foundations(model, assembled%ends(n), error)
             if (allocated(error)) return
-            call check_loads(model%loads, assembled%ends, any(model%supports%direction == gapbeam_axial), error)
-            if (allocated(error)) return
+            call check_loads(model%loads, model, assembled%ends, error)
         end associate
+        if (.not. allocated(error)) call take_movements(assembled, error)
+        if (allocated(error)) return
         call find_points(assembled, error)
         if (.not. allocated(error)) call assign_sections(assembled, error)
         if (allocated(error)) return
@@ -76,6 +78,41 @@ contains
         if (allocated(error)) return
         call assemble_loads(assembled, error)
     end subroutine assemble_model
+
+    !> Movements of supports: those with the dead loads are settlements, the others grow with the load factor
+    subroutine take_movements(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        associate (model => assembled%model)
+            if (.not. any(model%loads%kind == gapbeam_movement .and. abs(model%loads%value) > 0.0_wp)) return
+            allocate (assembled%given_settlement(size(model%supports)), assembled%growth(size(model%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            assembled%given_settlement(:) = model%supports%settlement
+            assembled%growth(:) = 0.0_wp
+            do i = 1, size(model%loads)
+                associate (load => model%loads(i))
+                    if (load%kind /= gapbeam_movement) cycle
+                    associate (s => model%supports(load%node), growth => assembled%growth(load%node))
+                        if (load%case == gapbeam_dead) then
+                            s%settlement = s%settlement + load%value
+                        else
+                            growth = growth + load%value
+                        end if
+                        if (abs(s%settlement) + abs(growth) <= huge(growth)) cycle
+                        call refuse_number(error, entry_type(of_loads, i, size(model%loads)), "value", load%value, &
+                                           "a smaller movement")
+                        return
+                    end associate
+                end associate
+            end do
+            if (.not. any(abs(assembled%growth) > 0.0_wp)) deallocate (assembled%growth)
+        end associate
+    end subroutine take_movements
 
     !> Which section gives the stiffness of a piece: the last one that gives it
     subroutine assign_sections(assembled, error)
@@ -163,6 +200,13 @@ contains
                 call add(ends, right_end(ends, model%sections(i)%to), gapbeam_by_x, places)
             end do
             do i = 1, size(model%loads)
+                if (model%loads(i)%kind == gapbeam_movement) then
+                    associate (s => model%supports(model%loads(i)%node))
+                        call add(ends, s%x, s%node, places)
+                        call add(ends, s%x, s%node, places)
+                    end associate
+                    cycle
+                end if
                 associate (load => model%loads(i), node => merge(gapbeam_by_x, model%loads(i)%node, is_stretch(model%loads(i))))
                     call add(ends, load%x, node, places)
                     call add(ends, merge(right_end(ends, load%to), load%x, is_stretch(load)), node, places)

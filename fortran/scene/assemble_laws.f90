@@ -93,12 +93,15 @@ contains
 
     end subroutine check_rigid_pieces
 
-    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law
+    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law. That loads
+    !> move supports is known on a path alone
     function depends_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends
         type(motion_type), allocatable :: motions(:)
 
+        depends = .true.
+        if (allocated(assembled%given_settlement)) return
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate

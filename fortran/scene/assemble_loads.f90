@@ -4,7 +4,8 @@ module gapbeam_assemble_loads
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
-    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, gapbeam_dead
+    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
+        gapbeam_movement, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
@@ -64,7 +65,7 @@ contains
         do i = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
                 k = merge(1, 2, load%case == gapbeam_dead)
-                if (load%kind == gapbeam_axial_force) then
+                if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) then
                     cycle
                 else if (.not. is_stretch(load)) then
                     call add_at_point(assembled, load, a, k)
@@ -122,7 +123,7 @@ contains
             node = -1
             if (is_stretch(load)) return
             last = a
-            if (load%kind == gapbeam_axial_force) return
+            if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) return
             node = assembled%node_of_point(a)
             if (node < 0) first = a
         end associate

@@ -100,6 +100,7 @@ contains
                     else
                         call stiff(3)%note(s%stiffness, 0)
                         call ways%note(abs(contact_level(s)), 0)
+                        if (allocated(assembled%growth)) call ways%note(abs(assembled%growth(assembled%normal(k))), 0)
                     end if
                 end associate
             end do

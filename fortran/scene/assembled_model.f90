@@ -81,7 +81,10 @@ module gapbeam_assembled_model
         integer, allocatable :: beam_support(:)
         !> Which supports of the model have a law
         logical, allocatable :: with_law(:)
-        !> Does a state depend on the loading history to it (gapbeam_assemble_laws)
+        !> Settlement of every support as the user gave it, where movements with the dead loads have been added to it; movement that
+        !> grows with the load factor, where any does. In the user's units, shape (nsupport)
+        real(wp), allocatable :: given_settlement(:), growth(:)
+        !> Does a state depend on the loading history to it (gapbeam_assemble_laws), or are there loads that move supports
         logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
         !> support of the model has in that of its node

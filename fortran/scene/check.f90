@@ -4,12 +4,15 @@ module gapbeam_check
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_words, only: shown, whole
+    use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_live, gapbeam_dead
+        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
+        gapbeam_live, gapbeam_dead
     use gapbeam_tolerances, only: position_tolerance, end_tolerance
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
-        not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle
+        not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
+        bad_movement
     implicit none
     private
     public :: check_spans, check_rest, check_loads
@@ -171,17 +174,20 @@ contains
     end subroutine check_support
 
     !> Loads, each alone
-    pure subroutine check_loads(loads, ends, axially_held, error)
+    pure subroutine check_loads(loads, model, ends, error)
         type(load_type), intent(in) :: loads(:)
+        !> What they act on
+        type(model_type), intent(in) :: model
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
-        !> Is there an axial support
-        logical, intent(in) :: axially_held
         type(error_type), allocatable, intent(out) :: error
         integer :: i
 
         do i = 1, size(loads)
-            call check_load(loads(i), entry_type(of_loads, i, size(loads)), ends, axially_held, error)
+            associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
+                call check_load(load, here, ends, any(model%supports%direction == gapbeam_axial), error)
+                if (.not. allocated(error) .and. load%kind == gapbeam_movement) call check_movement(model, load, here, error)
+            end associate
             if (allocated(error)) return
         end do
     end subroutine check_loads
@@ -197,12 +203,13 @@ contains
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force)
             call check_place(load%x, load%node, here, ends, error)
+        case (gapbeam_movement)
         case (gapbeam_distributed, gapbeam_curvature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
-                              "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature) or "// &
-                       "5 (axial force), got "//trim(whole(load%kind)))
+                              "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force) or "// &
+                              "6 (movement), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
@@ -217,6 +224,29 @@ contains
         end if
 
     end subroutine check_load
+
+    !> A movement of a support
+    pure subroutine check_movement(model, load, here, error)
+        type(model_type), intent(in) :: model
+        type(load_type), intent(in) :: load
+        type(entry_type), intent(in) :: here
+        type(error_type), allocatable, intent(out) :: error
+
+        if (load%node < 1 .or. load%node > size(model%supports)) then
+            call refuse_entry(error, here, "support", bad_movement, "there is no such support")
+        else if (model%supports(load%node)%direction == gapbeam_axial) then
+            call refuse_entry(error, here, "support", bad_movement, "it holds the beam along its axis; move "// &
+                              "it by its settlement")
+        else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
+            return
+        else if (is_smooth(model%supports(load%node)%law)) then
+            call refuse_entry(error, here, "support", bad_movement, "its law is a curve, which moves with case dead only "// &
+                              "in this version; give the law by points")
+        else if (size(model%foundations) > 0) then
+            call refuse_entry(error, here, "case", bad_movement, "beside a foundation a support moves with case dead only "// &
+                              "in this version")
+        end if
+    end subroutine check_movement
 
     !> Refuse an entry
     pure subroutine refuse_entry(error, here, key, reason, problem)

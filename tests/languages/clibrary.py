@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 SIDES = {"both": 0, "below": 1, "above": -1}
-KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5}
+KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6}
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
     "plastic": (1, ("stiffness", "limit")),
@@ -151,7 +151,7 @@ def columns(scene):
         return np.broadcast_to(np.array(scene["beam"].get(key, math.inf), dtype=float), len(spans)).copy()
 
     def values(load):
-        value = next(load[key] for key in ("F", "M", "q", "kappa") if key in load)
+        value = next(load[key] for key in ("F", "M", "q", "kappa", "value") if key in load)
         return value if isinstance(value, list) else [value, value]
 
     laws = [support.get("law") or () for support in supports]
@@ -175,7 +175,7 @@ def columns(scene):
         "load_kind": np.array([KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
-        "load_node": real(loads, "node", -1).astype(np.int32),
+        "load_node": np.array([load.get("support", load.get("node", -1)) for load in loads], dtype=np.int32),
         "load_to": real(loads, "to", end),
         "load_value": both[:, 0].copy(),
         "load_value_to": both[:, 1].copy(),
@@ -502,7 +502,9 @@ class F77Beam:
     def loads_of(a):
         """NLOAD, ILOAD, ALOAD."""
         aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
-        return len(aload), np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy(), aload
+        iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
+        iload[:, 2] += iload[:, 0] == KINDS["movement"]
+        return len(aload), iload, aload
 
     def call(self, name, *arguments):
         """INFO of a routine."""

@@ -4,7 +4,8 @@ program test_api
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
-        axial_force, prepare_model, replace_loads, solve_beam, follow_load, get_supports, get_fields, get_extremes, &
+        axial_force, support_movement, prepare_model, replace_loads, solve_beam, &
+        follow_load, get_supports, get_fields, get_extremes, &
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
@@ -28,6 +29,7 @@ program test_api
     call smooth_law()
     call plastic_law()
     call mechanism_at_limit()
+    call jacked_up()
     call combinations()
     call errors_within_bounds(1.0e-3_wp)
     call errors_within_bounds(1.0e-7_wp)
@@ -562,6 +564,34 @@ contains
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(reaction(2), 0.5_wp, "on the way there it had none")
     end subroutine plastic_law
+
+    !> A support that is jacked up by twice what the load would lower the beam there: it closes at half of that
+    subroutine jacked_up()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(history_type) :: history
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3)
+        real(wp), parameter :: sag = 5*3.0_wp*4.0_wp**4/(384*100)
+
+        call two_spans(model)
+        model%supports(2)%gap = 2*sag
+        model%loads = [uniform_load(3.0_wp, from=0.0_wp, to=4.0_wp, case=gapbeam_dead), support_movement(-2*sag, 2)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "a load moves a support") > 0, "a path is needed")
+        call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
+        call check(size(history%events) == 1, "it closes once")
+        call check_close(history%events%factor, [0.5_wp], "at half of the lift")
+        call solve_on_path(beam, history, 1.0_wp, result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(deflection(2), 0.0_wp, "up to where the ends are")
+        call check_close(reaction(2), 0.625_wp*3*4, "two spans")
+        call replace_loads(beam, [support_movement(1.0_wp, 4)], error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "no such support") > 0, "refused")
+    end subroutine jacked_up
 
     !> A rigid lever that a yielding support holds: the path ends in a motion
     subroutine mechanism_at_limit()

@@ -244,6 +244,9 @@ def test_laws_agree(library, family):
         scene = law_scene(seed, family, alone=None)
         at_limit = ("stop", "jump", "follow")[seed % 3]
         scene["analysis"]["at_limit"] = at_limit
+        if seed % 3 == 0:
+            k = seed % len(scene["supports"])
+            scene["loads"].append({"type": "movement", "support": k, "value": 0.125 * (seed % 5 - 2)})
         result = python_result(scene)
         beam, message = library.prepare(scene)
         assert not message

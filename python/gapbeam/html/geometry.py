@@ -94,7 +94,7 @@ def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
 
 
 def loads_data(scene: Scene) -> list[dict[str, Any]]:
-    """Give the loads as they are drawn.
+    """Give the loads as they are drawn; movements of supports are seen in the deflections.
 
     Parameters
     ----------
@@ -104,6 +104,8 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
     nodes, found = scene.span_ends(), []
     for load in scene.loads:
         kind = load.__struct_config__.tag
+        if kind == "movement":
+            continue
         one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
         if kind in ("force", "moment", "axial"):
             one["x"] = float(nodes[load.node]) if load.node is not None else load.x

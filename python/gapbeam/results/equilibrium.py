@@ -9,6 +9,7 @@ import numpy as np
 
 from ..scene.loads import AxialLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.names import DEAD
+from ..scene.table import Point
 from . import formatting as fmt
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 NONE = 1e-12
 """Sums below this share of what is added up are said to be zero."""
+FAR = 2.0**960
+"""Numbers above this are added up in this unit."""
 
 
 class Sums(NamedTuple):
@@ -75,14 +78,14 @@ def resultants_of_loads(scene: Scene, factor: float) -> list[Sums]:
     Returns
     -------
     list of Sums
-        In the order of the loads; of imposed curvature zeros.
+        In the order of the loads; of imposed curvatures and movements of supports zeros.
     """
     found = []
-    end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if not hasattr(one, "from_")])
+    end, x = float(scene.span_ends()[-1]), scene.positions([one for one in scene.loads if isinstance(one, Point)])
     places = iter(np.asarray(x, dtype=float).tolist())
     for load in scene.loads:
         share = 1.0 if load.case == DEAD else factor
-        at = 0.0 if hasattr(load, "from_") else next(places)
+        at = next(places) if isinstance(load, Point) else 0.0
         force = moment = axial = 0.0
         if isinstance(load, ForceLoad):
             force, moment = share * load.F, share * load.F * at
@@ -129,8 +132,11 @@ def _sum(values: Iterable[float]) -> float:
     values = list(values)
     if not all(map(math.isfinite, values)):
         return float(np.sum(values))
-    total = math.fsum(values)
-    return 0.0 if abs(total) <= NONE * max(map(abs, values), default=0.0) else total
+    largest = max(map(abs, values), default=0.0)
+    # A sum on the way may be out of range where the last one is not
+    unit = FAR if largest > FAR else 1.0
+    total = unit * math.fsum(value / unit for value in values)
+    return 0.0 if abs(total) <= NONE * largest else total
 
 
 def balance_in_words(scene: Scene, step: Step) -> list[str]:

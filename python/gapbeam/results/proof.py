@@ -16,7 +16,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..engine.beam import Beam
-from ..scene.combinations import plan_combinations, times
+from ..scene.combinations import plan_combinations, settle_movements, times
 from ..scene.laws import is_smooth, law_points
 from ..scene.places import same_place
 from ..scene.reading import read_beam, read_scene
@@ -111,7 +111,7 @@ def _at_factor(scene: Scene, factor: float) -> Scene:
     """The scene whose state in full is that of the load factor, reached in one step."""
     loads = [load if load.case == "dead" or factor == 1.0 else times(load, factor) for load in scene.loads]
     once = msgspec.structs.replace(scene.analysis, steps=1, follow="steps", history=[1.0], at_limit="stop")
-    return msgspec.structs.replace(scene, loads=loads, analysis=once)
+    return settle_movements(msgspec.structs.replace(scene, loads=loads, analysis=once))
 
 
 def _on_path(result: Result, factor: float) -> Step | None:

@@ -4,7 +4,16 @@ from ..engine.tolerances import POSITION_TOLERANCE
 from .analysis import Analysis
 from .edited import replace
 from .limits import Limits
-from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, Load, MomentLoad, UniformLoad
+from .loads import (
+    AxialLoad,
+    CurvatureLoad,
+    ForceLoad,
+    LinearLoad,
+    Load,
+    MomentLoad,
+    MovementLoad,
+    UniformLoad,
+)
 from .places import same_place
 from .reading import read_scene
 from .schema import scene_schema
@@ -12,6 +21,6 @@ from .structs import Beam, Combination, Foundation, Scene, Section, Support, Tra
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "Limits", "LinearLoad", "Load", "MomentLoad", "Scene", "Section", "Support", "Train", "UniformLoad", "Units", "read_scene",
-    "replace", "same_place", "scene_schema",
+    "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "Train", "UniformLoad",
+    "Units", "read_scene", "replace", "same_place", "scene_schema",
 ]  # fmt: skip

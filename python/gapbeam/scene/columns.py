@@ -16,7 +16,8 @@ from ..engine.laws import PARAMETERS
 from .ground_laws import ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
-from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, MovementLoad, UniformLoad
+from .names import find
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
@@ -29,10 +30,10 @@ NOT_GIVEN = -np.finfo(float).max
 SIDES = {"both": 0, "below": 1, "above": -1}
 DIRECTIONS = {"normal": 0, "axial": 1}
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
-ROTATION = 4
-"""Row of the rotational stiffness in the numbers of supports."""
+SETTLEMENT, ROTATION = 3, 4
+"""Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE = 1, 2, 3, 4, 5
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT = 1, 2, 3, 4, 5, 6
 KINDS = {
     ForceLoad: (FORCE, "F"),
     MomentLoad: (COUPLE, "M"),
@@ -40,6 +41,7 @@ KINDS = {
     UniformLoad: (DISTRIBUTED, "q"),
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
+    MovementLoad: (MOVEMENT, "value"),
 }
 """Kinds of load, as in gapbeam_scene, and the key of their value."""
 
@@ -76,7 +78,9 @@ def columns(scene: Scene) -> Columns:
     hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
-    load_codes, load_values = _loads(scene.loads)
+    load_codes, load_values = _loads(scene.loads, scene.supports)
+    if not scene.combinations:
+        _settle(load_codes[:, :-1], load_values[:, :-1], values)
     return Columns(
         span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
         *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
@@ -195,7 +199,14 @@ def _laws(
     return supports, found
 
 
-def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+def _settle(codes: np.ndarray, values: np.ndarray, supports: np.ndarray) -> None:
+    """Make movements that act in full from the start settlements, which they are but for factors of combinations."""
+    for k in np.flatnonzero((codes[0] == MOVEMENT) & (codes[1] == 1)).tolist():
+        supports[SETTLEMENT, codes[2, k] - 1] += values[2, k]
+        values[2, k] = 0.0
+
+
+def _loads(items: Sequence[Any], supports: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
     of = _column(items, "case")
@@ -204,7 +215,11 @@ def _loads(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
         group = items if isinstance(some, slice) else [items[k] for k in some.tolist()]
         kind, key = KINDS[one]
         kinds[some] = kind
-        if kind in (DISTRIBUTED, CURVATURE):
+        if kind == MOVEMENT:
+            of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
+            nodes[some] = [find(supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
+            left[some] = right[some] = 0.0
+        elif kind in (DISTRIBUTED, CURVATURE):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])

@@ -15,6 +15,7 @@ from ..base.errors import SceneError
 from ..base.records import read_only
 from .columns import SIDES
 from .cut_loads import Placement, check_parts, cut_loads
+from .loads import MovementLoad
 from .names import cases_of, find
 from .structs import Combination, Scene, Support
 from .tables import Table
@@ -23,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa")
+VALUES = ("F", "M", "q", "kappa", "value")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -115,12 +116,49 @@ def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
     )
 
 
+def settle_movements(scene: Scene) -> Scene:
+    """Make loads that move supports settlements, as they are at full load.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene; left as it is.
+    """
+    moves, loads = np.zeros(len(scene.supports)), []
+    for k, load in enumerate(scene.loads):
+        if isinstance(load, MovementLoad):
+            moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
+        else:
+            loads.append(load)
+    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads) if moves.any() else scene
+
+
+def refuse_movements(scene: Scene, problem: str) -> None:
+    """Refuse loads that move supports.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    problem : str
+        What cannot be had with them.
+
+    Raises
+    ------
+    SceneError
+        There is one.
+    """
+    for k, load in enumerate(scene.loads):
+        if isinstance(load, MovementLoad):
+            raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
+
+
 def times(load: Any, factor: float) -> Any:
     """Multiply a load.
 
     Parameters
     ----------
-    load : ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad or AxialLoad
+    load : Load
         The load; left as it is.
     factor : float
         By what.

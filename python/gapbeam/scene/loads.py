@@ -1,8 +1,8 @@
-"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, axial forces."""
+"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, axial forces, movements of supports."""
 
 from __future__ import annotations
 
-from .table import Point, Stretch
+from .table import Point, Stretch, Table
 
 
 class _PointLoad(Point, kw_only=True, gc=False, tag_field="type"):
@@ -106,4 +106,26 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
     kappa: float
 
 
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad
+class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
+    """A movement of a support across the beam, beside its settlement: what jacks, sinks, or is lifted by heat.
+
+    Parameters
+    ----------
+    support : int or str
+        Number, from 0, or name of the support; not an axial one.
+    value : float
+        Movement (length), positive downward. It moves the place at which the support begins to act.
+    name : str, optional
+        Its name, unique among loads; shown instead of its number.
+    case : str
+        Its load case, any name: dead acts in full from the start, all others (default live) are scaled by the load factor.
+        Combinations give cases factors by these names.
+    """
+
+    support: int | str
+    value: float
+    name: str | None = None
+    case: str = "live"
+
+
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad | MovementLoad

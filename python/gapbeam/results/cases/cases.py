@@ -21,6 +21,7 @@ from ...base.hints import nearest
 from ...base.records import Pickled
 from ...engine.cases import OneCase
 from ...engine.combinations import Varied
+from ...scene.combinations import refuse_movements
 from ...scene.names import cases_of, find
 from ...scene.reading import read_beam
 from ...scene.structs import Scene
@@ -341,6 +342,7 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if scene.trains:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
+    refuse_movements(scene, "in prepared cases supports are not moved by loads")
     if beam.beyond_one_search is not None:
         what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")

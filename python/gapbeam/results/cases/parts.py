@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError
 from ...engine.beam import SOLVED, Beam
 from ...engine.influence import influence_parts
-from ...scene.combinations import MOST, plan_combinations
+from ...scene.combinations import MOST, plan_combinations, refuse_movements
 from ...scene.cut_loads import Placement
 from ...scene.loads import UniformLoad
 from ...scene.names import labels
@@ -193,6 +193,7 @@ def place_parts(scene: Scene, beam: Beam, rule: str) -> tuple[dict[int, list[Pla
     for i, combination in enumerate(scene.combinations):
         for case in [case for case, rule_of in combination.expand.items() if rule_of == "parts"]:
             if beam.depends_on_path or not beam.is_linear_between_events:
+                refuse_movements(scene, 'with "parts" supports are not moved by loads')
                 problem = (
                     '"parts" needs influence lines of straight laws; with foundations, smooth laws and supports whose state '
                     "depends on the loading history write the placements as cases of their own"

@@ -12,6 +12,7 @@ import numpy as np
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...engine.beam import Beam
 from ...engine.states import Solution
+from ...scene.combinations import refuse_movements
 from ...scene.structs import Scene
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
@@ -49,6 +50,7 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         check_compression(result)
         return
     if beam.depends_on_path:
+        refuse_movements(scene, "a support cannot be moved by a load under trains")
         what = "supports whose state depends on the loading history cannot be combined with trains"
         raise SceneError("supports", f"{what} in this version; use non-decreasing polylines")
     result.trains.pass_all()
@@ -110,6 +112,7 @@ def _refuse_beyond_bounds(result: Result) -> None:
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation."""
     if beam.beyond_one_search is not None:
+        refuse_movements(scene, "a support cannot be moved by a load beside a foundation, or in combinations of such a beam,")
         what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
         problem = f"supports with laws {what} cannot be combined with a foundation in this version; use non-decreasing polylines"
         raise SceneError("supports", problem)

@@ -1,0 +1,162 @@
+"""Movements of supports that grow with the load factor, beside settlements in rational numbers."""
+
+import random
+from fractions import Fraction
+from itertools import pairwise
+
+import gapbeam
+import numpy as np
+import oracle
+import pytest
+from scenes import at, force, random_scene, scene, uniform
+
+EVENTS = {"follow": "events"}
+
+
+def movement(support, value, **keys):
+    return {"type": "movement", "support": support, "value": value, **keys}
+
+
+def settled(made, factor):
+    """The same scene with settlements instead, at a load factor."""
+    supports = [dict(one) for one in made["supports"]]
+    for load in made["loads"]:
+        if load["type"] == "movement":
+            share = 1 if load.get("case") == "dead" else Fraction(factor)
+            before = Fraction(supports[load["support"]].get("settlement", 0.0))
+            supports[load["support"]]["settlement"] = before + share * Fraction(load["value"])
+    return {**made, "supports": supports, "loads": [load for load in made["loads"] if load["type"] != "movement"]}
+
+
+def follow(made):
+    """Solve from event to event."""
+    return gapbeam.solve({**made, "analysis": EVENTS})
+
+
+def compare(result, made, factor):
+    """Supports and fields of a state beside the rational solution with settlements."""
+    exact = oracle.solve(settled(made, factor), factor)
+    state = result.state(factor)
+    size = max(map(abs, exact.reaction)) + 1e-300
+    far = max(map(abs, exact.deflection)) + 1e-300
+    assert tuple(state.state) in exact.valid_states() or any(abs(one) < 1e-12 * size for one in exact.reaction), factor
+    assert np.array(state.reaction) == pytest.approx(np.array(exact.reaction, dtype=float), abs=float(1e-12 * size)), factor
+    assert np.array(state.deflection) == pytest.approx(np.array(exact.deflection, dtype=float), abs=float(1e-11 * far)), factor
+    assert np.array(state.opening) == pytest.approx(np.array(exact.opening, dtype=float), abs=float(1e-11 * far)), factor
+
+
+def test_a_jack_lifts_a_beam_off_its_neighbours():
+    """Four spans L under q, the middle support jacked up by d: its neighbours carry 8/7 q L - 66/7 EI d/L^3 (three moments), so
+    they let go at d = 4/33 q L^4/EI."""
+    q, span, EI = 10.0, 4.0, 2000.0
+    supports = [at(k, side="below") for k in range(5)]
+    supports[2]["name"] = "jack"
+    made = scene([span] * 4, supports, [uniform(q, case="dead"), movement("jack", -0.5)], EI=EI)
+    result = follow(made)
+    lift = 4.0 / 33.0 * q * span**4 / EI
+    assert [(one.support, one.event) for one in result.events] == [(1, "opens"), (3, "opens")]
+    assert [one.factor for one in result.events] == pytest.approx([lift / 0.5] * 2, rel=1e-14)
+    assert result.state(0.2).reaction[1] == pytest.approx(8 / 7 * q * span - 66 / 7 * EI * 0.1 / span**3, rel=1e-13)
+    # From there on two spans of 2 L carry
+    assert result.state(1.0).reaction[0] == pytest.approx(0.375 * q * 2 * span - 3.0 * EI * 0.5 / (2 * span) ** 3, rel=1e-13)
+    assert "-0.5" in str(result.to_dict()["steps"][-1]["supports"][2]["deflection"])
+
+
+def test_back_and_forth():
+    """A history over lifts: what lets go comes back at the same lift."""
+    made = scene([4.0] * 4, [at(k, side="below") for k in range(5)], [uniform(10.0, case="dead"), movement(2, -0.5)], EI=2000.0)
+    result = gapbeam.solve({**made, "analysis": EVENTS | {"history": [1.0, 0.0, -1.0]}})
+    first = [one for one in result.events if one.support == 1][:2]
+    assert [one.event for one in first] == ["opens", "closes"]
+    assert first[0].factor == pytest.approx(first[1].factor, rel=1e-14) == pytest.approx(0.31030303030303030, rel=1e-14)
+
+
+def test_a_plastic_support_keeps_a_set():
+    """Under P a beam of flexibility f = L^3/48 EI yields on its middle support (10 < P k/(1 + k f)), which is then jacked up by d and
+    let down: R (1 + k f) = k (d (1 - s) + 10 (1 + k f)/k) where s is the part let down, so it opens at d s = 10 (1 + k f)/k."""
+    law = {"type": "plastic", "stiffness": 1e3, "limit": 10.0}
+    supports = [at(0), at(1, side="below", law=law, unloading="plastic"), at(2)]
+    made = scene([2.0, 2.0], supports, [force(2.0, 30.0, case="dead"), movement(1, -0.1)], EI=1000.0)
+    result = gapbeam.solve({**made, "analysis": EVENTS | {"history": [1.0, 0.0]}})
+    softness = 1e-3 * (1.0 + 1e3 * 4.0**3 / 48e3)
+    assert [(one.event, one.factor) for one in result.events] == [
+        ("unloads", 1.0), ("opens", pytest.approx(1.0 - 10.0 * softness / 0.1, rel=1e-14)),
+    ]  # fmt: skip
+    half = 1.0 - 5.0 * softness / 0.1
+    assert result.state(half).reaction[1] == pytest.approx(5.0, rel=1e-13)
+    assert result.state(0.0).deflection[1] == pytest.approx(0.04, rel=1e-13)
+
+
+def test_dead_movements_are_settlements():
+    made = scene([4.0, 5.0], [at(0), at(1), at(2)], [uniform(3.0), movement(1, 0.01, case="dead")], EI=500.0)
+    other = scene([4.0, 5.0], [at(0), at(1, settlement=0.01), at(2)], [uniform(3.0)], EI=500.0)
+    assert (gapbeam.solve(made).state(1.0).reaction == gapbeam.solve(other).state(1.0).reaction).all()
+
+
+def test_combinations():
+    """Factors of cases multiply movements, those of dead too."""
+    loads = [uniform(3.0, case="live"), movement(1, 0.01, case="dead"), movement(2, -0.004, case="heat")]
+    made = scene([4.0, 5.0], [at(0, side="below"), at(1, side="below"), at(2, side="below")], loads, EI=500.0)
+    factors = [{"dead": 1.35, "live": 1.5}, {"dead": 1.0, "heat": 2.0}, {"live": 1.0, "heat": -1.0}]
+    made["combinations"] = [{"name": f"c{k}", "factors": one} for k, one in enumerate(factors)]
+    result = gapbeam.solve(made)
+    for k, one in enumerate(factors):
+        moved = 0.01 * one.get("dead", 0.0), -0.004 * one.get("heat", 0.0)
+        supports = [at(0, side="below"), at(1, side="below", settlement=moved[0]), at(2, side="below", settlement=moved[1])]
+        other = gapbeam.solve(scene([4.0, 5.0], supports, [uniform(3.0 * one.get("live", 0.0))], EI=500.0))
+        assert result.combinations[k].status == other.status
+        if other.status == "solved":
+            found = result.combinations[k].steps[-1].reaction
+            assert found == pytest.approx(other.steps[-1].reaction, abs=1e-12 * max(map(abs, other.steps[-1].reaction), default=1.0))
+
+
+@pytest.mark.parametrize("block", range(6))
+def test_random_scenes(block):
+    """At factors between events, and on steps, everything is as with settlements."""
+    rng = random.Random(block)
+    compared = 0
+    for _ in range(20):
+        made = random_scene(rng, held=True)
+        made.pop("analysis", None)
+        across = [k for k, one in enumerate(made["supports"]) if one.get("direction", "normal") == "normal"]
+        for k in rng.sample(across, min(len(across), rng.randint(1, 3))):
+            case = rng.choice(({}, {}, {"case": "dead"}))
+            made["loads"].append(movement(k, rng.randint(-64, 64) / 1024.0, **case))
+        try:
+            result = follow(made)
+        except gapbeam.SceneError as error:  # a dead movement may take the room between two supports
+            assert "leave no room" in str(error)
+            continue
+        if result.status != "solved":
+            continue
+        places = [0.0, *sorted({one.factor for one in result.events}), 1.0]
+        for a, b in pairwise(places):
+            if b - a > 1e-6:
+                compare(result, made, round((a + b) / 2 * 2**20) / 2**20)
+                compared += 1
+        steps = gapbeam.solve({**made, "analysis": {"steps": 4}})
+        for one in steps.steps:
+            compare(steps, made, one.factor)
+    assert compared > 12
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"support": 7}, "there is no support 7"),
+        ({"support": 0}, "along its axis"),
+        ({"value": float("inf")}, "expected a finite number"),
+    ],
+)
+def test_refusals(change, message):
+    supports = [at(0, direction="axial"), at(0), at(1)]
+    with pytest.raises(gapbeam.SceneError, match=message):
+        gapbeam.solve(scene([4.0], supports, [movement(1, 0.1) | change]))
+
+
+def test_beside_a_foundation_and_on_curves_they_are_refused():
+    ground = scene([4.0], [at(0), at(1)], [movement(0, 0.1)]) | {"foundation": [{"k": 100.0}]}
+    curve = scene([4.0], [at(0), at(1, law={"type": "tanh", "stiffness": 1.0, "limit": 1.0})], [movement(1, 0.1)])
+    for made, message in ((ground, "beside a foundation"), (curve, "its law is a curve")):
+        with pytest.raises(gapbeam.SceneError, match=message):
+            gapbeam.solve(made)
