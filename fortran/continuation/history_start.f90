@@ -81,6 +81,10 @@ contains
             dead%axial%force(2, :) = dead%axial%force(1, :)
             dead%axial%force(1, :) = 0.0_wp
         end if
+        if (allocated(dead%axial%elongation)) then
+            dead%axial%elongation(2, :) = dead%axial%elongation(1, :)
+            dead%axial%elongation(1, :) = 0.0_wp
+        end if
         where (dead%model%loads%case == gapbeam_dead)
             dead%model%loads%case = gapbeam_live
         else where

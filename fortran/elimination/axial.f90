@@ -15,9 +15,12 @@ module gapbeam_axial
 contains
 
     !> Displacements, forces in the bars, reactions
-    pure subroutine solve_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, state, place)
+    pure subroutine solve_axial(flexibility, elongation, force, stiffness, settlement, displacement, tension, reaction, state, &
+                                place)
         !> int 1/EA of each bar, shape (n)
         real(wp), intent(in) :: flexibility(:)
+        !> By how much each would be longer without force, shape (n)
+        real(wp), intent(in) :: elongation(:)
         !> Applied force at each point, stiffness of its support (0: none, infinite: rigid) and the support's own
         !> displacement, shape (0:n)
         real(wp), intent(in) :: force(0:), stiffness(0:), settlement(0:)
@@ -57,16 +60,16 @@ contains
             if (i == n) exit
             fixed(i + 1) = (rigid(i) .or. fixed(i)) .and. .not. flexibility(i + 1) > 0.0_wp
             if (fixed(i + 1)) then
-                displacement(i + 1) = displacement(i)
+                displacement(i + 1) = displacement(i) + elongation(i + 1)
                 k(i + 1) = 0.0_wp
                 n0(i + 1) = 0.0_wp
             else if (rigid(i) .or. fixed(i)) then
                 k(i + 1) = 1/flexibility(i + 1)
-                n0(i + 1) = -displacement(i)/flexibility(i + 1)
+                n0(i + 1) = -(displacement(i) + elongation(i + 1))/flexibility(i + 1)
             else
                 divisor = 1/(1 + flexibility(i + 1)*(k(i) + stiffness(i)))
                 k(i + 1) = (k(i) + stiffness(i))*divisor
-                n0(i + 1) = (n0(i) - force(i) - stiffness(i)*settlement(i))*divisor
+                n0(i + 1) = (n0(i) - force(i) - stiffness(i)*settlement(i) - (k(i) + stiffness(i))*elongation(i + 1))*divisor
             end if
         end do
         if (.not. rigid(n) .and. .not. fixed(n)) then
@@ -87,7 +90,8 @@ contains
                 left = pull + force(i) + reaction(i)
             end if
             tension(i) = left
-            if (.not. (rigid(i - 1) .or. fixed(i - 1))) displacement(i - 1) = displacement(i) - flexibility(i)*left
+            if (.not. (rigid(i - 1) .or. fixed(i - 1))) displacement(i - 1) = (displacement(i) - elongation(i)) &
+                - flexibility(i)*left
             pull = left
         end do
         reaction(0) = -pull - force(0)

@@ -4,7 +4,7 @@ module gapbeam_capi_model
         c_f_pointer, c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
-    use gapbeam_scene, only: model_type, load_type, gapbeam_movement
+    use gapbeam_scene, only: model_type, load_type, gapbeam_movement, gapbeam_temperature
     implicit none
     private
     public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
@@ -260,7 +260,7 @@ contains
             if (has_reals(c%load_to, n, reals)) loads%to = reals
             if (has_reals(c%load_value, n, reals)) loads%value = reals
             do i = 1, n
-                loads(i)%value_to = loads(i)%value
+                loads(i)%value_to = merge(0.0_wp, loads(i)%value, loads(i)%kind == gapbeam_temperature)
             end do
             if (has_reals(c%load_value_to, n, reals)) loads%value_to = reals
         end associate

@@ -235,9 +235,10 @@ contains
 
     !> Audit the system along the beam: forces at its points balance, bars are as much longer as their forces make them, supports
     !> are on their laws
-    subroutine audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+    subroutine audit_axial(flexibility, elongation, force, stiffness, settlement, displacement, tension, reaction, ledger)
         !> As for solve_axial
-        real(wp), intent(in) :: flexibility(:), force(0:), stiffness(0:), settlement(0:), displacement(0:), tension(:), reaction(0:)
+        real(wp), intent(in) :: flexibility(:), elongation(:), force(0:), stiffness(0:), settlement(0:), displacement(0:), &
+                                tension(:), reaction(0:)
         !> What is left over, and what is wrong at which point, from 0
         type(ledger_type), intent(out) :: ledger
         real(wp) :: left, right, longer, most, farthest
@@ -254,9 +255,9 @@ contains
             call note(ledger, of_equilibrium, forces, right - left + (force(i) + reaction(i)), &
                       abs(left) + abs(right) + abs(force(i)) + abs(reaction(i)) + most, i, 0.0_wp)
             if (i > 0) then
-                longer = flexibility(max(i, 1))*left
+                longer = flexibility(max(i, 1))*left + elongation(max(i, 1))
                 call note(ledger, of_bending, deflections, displacement(i) - displacement(max(i, 1) - 1) - longer, &
-                          2*farthest + abs(longer), i, 0.0_wp)
+                          2*farthest + abs(flexibility(max(i, 1))*left) + abs(elongation(max(i, 1))), i, 0.0_wp)
             end if
             if (stiffness(i) > huge(most)) then
                 call note(ledger, of_supports, deflections, displacement(i) - settlement(i), abs(settlement(i)), i, 0.0_wp)

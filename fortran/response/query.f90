@@ -265,6 +265,10 @@ contains
         way = assembled%axial%before(piece) + assembled%axial%softness(piece)*(distance/piece_length(assembled, piece))
         tension = tensions(bar)
         displacement = displacements(bar - 1) + tension*way
+        if (allocated(assembled%axial%elongation)) then
+            displacement = displacements(bar - 1) &
+                + (displacements(bar) - displacements(bar - 1))*(distance/piece_length(assembled, piece))
+        end if
     end subroutine axial_fields
 
     !> Largest and smallest values of fields of a state, and where they are

@@ -1,6 +1,6 @@
 !> The state of a beam at one load factor: solved, recovered and certified.
 module gapbeam_state
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, qp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_indeterminate, gapbeam_not_finite, gapbeam_not_converged
@@ -19,6 +19,7 @@ module gapbeam_state
     use gapbeam_audit, only: audit_axial
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
+    use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
@@ -221,16 +222,25 @@ contains
         !> Supports that hold a rigid stretch at both ends
         type(error_type), allocatable, intent(out) :: error
         type(ledger_type) :: ledger
+        real(wp), allocatable :: longer(:), force(:)
         integer :: found, place
 
         if (.not. allocated(assembled%axial%point)) return
         associate (axial => assembled%axial)
-            call solve_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
-                             axial%settlement, state%displacement, state%tension, state%axial_reaction, found, place)
+            allocate (longer(size(axial%flexibility)), source=0.0_wp)
+            force = axial%force(1, :) + state%factor*axial%force(2, :)
+            if (allocated(axial%elongation)) then
+                ! What a stiff bar would push with if it were held is large beside what soft supports let it
+                longer(:) = axial%elongation(1, :) + state%factor*axial%elongation(2, :)
+                call solve_finely(found, place)
+            else
+                call solve_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
+                                 state%tension, state%axial_reaction, found, place)
+            end if
             state%slides = found == axial_slides
             if (found == axial_ok) then
-                call audit_axial(axial%flexibility, axial%force(1, :) + state%factor*axial%force(2, :), axial%stiffness, &
-                                 axial%settlement, state%displacement, state%tension, state%axial_reaction, ledger)
+                call audit_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
+                                 state%tension, state%axial_reaction, ledger)
                 ledger%piece = axial%point(ledger%piece) + 1
                 call name_fault(assembled, ledger, error)
             end if
@@ -242,6 +252,24 @@ contains
                                  "be told apart: give the beam a finite EA")
             end associate
         end associate
+
+    contains
+
+        !> Solve in quadruple precision
+        subroutine solve_finely(found, place)
+            integer, intent(out) :: found, place
+            real(qp) :: displacement(0:ubound(state%displacement, 1)), reaction(0:ubound(state%displacement, 1))
+            real(qp) :: tension(size(state%tension))
+
+            associate (axial => assembled%axial)
+                call solve_axial_finely(real(axial%flexibility, qp), real(longer, qp), real(force, qp), real(axial%stiffness, qp), &
+                                        real(axial%settlement, qp), displacement, tension, reaction, found, place)
+            end associate
+            state%displacement(:) = real(displacement, wp)
+            state%tension(:) = real(tension, wp)
+            state%axial_reaction(:) = real(reaction, wp)
+        end subroutine solve_finely
+
     end subroutine solve_along_axis
 
     !> What the links of a beam are made of

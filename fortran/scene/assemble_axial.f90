@@ -3,7 +3,7 @@ module gapbeam_assemble_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_dead
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_temperature, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, along_axis
     use gapbeam_words, only: shown
@@ -39,6 +39,8 @@ contains
             end do
             do k = 1, size(model%loads)
                 if (model%loads(k)%kind == gapbeam_axial_force) call forces%note(abs(model%loads(k)%value), 0)
+                if (model%loads(k)%kind /= gapbeam_temperature) cycle
+                call ways%note(abs(model%loads(k)%value_to*assembled%ends(size(model%spans))), 0)
             end do
             stiffness = middle(stiff)
             if (middle(soft) /= no_exponent) stiffness = middle_of(-soft%low, -soft%high)
@@ -75,8 +77,16 @@ contains
                 end associate
             end do
             axial%force(:, :) = 0.0_wp
+            if (allocated(axial%elongation)) axial%elongation(:, :) = 0.0_wp
             do k = 1, size(model%loads)
                 associate (load => model%loads(k))
+                    if (load%kind == gapbeam_temperature .and. allocated(axial%elongation)) then
+                        i = merge(1, 2, load%case == gapbeam_dead)
+                        do j = assembled%load_from(k) + 1, assembled%load_to(k)
+                            axial%elongation(i, j) = axial%elongation(i, j) &
+                                + scale(load%value_to*piece_length(assembled, j), -axial%units%deflection)
+                        end do
+                    end if
                     if (load%kind /= gapbeam_axial_force) cycle
                     i = axial_node(axial%point, assembled%load_from(k))
                     j = merge(1, 2, load%case == gapbeam_dead)

@@ -5,7 +5,7 @@ module gapbeam_assemble_loads
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
-        gapbeam_movement, gapbeam_dead
+        gapbeam_movement, gapbeam_temperature, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
@@ -158,7 +158,7 @@ contains
         real(wp) :: whole
         integer :: j
 
-        if (load%kind == gapbeam_curvature) then
+        if (load%kind == gapbeam_curvature .or. load%kind == gapbeam_temperature) then
             piece_loads(a + 1:b)%kappa = piece_loads(a + 1:b)%kappa + load%value
         else if (abs(load%value - load%value_to) <= 0.0_wp) then
             piece_loads(a + 1:b)%qa = piece_loads(a + 1:b)%qa + load%value

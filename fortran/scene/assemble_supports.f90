@@ -3,8 +3,8 @@ module gapbeam_assemble_supports
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_band, only: plain, hinge, restrained
-    use gapbeam_scene, only: support_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_axial_force
+    use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
+        gapbeam_normal, gapbeam_axial, gapbeam_axial_force
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
@@ -31,12 +31,19 @@ contains
         if (allocated(error)) return
         call check_rigid_pieces(assembled, error)
         if (allocated(error)) return
-        if (any(assembled%model%loads%kind == gapbeam_axial_force) &
-            .or. any(assembled%model%supports%direction == gapbeam_axial &
-                     .and. abs(assembled%model%supports%settlement) > 0.0_wp)) then
-            call build_axial(assembled, error)
-        end if
+        associate (axial => assembled%model%supports%direction == gapbeam_axial, loads => assembled%model%loads)
+            if (any(loads%kind == gapbeam_axial_force) .or. (any(axial) .and. any(makes_longer(loads))) &
+                .or. any(axial .and. abs(assembled%model%supports%settlement) > 0.0_wp)) call build_axial(assembled, error)
+        end associate
     end subroutine assemble_supports
+
+    !> Does a load make the beam longer where nothing holds it
+    elemental function makes_longer(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = load%kind == gapbeam_temperature .and. abs(load%value_to) > 0.0_wp
+    end function makes_longer
 
     !> Supports at the same place must leave room for each other, and no two may do the same rigidly
     subroutine check_neighbours(assembled, error)
@@ -280,7 +287,7 @@ contains
                 call no_memory(error)
                 return
             end if
-            node(:) = -1
+            node(:) = merge(0, -1, any(makes_longer(model%loads)))
             node(0) = 0
             node(n) = 0
             do k = 1, size(model%supports)
@@ -292,6 +299,7 @@ contains
             i = count(node == 0) - 1
             allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
                       axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
+            if (stat == 0 .and. any(makes_longer(model%loads))) allocate (axial%elongation(2, i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return

@@ -5,7 +5,8 @@ module gapbeam_assembled_model
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type
-    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature
+    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
+        gapbeam_temperature
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
@@ -31,6 +32,9 @@ module gapbeam_assembled_model
         real(wp), allocatable :: flexibility(:)
         !> Dead and live force at each point, to the right, shape (2, 0:n)
         real(wp), allocatable :: force(:, :)
+        !> Where temperatures make the beam longer, by how much each bar under dead and live loads, shape (2, n): every piece is a
+        !> bar then
+        real(wp), allocatable :: elongation(:, :)
         !> Support of each point, 0: none, shape (0:n)
         real(wp), allocatable :: stiffness(:), settlement(:)
         !> For every support of the model its node of this system; -1 for supports across the beam
@@ -99,7 +103,7 @@ contains
         type(load_type), intent(in) :: load
         logical :: yes
 
-        yes = load%kind == gapbeam_distributed .or. load%kind == gapbeam_curvature
+        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature])
     end function is_stretch
 
     !> x of a point

@@ -8,7 +8,7 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_live, gapbeam_dead
+        gapbeam_temperature, gapbeam_live, gapbeam_dead
     use gapbeam_tolerances, only: position_tolerance, end_tolerance
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
         not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
@@ -204,19 +204,19 @@ contains
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force)
             call check_place(load%x, load%node, here, ends, error)
         case (gapbeam_movement)
-        case (gapbeam_distributed, gapbeam_curvature)
+        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
-                              "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force) or "// &
-                              "6 (movement), got "//trim(whole(load%kind)))
+                              "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
+                              "6 (movement) or 7 (temperature), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
             call refuse_entry(error, here, "case", not_expected, "expected 0 (live) or 1 (dead), got "//trim(whole(load%case)))
         else if (.not. abs(load%value) <= huge(load%value)) then
             call refuse_number(error, here, "value", load%value, "a finite number")
-        else if (load%kind == gapbeam_distributed .and. .not. abs(load%value_to) <= huge(load%value)) then
+        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature]) .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
         else if (load%kind == gapbeam_axial_force .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &

@@ -12,11 +12,12 @@ module gapbeam_scene
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
-    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement
+    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
+              temperature_load
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-              gapbeam_movement
+              gapbeam_movement, gapbeam_temperature
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -33,7 +34,7 @@ module gapbeam_scene
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
-                          gapbeam_axial_force = 5, gapbeam_movement = 6
+                          gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -147,7 +148,8 @@ module gapbeam_scene
 
     !> A load; the functions below make one of each kind
     type :: load_type
-        !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force or gapbeam_movement
+        !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement or
+        !> gapbeam_temperature
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
@@ -159,7 +161,7 @@ module gapbeam_scene
         real(wp) :: to = gapbeam_right_end
         !> Force, couple, curvature, movement, or force per length at the left end of the stretch
         real(wp) :: value = 0.0_wp
-        !> Force per length at its right end
+        !> Force per length at its right end; of a temperature the strain, where value is the curvature
         real(wp) :: value_to = 0.0_wp
     end type load_type
 
@@ -270,6 +272,19 @@ contains
         load = load_type(kind=gapbeam_curvature, x=from, to=to, value=value, value_to=value)
         if (present(case)) load%case = case
     end function imposed_curvature
+
+    !> A temperature over a stretch: what it bends and lengthens where nothing holds the beam
+    elemental function temperature_load(curvature, strain, from, to, case) result(load)
+        !> As for imposed_curvature; alpha times the difference over the depth, and elongation per length: alpha times the rise
+        real(wp), intent(in) :: curvature, strain
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = load_type(kind=gapbeam_temperature, x=from, to=to, value=curvature, value_to=strain)
+        if (present(case)) load%case = case
+    end function temperature_load
 
     !> A load at one place
     elemental function point_load(kind, value, x, node, case) result(load)

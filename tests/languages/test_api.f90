@@ -4,7 +4,7 @@ program test_api
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
-        axial_force, support_movement, prepare_model, replace_loads, solve_beam, &
+        axial_force, support_movement, temperature_load, prepare_model, replace_loads, solve_beam, &
         follow_load, get_supports, get_fields, get_extremes, &
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
@@ -30,6 +30,7 @@ program test_api
     call plastic_law()
     call mechanism_at_limit()
     call jacked_up()
+    call warm()
     call combinations()
     call errors_within_bounds(1.0e-3_wp)
     call errors_within_bounds(1.0e-7_wp)
@@ -592,6 +593,26 @@ contains
         call replace_loads(beam, [support_movement(1.0_wp, 4)], error)
         call check(error%code == gapbeam_bad_input .and. index(error%message, "no such support") > 0, "refused")
     end subroutine jacked_up
+
+    !> A beam between axial supports that is warmed: EA alpha dT; warmer below, it sags between its ends
+    subroutine warm()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(5), deflection(5), opening(5), couple(5)
+        integer :: condition(5)
+
+        model%spans = [span_type(2.0_wp, EI=1e4_wp, EA=2e5_wp), span_type(2.0_wp, EI=1e4_wp, EA=2e5_wp)]
+        model%supports = [support_type(node=0), support_type(node=2), support_type(node=0, direction=gapbeam_axial), &
+                          support_type(node=2, direction=gapbeam_axial), support_type(node=1, side=gapbeam_below, stiffness=0.0_wp)]
+        model%loads = [temperature_load(-2e-4_wp, 1e-5_wp*40, 0.0_wp, 4.0_wp)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 0.5_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(3:4), [40.0_wp, -40.0_wp], "held at both ends")
+        call check_close(deflection(5), 0.5_wp*2e-4_wp*4**2/8, "free to sag")
+    end subroutine warm
 
     !> A rigid lever that a yielding support holds: the path ends in a motion
     subroutine mechanism_at_limit()

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
-from ..scene.columns import curvature_by_temperature
+from ..scene.columns import effect_of_temperature
 from ..scene.names import DEAD, label, labels
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
             from_, to = fmt.stretch(scene, load)
             if kind == "temperature":
                 kind = one["type"] = "curvature"
-                ends = 2 * [curvature_by_temperature(scene, load, k)]
+                ends = 2 * [effect_of_temperature(scene, load, k)[0]]
             else:
                 ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
             one |= {"from": from_, "to": to, "ends": ends}

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
-from ..scene.columns import curvature_by_temperature
+from ..scene.columns import effect_of_temperature
 from ..scene.loads import (
     AxialLoad,
     CurvatureLoad,
@@ -205,7 +205,7 @@ def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
         if isinstance(load, CurvatureLoad):
             first = last = share * load.kappa
         elif isinstance(load, TemperatureLoad):
-            first = last = share * curvature_by_temperature(scene, load, k)
+            first = last = share * effect_of_temperature(scene, load, k)[0]
         elif isinstance(load, UniformLoad):
             first = last = share * load.q
         else:

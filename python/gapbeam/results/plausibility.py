@@ -91,7 +91,7 @@ def _no_load(scene: Scene) -> str | None:
         return None
     if not len(scene.loads):
         return "loads is empty, so no load acts."
-    keys = ("F", "M", "q", "kappa", "gradient", "value")
+    keys = ("F", "M", "q", "kappa", "gradient", "dT", "value")
     if not any(np.any(getattr(load, key)) for load in scene.loads for key in keys if hasattr(load, key)):
         return "all values of loads are 0, so no load acts."
     return None

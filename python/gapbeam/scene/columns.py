@@ -42,7 +42,7 @@ UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT = 1, 2, 3, 4, 5, 6
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE = 1, 2, 3, 4, 5, 6, 7
 KINDS = {
     ForceLoad: (FORCE, "F"),
     MomentLoad: (COUPLE, "M"),
@@ -51,7 +51,7 @@ KINDS = {
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
     MovementLoad: (MOVEMENT, "value"),
-    TemperatureLoad: (CURVATURE, "gradient"),
+    TemperatureLoad: (TEMPERATURE, "gradient"),
 }
 """Kinds of load, as in gapbeam_scene, and the key of their value."""
 
@@ -216,8 +216,8 @@ def _settle(codes: np.ndarray, values: np.ndarray, supports: np.ndarray) -> None
         values[2, k] = 0.0
 
 
-def curvature_by_temperature(scene: Scene, load: TemperatureLoad, k: int) -> float:
-    """Give the curvature that a temperature makes, positive where the upper side gets longer.
+def effect_of_temperature(scene: Scene, load: TemperatureLoad, k: int) -> tuple[float, float]:
+    """Give what a temperature does to a beam that nothing holds.
 
     Parameters
     ----------
@@ -228,19 +228,27 @@ def curvature_by_temperature(scene: Scene, load: TemperatureLoad, k: int) -> flo
     k : int
         Its number.
 
+    Returns
+    -------
+    curvature : float
+        Positive where the upper side gets longer (1/length).
+    strain : float
+        Elongation per length.
+
     Raises
     ------
     SceneError
-        It speaks of what the beam has not.
+        It takes what the beam has not, or has no number.
     """
-    if load.dT:
-        raise SceneError(f"loads[{k}].dT", f"an elongation by temperature is not available in this version, got {number(load.dT)}; "
-                         "give a gradient only")  # fmt: skip
-    for key, value in (("alpha", scene.beam.alpha), ("depth", scene.beam.depth)):
+    for key in ("gradient", "dT"):
+        if not np.isfinite(getattr(load, key)):
+            raise SceneError(f"loads[{k}].{key}", f"expected a finite number, got {number(getattr(load, key))}")
+    beam = scene.beam
+    for key, value in (("alpha", beam.alpha), ("depth", beam.depth if load.gradient else 1.0)):
         if value is None or not 0.0 < value < np.inf:
             problem = "is missing" if value is None else f"expected a finite number above 0, got {number(value)}"
             raise SceneError(f"beam.{key}", f"{problem}; loads[{k}] is a temperature and takes it")
-    return -scene.beam.alpha * load.gradient / scene.beam.depth
+    return -beam.alpha * load.gradient / beam.depth if load.gradient else 0.0, beam.alpha * load.dT
 
 
 def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
@@ -257,15 +265,15 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
             nodes[some] = [find(supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
             left[some] = right[some] = 0.0
-        elif kind in (DISTRIBUTED, CURVATURE):
+        elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
         given = _numbers(group, key)
-        if one is TemperatureLoad and np.isfinite(given).all():
+        if kind == TEMPERATURE:
             of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
-            given = np.array([curvature_by_temperature(scene, load, k) for k, load in of_items])
+            given = np.array([effect_of_temperature(scene, load, k) for k, load in of_items])
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .columns import SIDES, curvature_by_temperature
+from .columns import SIDES, effect_of_temperature
 from .cut_loads import Placement, check_parts, cut_loads
 from .loads import CurvatureLoad, MovementLoad, TemperatureLoad
 from .names import cases_of, find
@@ -24,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa", "gradient", "value")
+VALUES = ("F", "M", "q", "kappa", "gradient", "dT", "value")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -129,7 +129,10 @@ def with_plain_loads(scene: Scene) -> Scene:
         if isinstance(load, MovementLoad):
             moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
         elif isinstance(load, TemperatureLoad):
-            kappa = curvature_by_temperature(scene, load, k)
+            kappa, strain = effect_of_temperature(scene, load, k)
+            if strain and any(one.direction == "axial" for one in scene.supports):
+                loads.append(load)
+                continue
             loads.append(CurvatureLoad(from_=load.from_, to=load.to, kappa=kappa, name=load.name, case=load.case))
         else:
             loads.append(load)
@@ -166,10 +169,10 @@ def times(load: Any, factor: float) -> Any:
     factor : float
         By what.
     """
-    key = next(key for key in VALUES if hasattr(load, key))
-    value = getattr(load, key)
-    value = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
-    return msgspec.structs.replace(load, **{key: value})
+    given = {key: getattr(load, key) for key in VALUES if hasattr(load, key)}
+    for key, value in given.items():
+        given[key] = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
+    return msgspec.structs.replace(load, **given)
 
 
 def _moved(support: Support, by: float) -> Support:

@@ -107,15 +107,15 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 
 
 class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
-    """A temperature that varies over the depth of the beam; default: over its whole length. It takes beam.alpha and beam.depth.
+    """A temperature of the beam; default: over its whole length. It takes beam.alpha, and a gradient beam.depth.
 
     Parameters
     ----------
     gradient : float
-        Temperature of the lower side less that of the upper side (no unit) in degrees, linear in between. Positive bends as a sagging
-        moment does: the same as an imposed curvature of -alpha*gradient/depth.
+        Temperature of the lower side less that of the upper side (no unit) in degrees, linear in between. Positive bends as a
+        sagging moment does: the same as an imposed curvature of -alpha*gradient/depth.
     dT : float
-        Rise of the temperature of the whole section (no unit) in degrees. The elongation that it makes is not available in this version.
+        Rise of the temperature of the whole section (no unit) in degrees. It matters between axial supports only.
     """
 
     gradient: float = 0.0

@@ -224,13 +224,15 @@ contains
         real(wp) :: u(0:2), reaction(0:2), tension(2)
         integer :: state, place
 
-        call solve_axial([0.5_wp, 0.25_wp], [0.0_wp, 0.0_wp, 4.0_wp], [infinite(), 0.0_wp, 0.0_wp], spread(0.0_wp, 1, 3), u, &
+        call solve_axial([0.5_wp, 0.25_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 4.0_wp], [infinite(), 0.0_wp, 0.0_wp], &
+                         spread(0.0_wp, 1, 3), u, &
                          tension, reaction, state, place)
         call check(state == axial_ok, "held on the left, pulled on the right")
         call check_close(u, [0.0_wp, 2.0_wp, 3.0_wp], "displacements")
         call check_close(tension, [4.0_wp, 4.0_wp], "tension")
         call check_close(reaction, [-4.0_wp, 0.0_wp, 0.0_wp], "reaction")
-        call solve_axial([0.5_wp, 0.5_wp], [0.0_wp, 4.0_wp, 0.0_wp], [infinite(), 0.0_wp, infinite()], spread(0.0_wp, 1, 3), u, &
+        call solve_axial([0.5_wp, 0.5_wp], [0.0_wp, 0.0_wp], [0.0_wp, 4.0_wp, 0.0_wp], [infinite(), 0.0_wp, infinite()], &
+                         spread(0.0_wp, 1, 3), u, &
                          tension, reaction, state, place)
         call check_close(tension, [2.0_wp, -2.0_wp], "pulled in the middle")
         call solve_axial([0.5_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], [infinite(), 0.0_wp, 2.0_wp], [0.0_wp, 0.0_wp, 1.0_wp], u, &

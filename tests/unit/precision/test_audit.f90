@@ -233,23 +233,23 @@ contains
 
         stiffness = [2.0_wp, 0.0_wp, infinite(), 0.5_wp]
         settlement = [0.0_wp, 0.0_wp, 0.1_wp, 0.2_wp]
-        call solve_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, state, place)
+        call solve_axial(flexibility, 0*flexibility, force, stiffness, settlement, displacement, tension, reaction, state, place)
         call check(state == axial_ok, "bars hold")
-        call audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+        call audit_axial(flexibility, 0*flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
         call check(ledger%wrong == 0, "and stand their audit")
         do i = 0, 3
             displacement(i) = displacement(i) + share
-            call audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+            call audit_axial(flexibility, 0*flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
             call check(ledger%wrong /= 0, "a displacement that is another one")
             displacement(i) = displacement(i) - share
             reaction(i) = reaction(i) + share
-            call audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+            call audit_axial(flexibility, 0*flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
             call check(ledger%wrong /= 0, "a reaction that is another one")
             reaction(i) = reaction(i) - share
         end do
         do i = 1, 3
             tension(i) = tension(i) + share
-            call audit_axial(flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
+            call audit_axial(flexibility, 0*flexibility, force, stiffness, settlement, displacement, tension, reaction, ledger)
             call check(ledger%wrong /= 0, "a force in a bar that is another one")
             tension(i) = tension(i) - share
         end do
