@@ -260,7 +260,7 @@ contains
             if (has_reals(c%load_to, n, reals)) loads%to = reals
             if (has_reals(c%load_value, n, reals)) loads%value = reals
             do i = 1, n
-                loads(i)%value_to = merge(0.0_wp, loads(i)%value, loads(i)%kind == gapbeam_temperature)
+                if (loads(i)%kind /= gapbeam_temperature) loads(i)%value_to = loads(i)%value
             end do
             if (has_reals(c%load_value_to, n, reals)) loads%value_to = reals
         end associate
