@@ -235,8 +235,8 @@ contains
                          spread(0.0_wp, 1, 3), u, &
                          tension, reaction, state, place)
         call check_close(tension, [2.0_wp, -2.0_wp], "pulled in the middle")
-        call solve_axial([0.5_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], [infinite(), 0.0_wp, 2.0_wp], [0.0_wp, 0.0_wp, 1.0_wp], u, &
-                         tension, reaction, state, place)
+        call solve_axial([0.5_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], [infinite(), 0.0_wp, 2.0_wp], &
+                         [0.0_wp, 0.0_wp, 1.0_wp], u, tension, reaction, state, place)
         call check_close(u, [0.0_wp, 0.5_wp, 0.5_wp], "a spring that settles pulls a rigid bar")
         call check_close(reaction, [-1.0_wp, 0.0_wp, 1.0_wp], "with the same force at both ends")
     end subroutine along_the_axis
@@ -246,12 +246,14 @@ contains
         real(wp) :: u(0:1), reaction(0:1), tension(1)
         integer :: state, place
 
-        call solve_axial([0.5_wp], [0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], u, tension, reaction, state, place)
+        call solve_axial([0.5_wp], [0.0_wp], [0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], u, tension, reaction, &
+                         state, place)
         call check(state == axial_slides, "nothing holds the beam")
-        call solve_axial([0.0_wp], [0.0_wp, 1.0_wp], [infinite(), infinite()], [0.0_wp, 0.0_wp], u, tension, reaction, state, &
-                         place)
+        call solve_axial([0.0_wp], [0.0_wp], [0.0_wp, 1.0_wp], [infinite(), infinite()], [0.0_wp, 0.0_wp], u, tension, &
+                         reaction, state, place)
         call check(state == axial_indeterminate .and. place == 1, "a rigid bar between two rigid supports")
-        call solve_axial([0.0_wp], [0.0_wp, 3.0_wp], [infinite(), 1.0_wp], [0.0_wp, 0.0_wp], u, tension, reaction, state, place)
+        call solve_axial([0.0_wp], [0.0_wp], [0.0_wp, 3.0_wp], [infinite(), 1.0_wp], [0.0_wp, 0.0_wp], u, tension, &
+                         reaction, state, place)
         call check(state == axial_ok, "one of them elastic")
         call check_close(reaction, [-3.0_wp, 0.0_wp], "carries nothing")
     end subroutine not_along_the_axis
