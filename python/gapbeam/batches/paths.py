@@ -203,9 +203,9 @@ def _put(old: Any, parts: tuple[str | int, ...], value: float) -> Any:
 
 
 def _times(load: dict[str, Any], factor: float) -> dict[str, Any]:
-    key = next(key for key in VALUES if key in load)
-    value = load[key]
-    return {**load, key: [factor * one for one in value] if isinstance(value, list) else factor * value}
+    given = {key: load[key] for key in VALUES if key in load}
+    made = {key: [factor * one for one in value] if isinstance(value, list) else factor * value for key, value in given.items()}
+    return load | made
 
 
 def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, ...]:

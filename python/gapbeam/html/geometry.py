@@ -9,6 +9,7 @@ import numpy as np
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 from ..scene.names import DEAD, label, labels
+from ..scene.temperature import as_curvatures
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -102,7 +103,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for load in scene.loads:
+    for load in as_curvatures(scene).loads:
         kind = load.__struct_config__.tag
         if kind == "movement":
             continue

@@ -12,6 +12,7 @@ from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
 from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.table import kind_of
+from ..scene.temperature import as_curvatures
 from .labels import LINE, Labels, spread, text_width
 from .sheet import is_upright
 
@@ -189,7 +190,7 @@ def _share(load: object, factor: float) -> float:
 def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     blocks = []
     cases = len({load.case for load in scene.loads})
-    for load in scene.loads:
+    for load in as_curvatures(scene).loads:
         share = _share(load, factor)
         if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad) or not share:
             continue

@@ -91,8 +91,10 @@ def _no_load(scene: Scene) -> str | None:
         return None
     if not len(scene.loads):
         return "loads is empty, so no load acts."
-    keys = ("F", "M", "q", "kappa", "value")
+    keys = ("F", "M", "q", "kappa", "value", "gradient")
     if not any(np.any(getattr(load, key)) for load in scene.loads for key in keys if hasattr(load, key)):
+        if any(getattr(load, "dT", 0.0) for load in scene.loads):
+            return "loads have dT alone, which lengthens a beam that nothing holds along its axis: no force comes of it."
         return "all values of loads are 0, so no load acts."
     return None
 

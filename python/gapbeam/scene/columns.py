@@ -16,11 +16,21 @@ from ..engine.laws import PARAMETERS
 from .ground_laws import ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
-from .loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, MovementLoad, UniformLoad
+from .loads import (
+    AxialLoad,
+    CurvatureLoad,
+    ForceLoad,
+    LinearLoad,
+    MomentLoad,
+    MovementLoad,
+    TemperatureLoad,
+    UniformLoad,
+)
 from .names import find
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
+from .temperature import check_beam, curvature_of
 from .wording import number, shown
 
 BY_X = -1
@@ -41,6 +51,7 @@ KINDS = {
     UniformLoad: (DISTRIBUTED, "q"),
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
+    TemperatureLoad: (CURVATURE, "gradient"),
     MovementLoad: (MOVEMENT, "value"),
 }
 """Kinds of load, as in gapbeam_scene, and the key of their value."""
@@ -73,12 +84,13 @@ def columns(scene: Scene) -> Columns:
             count = f"has {len(values)} values for {spans} spans"
             raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
         span[row, :spans] = values if spans else np.inf
+    check_beam(beam)
     hinge = np.empty(len(beam.hinges) + 1)
     hinge[:-1] = beam.hinges
     hinge[-1] = 0.0
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
-    load_codes, load_values = _loads(scene.loads, scene.supports)
+    load_codes, load_values = _loads(scene)
     if not scene.combinations:
         _settle(load_codes[:, :-1], load_values[:, :-1], values)
     return Columns(
@@ -206,7 +218,8 @@ def _settle(codes: np.ndarray, values: np.ndarray, supports: np.ndarray) -> None
         values[2, k] = 0.0
 
 
-def _loads(items: Sequence[Any], supports: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
+def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    items = scene.loads
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
     of = _column(items, "case")
@@ -217,14 +230,17 @@ def _loads(items: Sequence[Any], supports: Sequence[Any]) -> tuple[np.ndarray, n
         kinds[some] = kind
         if kind == MOVEMENT:
             of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
-            nodes[some] = [find(supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
+            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
             left[some] = right[some] = 0.0
         elif kind in (DISTRIBUTED, CURVATURE):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
-        given = _numbers(group, key)
+        if one is TemperatureLoad:
+            given = np.array([curvature_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
+        else:
+            given = _numbers(group, key)
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
 

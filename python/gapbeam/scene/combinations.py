@@ -24,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa", "value")
+VALUES = ("F", "M", "q", "kappa", "value", "gradient", "dT")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -163,10 +163,11 @@ def times(load: Any, factor: float) -> Any:
     factor : float
         By what.
     """
-    key = next(key for key in VALUES if hasattr(load, key))
-    value = getattr(load, key)
-    value = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
-    return msgspec.structs.replace(load, **{key: value})
+    given = {key: getattr(load, key) for key in VALUES if hasattr(load, key)}
+    made = {
+        key: tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value for key, value in given.items()
+    }
+    return msgspec.structs.replace(load, **made)
 
 
 def _moved(support: Support, by: float) -> Support:

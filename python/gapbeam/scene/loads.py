@@ -1,4 +1,4 @@
-"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, axial forces, movements of supports."""
+"""Loads of a scene: forces, couples, distributed loads, curvatures, temperature, axial forces, movements of supports."""
 
 from __future__ import annotations
 
@@ -106,6 +106,23 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
     kappa: float
 
 
+class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
+    """A change of temperature from one place to another; default: over the whole beam. It needs `beam.alpha`.
+
+    Parameters
+    ----------
+    dT : float
+        Change of the mean temperature (no unit), in the degrees of `beam.alpha`, positive warmer. It lengthens a beam that
+        nothing holds along its axis, which makes no force. With a support of direction axial it is refused in this version.
+    gradient : float
+        Temperature of the bottom less that of the top, over `beam.depth` (no unit), positive warmer below. It bends as a sagging
+        moment does, by the curvature alpha gradient/depth: kappa = -alpha gradient/depth.
+    """
+
+    dT: float = 0.0
+    gradient: float = 0.0
+
+
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
     """A movement of a support across the beam, beside its settlement: what jacks, sinks, or is lifted by heat.
 
@@ -128,4 +145,4 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
     case: str = "live"
 
 
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad | MovementLoad
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialLoad | MovementLoad

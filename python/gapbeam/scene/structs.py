@@ -80,6 +80,10 @@ class Beam(Table, forbid_unknown_fields=True):
     direction : {"right", "down"}
         Where x goes in pictures: right (default), or down for what stands upright, such as a pile; it changes no result.
         Downward in a lying beam is to the right then.
+    alpha : float or list of float, optional
+        Thermal expansion per degree (no unit), one number or one per span; needed with loads of type temperature only.
+    depth : float or list of float, optional
+        Depth of the beam (length), one number or one per span; needed where such a load has a gradient.
     """
 
     spans: Spans
@@ -89,6 +93,8 @@ class Beam(Table, forbid_unknown_fields=True):
     hinges: list[float] = []
     width: Positive | None = None
     direction: Literal["right", "down"] = "right"
+    alpha: float | list[float] | None = None
+    depth: Positive | list[Positive] | None = None
 
 
 class Section(Stretch, kw_only=True, gc=False):
@@ -276,7 +282,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Supports; results list them in the same order.
     foundation : list of Foundation
         Elastic ground under stretches of the beam.
-    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
+    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, TemperatureLoad, AxialLoad, MovementLoad
         Loads, each of a load case.
     trains : list of Train
         Loads that move.

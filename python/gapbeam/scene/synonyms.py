@@ -18,17 +18,20 @@ OF_SUPPORTS = {
     '"fixed" clamps it',
     "kind": 'a support has no kind: side = "both" holds it up and down, "below" lets it lift off',
     "fixed": 'did you mean rotation = "fixed"?',
+    "friction": "friction of supports is not available in this version",
 }
 """What supports have in other words."""
 _BELOW = 'a support that lies under the beam and lets it lift off is "below"'
 _BOTH = 'one that holds the beam up and down is "both", one from which it can lift off "below"'
 _EITHER = f'{_BELOW}, one that holds it down only is "above"'
+_NO_AXIAL_SIDE = 'an axial support that pushes one way only is not available in this version'
 VALUES = {
     ("side", "down"): _EITHER, ("side", "up"): _EITHER, ("side", "bottom"): _BELOW, ("side", "lower"): _BELOW,
     ("side", "under"): _BELOW,
     ("side", "compression"): _BELOW, ("side", "top"): 'did you mean "above"?', ("side", "upper"): 'did you mean "above"?',
     ("side", "tension"): 'one that holds the beam down only is "above"', ("side", "roller"): _BOTH, ("side", "pin"): _BOTH,
     ("side", "pinned"): _BOTH, ("side", "hinged"): _BOTH, ("side", "fixed"): f'{_BOTH}; rotation = "fixed" clamps it',
+    ("side", "left"): _NO_AXIAL_SIDE, ("side", "right"): _NO_AXIAL_SIDE,
     ("rotation", "true"): 'did you mean "fixed"?', ("rotation", "false"): 'did you mean "free"?',
     ("rotation", "clamped"): 'did you mean "fixed"?', ("rotation", "rigid"): 'did you mean "fixed"?',
     ("rotation", "pinned"): 'did you mean "free"?', ("rotation", "hinged"): 'did you mean "free"?',
@@ -37,7 +40,7 @@ VALUES = {
     ("type", "udl"): 'did you mean "uniform"?', ("type", "distributed"): 'did you mean "uniform" or "linear"?',
     ("type", "line"): 'did you mean "uniform" or "linear"?', ("type", "trapezoidal"): 'did you mean "linear"?',
     ("type", "triangular"): 'did you mean "linear"?', ("type", "couple"): 'did you mean "moment"?',
-    ("type", "temperature"): 'did you mean "curvature"?', ("type", "thermal"): 'did you mean "curvature"?',
+    ("type", "thermal"): 'did you mean "temperature"?',
     ("type", "moving"): "loads that move are trains",
 }  # fmt: skip
 """What was probably meant by a value, by its key and the value in lower case."""
