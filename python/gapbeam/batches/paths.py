@@ -135,6 +135,8 @@ def varies_by_case(scene: Mapping[str, Any], path: KeyPath) -> bool:
     if head == "foundation":  # a modulus that is one number
         return rest[1:] == ["k"] and isinstance(scene["foundation"][rest[0]]["k"], int | float)
     if head == "loads":
+        if rest[1] == "dT":  # a case has one factor for all values of a load
+            return False
         return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
     if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
         support = scene["supports"][rest[0]]

@@ -30,24 +30,23 @@ def test_warmer_below_sags_on_one_span():
 
 
 def test_two_spans_make_the_couple_of_the_textbook():
-    """The middle support holds the sag down: M = 1.5 EI alpha gradient/depth over it, sagging."""
+    """The middle support holds the sag down: M = -1.5 EI alpha gradient/depth over it, hogging."""
     result = gapbeam.solve(scene([{"gradient": 20.0}]))
-    moment = 1.5 * EI * ALPHA * 20.0 / DEPTH
+    moment = -1.5 * EI * ALPHA * 20.0 / DEPTH
     assert result.at(6.0).moment == pytest.approx(moment, rel=1e-14)
-    assert [one.reaction for one in result.supports] == pytest.approx([moment / 6, -moment / 3, moment / 6], rel=1e-13)
+    assert result.steps[-1].reaction.tolist() == pytest.approx([moment / 6, -moment / 3, moment / 6], rel=1e-13)
 
 
 def test_clamped_beam_has_the_couple_without_bending():
     clamps = [{"node": 0, "rotation": "fixed"}, {"node": 2, "rotation": "fixed"}]
     result = gapbeam.solve(scene([{"gradient": 20.0}]) | {"supports": clamps})
-    assert result.at(3.0).moment == pytest.approx(EI * ALPHA * 20.0 / DEPTH, rel=1e-13) or \
-        result.at(3.0).moment == pytest.approx(-EI * ALPHA * 20.0 / DEPTH, rel=1e-13)
+    assert result.at(3.0).moment == pytest.approx(-EI * ALPHA * 20.0 / DEPTH, rel=1e-13)
     assert abs(result.at(3.0).deflection) < 1e-15
 
 
 def test_a_support_lets_go_at_its_temperature():
-    """Under its dead load the middle support carries 1.25 q L; warmer below it lets go where M/3 is as much."""
-    one = scene([{"gradient": 100.0, "case": "sun"}])
+    """Under its dead load the middle support carries 1.25 q L; warmer above it lets go where M/3 is as much."""
+    one = scene([{"gradient": -100.0, "case": "sun"}])
     one["supports"][1]["side"] = "below"
     one["loads"].append({"type": "uniform", "q": 0.4, "case": "dead"})
     result = gapbeam.solve(one | {"analysis": {"follow": "events"}})
@@ -58,7 +57,7 @@ def test_a_support_lets_go_at_its_temperature():
 
 def test_dT_alone_lengthens_a_free_beam_and_makes_no_force():
     result = gapbeam.solve(scene([{"dT": 60.0}]))
-    assert not np.any([one.reaction for one in result.supports])
+    assert not np.any(result.steps[-1].reaction)
 
 
 @pytest.mark.parametrize("seed", range(200))
@@ -88,29 +87,31 @@ def test_random_scenes_are_those_of_the_curvatures(seed):
     more = {"supports": supports, "analysis": {"follow": rng.choice(["steps", "events"])}}
     if rng.random() < 0.4:
         factors = {"dead": rng.choice([0.9, 1.35]), "live": 1.5, "sun": rng.choice([-2.0, 0.6])}
-        more["combinations"] = [{"name": "a", "factors": factors}, {"name": "b", "factors": {"sun": 1.0}}]
+        factors = {case: factor for case, factor in factors.items() if case in {load["case"] for load in warm}}
+        more["combinations"] = [{"name": "a", "factors": factors}, {"name": "b", "factors": {warm[0]["case"]: 1.0}}]
     keys = {"alpha": alpha if by_span else alpha[0], "depth": depth if by_span else depth[0]}
     found = gapbeam.solve({"beam": beam | keys, "loads": warm, **more})
     other = gapbeam.solve({"beam": beam, "loads": bent, **more})
-    for a, b in zip(*([one.combinations or [one] for one in (found, other)]), strict=True):
-        if "combinations" in more:
-            a, b = (found[a.name], other[b.name]) if hasattr(a, "name") else (a, b)
-        reactions = np.array([[one.reaction for one in result.supports] for result in (a, b)])
-        assert np.allclose(*reactions, rtol=1e-12, atol=1e-12 * np.abs(reactions).max(initial=0.0))
+    names = ["a", "b"] if "combinations" in more else [None]
+    for name in names:
+        steps = [(one.combinations[name] if name else one).steps for one in (found, other)]
+        assert len(steps[0]) == len(steps[1])
+        for a, b in zip(*steps, strict=True):
+            assert np.allclose(a.reaction, b.reaction, rtol=1e-12, atol=1e-12 * np.abs(b.reaction).max(initial=0.0))
 
 
-def test_cases_in_a_table_vary_the_gradient():
+def test_cases_in_a_table_vary_the_gradient(tmp_path):
     one = scene([{"gradient": 20.0}, {"gradient": 1.0, "to": 6.0, "case": "dead"}])
     one["supports"][1]["side"] = "below"
     table = {"loads[0].gradient": [-20.0, 5.0, 30.0], "factors.dead": [1.0, 2.0, -1.0], "loads[0].dT": [0.0, 1.0, 2.0]}
-    found = gapbeam.batch(one, table)
+    found = gapbeam.batch(one, table, tmp_path / "out", want="reaction").read()
     for k in range(3):
         loads = [{"gradient": table["loads[0].gradient"][k]},
                  {"gradient": table["factors.dead"][k], "to": 6.0, "case": "dead"}]  # fmt: skip
         alone = scene(loads)
         alone["supports"][1]["side"] = "below"
-        expected = [support.reaction for support in gapbeam.solve(alone).supports]
-        got = [found.columns()[f"reaction.{i}"][k] for i in range(3)] if hasattr(found, "columns") else expected
+        expected = gapbeam.solve(alone).steps[-1].reaction.tolist()
+        got = [found[f"reaction.{i}"][k] for i in range(3)]
         assert got == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
@@ -152,9 +153,11 @@ def test_what_is_not_there_yet_is_refused_by_name():
         gapbeam.read_scene(one)
 
 
-def test_pictures_pages_and_proofs_take_it(tmp_path):
+def test_pictures_and_pages_take_it(tmp_path):
     one = scene([{"gradient": 20.0, "dT": 5.0}])
     result = gapbeam.solve(one)
     result.plot(path=tmp_path / "one.svg")
-    assert "temperature" in result.report()
+    assert (tmp_path / "one.svg").stat().st_size
     assert "html" in result.to_html()
+    bent = one | {"beam": {"spans": [6.0, 6.0], "EI": EI}, "loads": [{"type": "curvature", "kappa": -ALPHA * 20.0 / DEPTH}]}
+    assert gapbeam.solve(bent).steps[-1].reaction.tolist() == result.steps[-1].reaction.tolist()
