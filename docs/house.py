@@ -16,7 +16,7 @@ WIDTH = 120
 FORTRAN = {
     "base": "precisions, errors and status codes, memory, whether a call may go on",
     "beam": "a stretch of beam: stiffness, loads, fields, on elastic ground too",
-    "elimination": "one linear system: elimination of the mixed equations, three-moment equations, residuals",
+    "elimination": "one linear system: elimination, three-moment equations, residuals",
     "contact": "which supports act: laws, signs, the search for the contact state, zones of contact with the ground",
     "precision": "extended precision, audit of every answer, certificates and error bounds",
     "scene": "from the user's numbers to the assembled model",

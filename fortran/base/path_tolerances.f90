@@ -10,6 +10,7 @@ module gapbeam_path_tolerances
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
     public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
     public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
+    public :: nothing_on_arc, wide_of_polyline, further_than_asked, off_its_law, off_its_polyline
     public :: most_train_share, sliver, least_train_share, train_rounding, most_lost, longest_way, far_below, lebesgue, same_tie
 
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
@@ -60,8 +61,9 @@ module gapbeam_path_tolerances
     !
     ! Paths on smooth laws
     !
-    !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is.
-    !> Read by continuation/arc_roots, continuation/arc_states
+    !> Relative change at which a state on smooth laws is found: rounding of the deflections; and at which a root along an arc is;
+    !> share of a typical force of a law that is nothing. Read by continuation/arc_roots, continuation/arc_states,
+    !> continuation/path_states
     real(wp), parameter :: arc_settled = 4*epsilon(1.0_wp)
     !> The same where changes grow no smaller any more: rounding of the solve with springs. Read by continuation/arc_states,
     !> continuation/branch_points
@@ -75,7 +77,8 @@ module gapbeam_path_tolerances
     !> Distance along an arc at which its direction on one side of a place is looked at first; tuned. Read by
     !> continuation/arc_states
     real(wp), parameter :: nearest_beside = 1e-6_wp
-    !> The farthest one, where there is no state nearer; tuned. Read by continuation/arc_states
+    !> The farthest one, where there is no state nearer; and where a support has left the end of its piece at which it is at the
+    !> start of an arc: what it does nearer is not seen; tuned. Read by continuation/arc_states, continuation/smooth_path
     real(wp), parameter :: farthest_beside = 1e-2_wp
     !> Share of its values nearby up to which a function along an arc is zero where it changes its sign; more: another path has
     !> been met. Read by continuation/arc_roots
@@ -99,14 +102,29 @@ module gapbeam_path_tolerances
     real(wp), parameter :: branch_bend = 0.1_wp
     !> Relative change of the load factor by which a branch rises or falls: less is rounding. Read by continuation/smooth_branches
     real(wp), parameter :: branch_rises = 1e-10_wp
-    !> Relative singular value below which a direction is left out where branches cross; tuned. Read by
-    !> continuation/smooth_branches
+    !> Relative singular value below which a direction is left out where branches cross, and where the load is stationary since they
+    !> do, not since it turns round: some 1e-6 at crossings found as such; a turn nearer to one is not seen; tuned. Read by
+    !> continuation/arc_states, continuation/smooth_branches
     real(wp), parameter :: crossing_directions = 1e-4_wp
     !> How near to a crossing of branches the equations are looked at; tuned. Read by continuation/branch_points
     real(wp), parameter :: nearest_crossing = 1e-5_wp
     !> How many times less dependent, relative to the distance, than farther away they may be near one; tuned. Read by
     !> continuation/branch_points
     real(wp), parameter :: less_independent = 4.0_wp
+    !> Share of the largest reaction or deflection, or of an arc, that is nothing on smooth laws: far above the rounding of the
+    !> states, far below what polylines leave out; tuned. Read by continuation/path_on_laws, continuation/smooth_path
+    real(wp), parameter :: nothing_on_arc = 1e-9_wp
+    !> Distance of states, in sizes of the deflections and the factor, against which the error of the polyline of a smooth law is
+    !> small; tuned. Read by continuation/path_on_laws
+    real(wp), parameter :: wide_of_polyline = 0.05_wp
+    !> By what share of its last leg a path is followed further on the polylines, where it does not come to its end on the laws;
+    !> tuned. Read by continuation/smooth_path
+    real(wp), parameter :: further_than_asked = 0.1_wp
+    !> Share of the largest reaction by which a force may be beside its smooth law: far above rounding; tuned. Read by
+    !> continuation/path_states
+    real(wp), parameter :: off_its_law = 1e-6_wp
+    !> The same where the state is known on the polylines only: what these leave out; tuned. Read by continuation/path_states
+    real(wp), parameter :: off_its_polyline = 0.05_wp
 
     !
     ! Trains

@@ -66,7 +66,7 @@ contains
     end subroutine without_dead_loads
 
     !> The beam while its dead loads are put on: they grow with the factor, and there is no other load
-    subroutine drop_live(beam, growing)
+    pure subroutine drop_live(beam, growing)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> The same with its dead loads as live ones

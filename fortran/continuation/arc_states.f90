@@ -1,17 +1,18 @@
 !> States of the path on smooth laws, at places along an arc, and what tells whether they are stable and stand.
 module gapbeam_arc_states
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside
+    use gapbeam_path_tolerances, only: arc_settled, arc_rounding, arc_noise, dependent_branches, crossing_directions, &
+        nearest_beside, farthest_beside
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_dense_solver, only: solve_least_squares, symmetric_eigenvalues
+    use gapbeam_dense_solver, only: solve_least_squares, symmetric_eigenvalues, find_singular_values
     use gapbeam_certificate, only: certificate_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: certify_state
-    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_in, forces_at, &
+    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_of, forces_at, &
         tangent_matrix, lose, is_lost
     implicit none
     private
-    public :: find_on_arc, rate_beside, eigenvalues_at, wrongness_of, holds_at
+    public :: find_on_arc, look_at_direction, rate_beside, eigenvalues_at, wrongness_of, holds_at
 
     !> Corrections of a state at most; from the polyline five or so do
     integer, parameter :: most_corrections = 25
@@ -48,7 +49,7 @@ contains
                 call forces_at(arc, x(:n), force, found%slope, past)
                 call solve_with_springs(arc, x(:n), force, x(n + 1), found%state, error)
                 if (allocated(error)) return
-                deflection(:) = deflections_in(arc, found%state)
+                deflection(:) = deflections_of(arc%assembled, arc%numbers, found%state)
                 call correct(arc, found, deflection, solved, wrong, error)
                 if (allocated(error)) return
                 found%rate(:) = solved(:, 2)*arc%weights
@@ -126,8 +127,7 @@ contains
         regular = all(abs(found%slope) <= huge(wrong)) .and. all(abs(deflection) <= huge(wrong))
         if (regular) then
             allocate (matrix(n + 1, n + 1), columns(n + 1, 2))
-            call tangent_matrix(arc, found%slope, matrix(:n, :))
-            matrix(n + 1, :) = arc%along
+            call equations_at(arc, found%slope, matrix)
             columns(:, :) = 0.0_wp
             columns(:n, 1) = (deflection - found%point(:n))/arc%weights(1)
             columns(n + 1, 1) = found%at*arc%length - dot_product(arc%along, (found%point - arc%ends(:, 1))/arc%weights)
@@ -139,6 +139,37 @@ contains
         end if
         if (.not. regular) call lose(error)
     end subroutine correct
+
+    !> Derivatives of the equations, the place along the arc being the last one, by relative deflections and load factor
+    pure subroutine equations_at(arc, slope, matrix)
+        type(arc_type), intent(in) :: arc
+        !> Slopes of the smooth laws, shape (n)
+        real(wp), intent(in) :: slope(:)
+        !> Shape (n + 1, n + 1)
+        real(wp), intent(out) :: matrix(:, :)
+
+        call tangent_matrix(arc, slope, matrix(:size(slope), :))
+        matrix(size(slope) + 1, :) = arc%along
+    end subroutine equations_at
+
+    !> Is the direction of the path told in a state, or are the equations dependent there since other branches cross
+    subroutine look_at_direction(arc, number, told, error)
+        type(arc_type), intent(in) :: arc
+        !> Of a state of the arc
+        integer, intent(in) :: number
+        logical, intent(out) :: told
+        !> No numbers
+        type(error_type), allocatable, intent(out) :: error
+        real(wp), allocatable :: matrix(:, :), values(:), directions(:, :)
+        integer :: n
+
+        n = size(arc%numbers) + 1
+        allocate (matrix(n, n), values(n), directions(n, n))
+        call equations_at(arc, arc%known(number)%one%slope, matrix)
+        call find_singular_values(matrix, values, directions, told)
+        if (.not. told) call lose(error)
+        told = told .and. values(n) > crossing_directions*values(1)
+    end subroutine look_at_direction
 
     !> Keep a state
     pure subroutine keep(found, arc, number, error)

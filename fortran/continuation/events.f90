@@ -10,7 +10,7 @@ module gapbeam_events
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type
-    use gapbeam_pieces, only: acting_type, acts_in, as_one_piece, what_happens, no_change, gapbeam_turns
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, close_all, forget
@@ -210,7 +210,6 @@ contains
         type(acting_type) :: acting
 
         acting = acts_in(assembled, assembled%normal(which), now)
-        if (is_smooth(assembled%model%supports(assembled%normal(which))%law)) acting = as_one_piece(acting)
     end function now_acts
 
 end module gapbeam_events

@@ -5,9 +5,11 @@ module gapbeam_history_record
     use gapbeam_polyline, only: node_support_type
     use gapbeam_region_responses, only: outgoing_type
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_arc, only: arc_type
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, other_way_type, new_history, laws_at
+    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, point_type, new_history, laws_at, same_laws
+    public :: runs_of
     public :: add_stretch, add_others, note_limit, note_landings, is_jumping
     public :: at_limit_stop, at_limit_jump, at_limit_follow
     public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off
@@ -56,6 +58,33 @@ module gapbeam_history_record
         integer :: landing = 0
     end type limit_type
 
+    !> Deflections at the smooth laws
+    type :: point_type
+        real(wp), allocatable :: x(:)
+    end type point_type
+
+    !> What is known on the smooth laws themselves of a path that was followed on their polylines (gapbeam_smooth_path)
+    type :: on_laws_type
+        !> What there is at the end of every stretch (gapbeam_path_on_laws), and load factors at its ends on the polylines
+        integer, allocatable :: joins(:)
+        real(wp), allocatable :: rough(:, :)
+        !> States at its ends (1 start, 2 stop), where they are known; does it begin where a jump has landed
+        type(point_type), allocatable :: ends(:, :)
+        logical, allocatable :: lands(:)
+        !> First and last stretch of what is one on the laws, shape (2, number)
+        integer, allocatable :: runs(:, :)
+        !> Sizes of the laws and of the load factor
+        real(wp) :: size(2) = 0.0_wp
+        !> Is there one state only at every load factor, so that tangents lead to it
+        logical :: unique = .false.
+        !> Leg at whose end the load factor was not found, since there is a limit load before it; -1 if none
+        integer :: unreached = -1
+        !> Stretch that is a branch beyond a bifurcation, 0 if none; its points from the bifurcation on, and the arc that led there
+        integer :: traced = 0
+        real(wp), allocatable :: branch(:, :)
+        type(arc_type), allocatable :: arc
+    end type on_laws_type
+
     !> The loading history
     type :: history_type
         !> at_limit_stop, at_limit_jump or at_limit_follow
@@ -73,6 +102,8 @@ module gapbeam_history_record
         real(wp), allocatable :: motion(:)
         !> Linear solves
         integer :: solves = 0
+        !> Of a beam with smooth laws
+        type(on_laws_type), allocatable :: on_laws
     end type history_type
 
 contains
@@ -195,5 +226,30 @@ contains
         laws = assembled%beam%supports
         if (allocated(stretch%laws)) laws = stretch%laws
     end function laws_at
+
+    !> Are the laws of all supports the same
+    pure function same_laws(a, b) result(they_are)
+        type(node_support_type), intent(in) :: a(:), b(:)
+        logical :: they_are
+
+        they_are = .not. any(a%contact < b%contact .or. a%contact > b%contact .or. a%force < b%force .or. a%force > b%force &
+                             .or. a%stiffness < b%stiffness .or. a%stiffness > b%stiffness &
+                             .or. a%before < b%before .or. a%before > b%before)
+    end function same_laws
+
+    !> First and last stretch of every part of a path on which all supports stay on their piece, a smooth law being one, shape
+    !> (2, number)
+    pure function runs_of(history) result(runs)
+        type(history_type), intent(in) :: history
+        integer, allocatable :: runs(:, :)
+        integer :: k
+
+        if (allocated(history%on_laws)) then
+            runs = history%on_laws%runs
+        else
+            allocate (runs(2, history%number))
+            runs(:, :) = spread([(k, k=1, history%number)], 1, 2)
+        end if
+    end function runs_of
 
 end module gapbeam_history_record

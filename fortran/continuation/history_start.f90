@@ -3,14 +3,16 @@ module gapbeam_history_start
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
     use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_link, only: no_load
+    use gapbeam_affine_response, only: drop_live
     use gapbeam_model_quad, only: beam_type
     use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: find_region, region_type
-    use gapbeam_scene, only: gapbeam_both
+    use gapbeam_scene, only: gapbeam_both, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: find_beginning, find_movements, growth_of, has_dead_loads, find_rest
+    public :: find_beginning, find_movements, growth_of, supports_move, has_dead_loads, grow_dead_loads, find_rest
 
 contains
 
@@ -54,6 +56,38 @@ contains
             end associate
         end do
     end subroutine find_movements
+
+    !> Do supports move by themselves while the dead loads are put on
+    pure function supports_move(assembled) result(they_do)
+        type(assembled_type), intent(in) :: assembled
+        logical :: they_do
+
+        associate (s => assembled%model%supports)
+            they_do = any(abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp)
+        end associate
+    end function supports_move
+
+    !> The beam while its dead loads are put on: they grow with the factor, and there is no other load; in the same units
+    pure subroutine grow_dead_loads(assembled, dead)
+        type(assembled_type), intent(in) :: assembled
+        type(assembled_type), intent(out) :: dead
+
+        dead = assembled
+        call drop_live(assembled%beam, dead%beam)
+        dead%live(:) = assembled%dead
+        dead%dead(:) = no_load
+        if (allocated(dead%growth)) deallocate (dead%growth)
+        if (allocated(dead%axial%force)) then
+            dead%axial%force(2, :) = dead%axial%force(1, :)
+            dead%axial%force(1, :) = 0.0_wp
+        end if
+        where (dead%model%loads%case == gapbeam_dead)
+            dead%model%loads%case = gapbeam_live
+        else where
+            dead%model%loads%value = 0.0_wp
+            dead%model%loads%value_to = 0.0_wp
+        end where
+    end subroutine grow_dead_loads
 
     !> Movement of every support of the engine at load factor 1, in its units
     pure function growth_of(assembled) result(growth)

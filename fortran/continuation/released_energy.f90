@@ -3,53 +3,64 @@ module gapbeam_released_energy
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
-    use gapbeam_extended_precision, only: rule_given
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state
     use gapbeam_query, only: find_starts
     use gapbeam_path_energy, only: energy_between
-    use gapbeam_history, only: history_type, laws_at
+    use gapbeam_history_record, only: history_type, runs_of
+    use gapbeam_history_start, only: grow_dead_loads
+    use gapbeam_path_states, only: solve_on_path
     implicit none
     private
     public :: find_released_energy
 
 contains
 
-    !> From a limit to its landing, along the stretches that are passed in between
+    !> From a limit to its landing, along the stretches that are passed in between; a smooth law is one piece
     subroutine find_released_energy(assembled, path, number, energy, error)
         type(assembled_type), intent(in), target :: assembled
-        !> By follow_history, of laws that are polylines
-        type(history_type), intent(in) :: path
-        !> Of a limit that has a landing, and is not met while the dead loads are put on
+        !> By follow_on_laws
+        type(history_type), intent(in), target :: path
+        !> Of a limit that has a landing; met while the dead loads are put on only if supports do not move with them
         integer, intent(in) :: number
         real(wp), intent(out) :: energy
-        !> As for solve_state
+        !> As for solve_on_path
         type(error_type), allocatable, intent(out) :: error
-        type(state_type) :: states(2)
+        type(assembled_type), target :: dead
+        type(assembled_type), pointer :: beam
         type(field_type), allocatable :: starts(:), starts_of_other(:)
+        integer, allocatable :: runs(:, :)
+        type(state_type) :: one, other
         real(wp) :: from, to
-        integer :: k, stat
+        integer :: run, first, last, stat
 
         energy = 0.0_wp
         allocate (starts(size(assembled%pieces)), starts_of_other(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        do k = 1, 2
-            if (.not. allocated(error)) call new_state(assembled, states(k), error)
-        end do
-        if (allocated(error)) return
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        beam => assembled
+        allocate (runs, source=runs_of(path))
         associate (limit => path%limits(number))
-            do k = limit%stretch + 1, limit%landing
-                from = path%stretches(k)%from
-                to = path%stretches(k)%to
+            if (limit%leg == 0) then
+                call grow_dead_loads(assembled, dead)
+                beam => dead
+            end if
+            do run = 1, size(runs, 2)
+                first = max(runs(1, run), limit%stretch + 1)
+                last = min(runs(2, run), limit%landing)
+                if (first > last) cycle
+                from = path%stretches(first)%from
+                to = path%stretches(last)%to
                 ! The landing begins at the factor of the limit
-                if (k == limit%landing) to = limit%factor
-                if (k == limit%landing .and. k > 1) from = path%stretches(k - 1)%to
+                if (last == limit%landing) to = limit%factor
+                if (last == limit%landing .and. first > 1) from = path%stretches(first - 1)%to
                 if (.not. abs(to - from) > 0.0_wp) cycle
-                call find_state(k, from, states(1), starts)
-                if (.not. allocated(error)) call find_state(k, to, states(2), starts_of_other)
+                call find_state(first, from, one, starts)
+                if (.not. allocated(error)) call find_state(last, to, other, starts_of_other)
                 if (allocated(error)) return
-                energy = energy + energy_between(assembled, states(1), starts, states(2), starts_of_other)
+                energy = energy + energy_between(beam, one, starts, other, starts_of_other)
             end do
         end associate
 
@@ -59,13 +70,12 @@ contains
         subroutine find_state(stretch, factor, state, fields)
             integer, intent(in) :: stretch
             real(wp), intent(in) :: factor
-            type(state_type), intent(inout) :: state
+            type(state_type), intent(out) :: state
             type(field_type), intent(out) :: fields(:)
 
-            state%closed(:) = path%stretches(stretch)%closed
-            state%laws = laws_at(assembled, path%stretches(stretch))
-            call solve_state(assembled, factor, rule_given, state, error)
-            if (.not. allocated(error)) call find_starts(assembled, state, fields, error)
+            call new_state(beam, state, error)
+            if (.not. allocated(error)) call solve_on_path(beam, path, stretch, factor, state, error)
+            if (.not. allocated(error)) call find_starts(beam, state, fields, error)
         end subroutine find_state
 
     end subroutine find_released_energy

@@ -18,8 +18,8 @@ module gapbeam_smooth_arc
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, put_line
     implicit none
     private
-    public :: arc_type, arc_state_type, known_type, new_arc, solve_with_springs, deflections_in, forces_at, tangent_matrix, &
-        or_one, lose, is_lost
+    public :: arc_type, arc_state_type, known_type, new_arc, springs_at, solve_with_springs, deflections_of, forces_at, &
+        tangent_matrix, or_one, lose, is_lost
 
     !> A state on the smooth laws
     type :: arc_state_type
@@ -118,7 +118,7 @@ contains
         end if
         arc%length = dot_product(arc%along, (stop - start)/arc%weights)
         if (arc%length > 0.0_wp) then
-            call find_springs(arc)
+            arc%springs(:) = springs_at(assembled, arc%numbers, sum(arc%ends(:n, :), 2)/2)
             if (all(arc%springs > 0.0_wp .and. arc%springs <= huge(1.0_wp))) then
                 call find_responses(arc, error)
                 return
@@ -143,25 +143,29 @@ contains
         found = vector/or_one(maxval(abs(vector)))
     end function relative
 
-    !> Stiffnesses about those of the laws between the two states, none of them falling; 0 where there is none
-    pure subroutine find_springs(arc)
-        type(arc_type), intent(inout) :: arc
+    !> Stiffnesses about those of the laws at given deflections, none of them falling; 0 where there is none
+    pure function springs_at(assembled, numbers, deflection) result(springs)
+        type(assembled_type), intent(in) :: assembled
+        !> Supports of the model with smooth laws, and deflections there
+        integer, intent(in) :: numbers(:)
+        real(wp), intent(in) :: deflection(:)
+        real(wp) :: springs(size(numbers))
         real(wp) :: at(4), past, scale_of_law
         integer :: i, j, way
 
-        do j = 1, size(arc%numbers)
-            arc%springs(j) = 0.0_wp
-            associate (s => arc%assembled%model%supports(arc%numbers(j)))
-                call past_the_gap(s, sum(arc%ends(j, :))/2, past, way)
+        springs(:) = 0.0_wp
+        do j = 1, size(numbers)
+            associate (s => assembled%model%supports(numbers(j)))
+                call past_the_gap(s, deflection(j), past, way)
                 scale_of_law = law_scale(s%law, s%parameter)
                 at = [past, past/2, scale_of_law, scale_of_law/2]
                 do i = 1, size(at)
-                    if (arc%springs(j) > 0.0_wp .or. .not. at(i) > 0.0_wp) cycle
-                    arc%springs(j) = max(law_slope(s%law, s%parameter, at(i)), law_force(s%law, s%parameter, at(i))/at(i))
+                    if (springs(j) > 0.0_wp .or. .not. at(i) > 0.0_wp) cycle
+                    springs(j) = max(law_slope(s%law, s%parameter, at(i)), law_force(s%law, s%parameter, at(i))/at(i))
                 end do
             end associate
         end do
-    end subroutine find_springs
+    end function springs_at
 
     !> Solve with springs through given points
     subroutine solve_with_springs(arc, deflection, force, factor, state, error)
@@ -185,14 +189,16 @@ contains
     end subroutine solve_with_springs
 
     !> Deflections at the smooth laws
-    pure function deflections_in(arc, state) result(deflection)
-        type(arc_type), intent(in) :: arc
+    pure function deflections_of(assembled, numbers, state) result(deflection)
+        type(assembled_type), intent(in) :: assembled
+        !> Supports of the model with smooth laws
+        integer, intent(in) :: numbers(:)
         type(state_type), intent(in) :: state
-        real(wp) :: deflection(size(arc%numbers))
+        real(wp) :: deflection(size(numbers))
         integer :: j
 
-        deflection = [(deflection_at(arc%assembled, state%deflection, arc%numbers(j)), j=1, size(arc%numbers))]
-    end function deflections_in
+        deflection = [(deflection_at(assembled, state%deflection, numbers(j)), j=1, size(numbers))]
+    end function deflections_of
 
     !> Deflections due to a force at each law, and due to the live loads
     subroutine find_responses(arc, error)
@@ -208,16 +214,16 @@ contains
             none(:) = 0.0_wp
             call solve_with_springs(arc, x, none, factor, state, error)
             if (allocated(error)) return
-            still(:) = deflections_in(arc, state)
+            still(:) = deflections_of(arc%assembled, arc%numbers, state)
             call solve_with_springs(arc, x, none, factor + load, state, error)
             if (allocated(error)) return
-            arc%under_load(:) = (deflections_in(arc, state) - still)/load
+            arc%under_load(:) = (deflections_of(arc%assembled, arc%numbers, state) - still)/load
             do j = 1, n
                 force(:) = 0.0_wp
                 force(j) = arc%springs(j)*max(abs(x(j)), arc%weights(1))
                 call solve_with_springs(arc, x, force, factor, state, error)
                 if (allocated(error)) return
-                arc%flexibility(:, j) = (still - deflections_in(arc, state))/force(j)
+                arc%flexibility(:, j) = (still - deflections_of(arc%assembled, arc%numbers, state))/force(j)
             end do
         end associate
     end subroutine find_responses

@@ -6,19 +6,20 @@ module gapbeam_api_history
     use gapbeam_limits, only: most_path_segments
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
-    use gapbeam_extended_precision, only: rule_given
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_state, only: solve_state, name_range
-    use gapbeam_history, only: found_type => stretch_type, follow_path_through => follow_history, &
-        gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
+    use gapbeam_state, only: name_range
+    use gapbeam_history_record, only: runs_of, gapbeam_limit_stop => at_limit_stop, &
+        gapbeam_limit_jump => at_limit_jump, gapbeam_limit_follow => at_limit_follow, &
         gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, gapbeam_mechanism => mechanism, &
         gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off
+    use gapbeam_smooth_path, only: follow_on_laws
+    use gapbeam_path_states, only: solve_state_on_path => solve_on_path, is_exact
     use gapbeam_history_events, only: find_events
     use gapbeam_released_energy, only: find_released_energy
     use gapbeam_query, only: node_places
     use gapbeam_api_objects, only: prepared_type, result_type, history_type, stretch_type, limit_type, require_beam, &
-        require_no_ground, require_no_curves, bad_argument, make_state, summarise
+        require_no_ground, bad_argument, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path, get_released_energy
@@ -38,7 +39,8 @@ contains
         integer, intent(in) :: at_limit
         !> The loading history; that it does not come to the last factor is no error
         type(history_type), intent(out) :: history
-        !> gapbeam_bad_input; gapbeam_not_converged where the path has too many stretches, or too many supports change at once;
+        !> gapbeam_bad_input; gapbeam_not_converged where the path has too many stretches, too many supports change at once, or
+        !> equal smooth laws soften together and how the path goes on from there is not known;
         !> gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
@@ -47,14 +49,13 @@ contains
         call hold_environment(environment)
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_ground(beam, error)
-        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
         if (.not. allocated(error)) then
             allocate (history%path, stat=stat)
             if (stat /= 0) call no_memory(error)
         end if
         if (.not. allocated(error)) then
-            call follow_path_through(beam%lowered, factors, at_limit, most_path_segments, history%path, error)
+            call follow_on_laws(beam%lowered, factors, at_limit, most_path_segments, history%path, error)
             call name_range(beam%lowered, error)
         end if
         if (.not. allocated(error)) then
@@ -78,12 +79,15 @@ contains
         !> The state there
         type(result_type), intent(inout) :: result
         !> gapbeam_bad_input where the path, or the stretch, does not pass the factor, or the beam turns on the stretch or is not
-        !> loaded yet; gapbeam_not_prepared; or as for solve_beam
+        !> loaded yet; gapbeam_not_converged where it is known on the polylines of smooth laws only; gapbeam_not_prepared; or as
+        !> for solve_beam
         type(error_type), allocatable, intent(out) :: error
         !> Number of the stretch; default, or 0: the last one with the factor that is not skipped, a stable one if there is any
         integer, intent(in), optional :: stretch
         type(environment_type) :: environment
-        integer :: k, stat
+        integer, allocatable :: runs(:, :)
+        logical :: exact
+        integer :: k
 
         call hold_environment(environment)
         result%status = -1
@@ -94,15 +98,12 @@ contains
         if (.not. allocated(error)) call find_stretch(history%stretches, factor, k, error)
         if (.not. allocated(error)) call make_state(beam, result, error)
         if (.not. allocated(error)) then
-            associate (state => result%state, s => history%path%stretches(k))
-                state%closed(:) = s%closed
-                if (differ(s, beam%lowered)) then
-                    allocate (state%laws(size(s%laws)), stat=stat)
-                    if (stat == 0) state%laws(:) = s%laws
-                    if (stat /= 0) call no_memory(error)
-                end if
-                if (.not. allocated(error)) call solve_state(beam%lowered, factor, rule_given, state, error)
-            end associate
+            allocate (runs, source=runs_of(history%path))
+            call solve_state_on_path(beam%lowered, history%path, runs(2, k), factor, result%state, error, exact)
+            if (.not. (allocated(error) .or. exact)) then
+                call fatal_error(error, gapbeam_not_converged, "the state at load factor "//trim(shown(factor))//" is known on "// &
+                                 "the polylines of the smooth laws only: ask for another one, or give the laws by points")
+            end if
         end if
         if (.not. allocated(error)) call summarise(result)
     end subroutine solve_on_path
@@ -136,21 +137,6 @@ contains
         end if
         if (.not. allocated(error)) call find_released_energy(beam%lowered, history%path, limit, energy, error)
     end subroutine get_released_energy
-
-    !> Are the laws on a stretch not those of the beam any more
-    pure function differ(stretch, lowered) result(they_do)
-        type(found_type), intent(in) :: stretch
-        type(assembled_type), intent(in) :: lowered
-        logical :: they_do
-
-        they_do = allocated(stretch%laws)
-        if (.not. they_do) return
-        associate (a => stretch%laws, b => lowered%beam%supports)
-            they_do = any(a%contact < b%contact .or. a%contact > b%contact .or. a%force < b%force .or. a%force > b%force &
-                          .or. a%stiffness < b%stiffness .or. a%stiffness > b%stiffness &
-                          .or. a%before < b%before .or. a%before > b%before)
-        end associate
-    end function differ
 
     !> Refuse factors and limits that make no sense
     subroutine check_call(factors, at_limit, error)
@@ -240,26 +226,33 @@ contains
         type(history_type), intent(inout) :: history
         !> Not 0 where memory is at an end
         integer, intent(out) :: stat
+        integer, allocatable :: runs(:, :)
         integer :: k, way, nodes
+        logical :: exact
 
         associate (path => history%path)
             history%ending = path%ending
             history%solves = path%solves
             history%fingerprint = lowered%fingerprint
-            allocate (history%stretches(path%number), history%limits(size(path%limits)), stat=stat)
+            allocate (runs, source=runs_of(path))
+            allocate (history%stretches(size(runs, 2)), history%limits(size(path%limits)), stat=stat)
             if (stat /= 0) return
-            do k = 1, path%number
-                associate (s => path%stretches(k))
+            do k = 1, size(runs, 2)
+                associate (first => path%stretches(runs(1, k)), s => path%stretches(runs(2, k)))
                     way = 1
                     if (s%leg == 1) way = merge(1, -1, factors(1) > 0.0_wp)
                     if (s%leg > 1) way = merge(1, -1, factors(s%leg) > factors(s%leg - 1))
-                    history%stretches(k) = stretch_type(s%leg, s%from, s%to, s%direction, s%index == 0 .and. s%direction == way, &
-                                                        s%index, s%ways, s%skipped)
+                    history%stretches(k) = stretch_type(s%leg, first%from, s%to, s%direction, &
+                                                        s%index == 0 .and. s%direction == way, s%index, first%ways, s%skipped, &
+                                                        is_exact(path, runs(2, k)))
                 end associate
             end do
             do k = 1, size(path%limits)
                 associate (limit => path%limits(k))
-                    history%limits(k) = limit_type(limit%factor, limit%kind, limit%leg, limit%stretch, limit%landing)
+                    exact = limit%stretch == 0
+                    if (.not. exact) exact = is_exact(path, limit%stretch)
+                    history%limits(k) = limit_type(limit%factor, limit%kind, limit%leg, run_with(limit%stretch), &
+                                                   run_with(limit%landing), exact)
                 end associate
             end do
             if (allocated(path%motion)) then
@@ -270,7 +263,22 @@ contains
                 history%motion(:) = path%motion
             end if
             call find_events(lowered, path, history%events, stat)
+            if (stat /= 0) return
+            do k = 1, size(history%events)
+                history%events(k)%stretch = run_with(history%events(k)%stretch)
+            end do
         end associate
+
+    contains
+
+        !> In which run a stretch of the path is; 0 for none
+        pure function run_with(stretch)
+            integer, intent(in) :: stretch
+            integer :: run_with
+
+            run_with = findloc(runs(1, :) <= stretch .and. runs(2, :) >= stretch, .true., 1)
+        end function run_with
+
     end subroutine describe
 
 end module gapbeam_api_history

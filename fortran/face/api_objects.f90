@@ -84,6 +84,8 @@ module gapbeam_api_objects
         integer :: index, ways
         !> Is it passed in a jump, or beyond the limit at which the load stops
         logical :: skipped
+        !> Is its end on the smooth laws of the supports; not where it is known on their polylines only
+        logical :: exact
     end type stretch_type
 
     !> Where the load cannot go on
@@ -96,6 +98,8 @@ module gapbeam_api_objects
         !> As in stretch_type; last stretch before it, 0 if none; stretch on which the beam lands: the next stable state on
         !> the path at this load factor, 0 if none; dynamics may lead elsewhere
         integer :: leg, stretch, landing
+        !> As in stretch_type
+        logical :: exact
     end type limit_type
 
     !> The loading history
@@ -188,7 +192,7 @@ contains
 
         if (size(smooth_supports(beam%lowered)) == 0) return
         call fatal_error(error, gapbeam_bad_input, "the law of a support is a curve: in this version such a beam is solved "// &
-                         "with solve_beam and follow_load only; give the law by points")
+                         "with solve_beam, follow_load and follow_history only; give the law by points")
         error%table = of_supports
     end subroutine require_no_curves
 

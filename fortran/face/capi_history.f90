@@ -155,6 +155,23 @@ contains
     end function c_get_limits
 
     !> See the header
+    function c_get_exact(history, stretches, limits) result(status) bind(c, name="gapbeam_get_exact")
+        type(c_ptr), intent(in), value :: history
+        integer(c_int), intent(inout), optional :: stretches(*), limits(*)
+        integer(c_int) :: status
+        type(handle_type), pointer :: handle
+
+        status = gapbeam_not_prepared
+        call find_handle(history, history_tag, handle)
+        if (.not. associated(handle)) return
+        associate (h => handle%history)
+            if (present(stretches)) stretches(1:size(h%stretches)) = merge(1, 0, h%stretches%exact)
+            if (present(limits)) limits(1:size(h%limits)) = merge(1, 0, h%limits%exact)
+        end associate
+        status = gapbeam_solved
+    end function c_get_exact
+
+    !> See the header
     function c_get_history_motion(history, x, motion) result(status) bind(c, name="gapbeam_get_history_motion")
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: x(*), motion(*)

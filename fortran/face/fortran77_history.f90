@@ -88,6 +88,30 @@ subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lm
     end do
 end subroutine ghhget
 
+! Where a history is on the laws of supports that are curves: 1, also without curves; 0 where load factors are known on polylines of
+! these only, off by about one part in a hundred of what the curve carries, and no state is given
+subroutine ghhexa(hist, maxst, istrch, maxlim, ilimit, info)
+    use gapbeam_fortran77_info, only: handle_type, history_tag, find_first
+    implicit none
+    integer(8), intent(in) :: hist
+    ! Room for stretches and limits, 0 or more
+    integer, intent(in) :: maxst, maxlim
+    ! Of the first MAXST stretches, where they end; of the first MAXLIM limits
+    integer, intent(inout) :: istrch(*), ilimit(*)
+    ! -1, -2, -4
+    integer, intent(out) :: info
+    type(handle_type), pointer :: followed
+
+    call find_first(hist, history_tag, followed, info)
+    if (info == 0 .and. maxst < 0) info = -2
+    if (info == 0 .and. maxlim < 0) info = -4
+    if (info /= 0) return
+    associate (s => followed%history%stretches, limits => followed%history%limits)
+        istrch(:min(maxst, size(s))) = merge(1, 0, s(:min(maxst, size(s)))%exact)
+        ilimit(:min(maxlim, size(limits))) = merge(1, 0, limits(:min(maxlim, size(limits)))%exact)
+    end associate
+end subroutine ghhexa
+
 ! The motion in which a history ends
 subroutine ghhmot(hist, maxnd, xnode, motion, info)
     use gapbeam_fortran77_info, only: handle_type, history_tag, find_first
@@ -126,7 +150,7 @@ subroutine ghhsol(beam, hist, nstrch, at, state, info)
     ! The state
     integer(8), intent(in) :: state
     ! -1; -2, also of another beam, or of other loads; -3: no such stretch; -4: no state at AT on it, or on the path; -5; 1, 12 to
-    ! 15, 18
+    ! 15 (13 also where it is known on the polylines of curves only, see GHHEXA), 18
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, followed, solved
     type(error_type), allocatable :: error

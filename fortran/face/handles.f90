@@ -8,17 +8,15 @@ module gapbeam_handles
     use gapbeam_element, only: field_type
     use gapbeam_cases, only: case_loads_type
     use gapbeam_ground_events, only: ground_path_type
-    use gapbeam_smooth_arc, only: arc_type
     use gapbeam_api_objects, only: prepared_type, result_type, history_type, cases_type, passing_type
     implicit none
     private
-    public :: handle_type, beam_tag, state_tag, fields_tag, history_tag, cases_tag, passing_tag, arc_tag
+    public :: handle_type, beam_tag, state_tag, fields_tag, history_tag, cases_tag, passing_tag
     public :: handle_at, find_handle, free_handle, new_handle, finish_handle, address_of, number_of, address_numbered
 
     !> Tags tell the kinds of handle apart, and those of the library from other addresses
     integer(int64), parameter :: beam_tag = 7233173843452522818_int64, state_tag = beam_tag + 1, history_tag = beam_tag + 2, &
-                                 cases_tag = beam_tag + 3, passing_tag = beam_tag + 4, fields_tag = beam_tag + 5, &
-                                 arc_tag = beam_tag + 6
+                                 cases_tag = beam_tag + 3, passing_tag = beam_tag + 4, fields_tag = beam_tag + 5
 
     !> What is behind a handle: the tag says which of its objects there is
     type :: handle_type
@@ -34,12 +32,9 @@ module gapbeam_handles
         type(result_type), allocatable :: result
         !> Fields of a state at the left end of every piece, none on the ground: for Python, where threads share states
         type(field_type), allocatable :: starts(:)
-        !> In Python it is that of a beam, followed last
         type(history_type), allocatable :: history
         type(cases_type), allocatable :: cases
         type(passing_type), allocatable :: passing
-        !> In Python
-        type(arc_type), allocatable :: arc
     end type handle_type
 
 contains
@@ -83,7 +78,7 @@ contains
         handle => handle_at(address)
         freed = associated(handle)
         if (.not. freed) return
-        freed = handle%tag >= beam_tag .and. handle%tag <= arc_tag
+        freed = handle%tag >= beam_tag .and. handle%tag <= fields_tag
         if (present(only)) freed = handle%tag == only
         if (.not. freed) return
         ! The tag is gone before the memory is, should somebody keep the address
@@ -114,8 +109,6 @@ contains
                 allocate (handle%cases, stat=stat)
             case (passing_tag)
                 allocate (handle%passing, stat=stat)
-            case (arc_tag)
-                allocate (handle%arc, stat=stat)
             case default
             end select
             if (stat /= 0) deallocate (handle)

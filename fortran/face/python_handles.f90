@@ -1,4 +1,4 @@
-!> Objects behind handles, made for Python. But for the beam and arcs nothing is written to them once they are made, so that threads
+!> Objects behind handles, made for Python. But for the beam nothing is written to them once they are made, so that threads
 !> may share them
 module gapbeam_python_handles
     use, intrinsic :: iso_fortran_env, only: int64
@@ -12,6 +12,7 @@ module gapbeam_python_handles
     use gapbeam_assemble, only: assemble_model
     use gapbeam_state, only: solve_state
     use gapbeam_smooth_state, only: solve_on_laws
+    use gapbeam_path_states, only: audit_lines, by_tangents, with_lines, on_polylines
     use gapbeam_query, only: find_starts
     use gapbeam_train, only: uniform_type, new_track
     use gapbeam_train_path, only: pass_train
@@ -112,8 +113,9 @@ contains
         !> As for solve_state
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
-        !> On the smooth laws themselves, or on the polylines in place of them
-        logical, intent(in) :: on_laws
+        !> By_tangents on the smooth laws themselves; with_lines or on_polylines as on a path; else on the polylines, or lines, in
+        !> place of them
+        integer, intent(in) :: on_laws
         !> Scheme that the search starts from
         logical, intent(in) :: closed(:)
         type(handle_type), pointer, intent(out) :: handle
@@ -125,10 +127,13 @@ contains
         if (.not. allocated(error)) then
             associate (state => handle%result%state, lowered => beam%beam%lowered)
                 state%closed(:) = closed
-                if (on_laws) then
+                if (on_laws == by_tangents) then
                     call solve_on_laws(lowered, factor, rule, state, error)
                 else
                     call solve_state(lowered, factor, rule, state, error)
+                end if
+                if (any(on_laws == [with_lines, on_polylines]) .and. .not. allocated(error)) then
+                    call audit_lines(lowered, factor, on_laws == on_polylines, state, error)
                 end if
                 ! What is not looked at here
                 if (allocated(state%starts)) deallocate (state%starts)

@@ -59,10 +59,14 @@ subroutine gbpath(most, beam, nl, ns, limit, factor, closed, margin, events, at,
     if (allocated(outcome%motion)) motion = outcome%motion
 end subroutine gbpath
 
-! Follow the load through factors in turn, by the path itself
-subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
-    use gapbeam_python_handles, only: error_type, handle_type, behind, report
-    use gapbeam_history, only: follow_history
+! Follow the load through factors in turn, by the path itself, on smooth laws where it is known there
+subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, report
+    use gapbeam_handles, only: history_tag, new_handle, finish_handle
+    use gapbeam_error, only: no_memory
+    use gapbeam_history_record, only: runs_of
+    use gapbeam_history_events, only: find_events
+    use gapbeam_smooth_path, only: follow_on_laws
     use gapbeam_state, only: name_range
     implicit none
     integer(8), intent(in) :: beam
@@ -71,39 +75,54 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, status, message)
     double precision, intent(in) :: factor(nf)
     ! At a limit: 0 stop, 1 jump, 2 follow the path; stretches after which it is cut off
     integer, intent(in) :: limit, most
-    ! Stretches, limits, ways not taken, how it ended (gapbeam_history), linear solves; kept for GBHGET
-    integer, intent(out) :: sizes(5), status
+    ! Stretches, limits, ways not taken, runs of stretches, events, how it ended (gapbeam_history_record), linear solves
+    integer, intent(out) :: sizes(7)
+    ! Handle of the path
+    integer(8), intent(out) :: hist
+    integer, intent(out) :: status
     character(len=240), intent(out) :: message
     !f2py threadsafe
-    type(handle_type), pointer :: handle
+    type(handle_type), pointer :: handle, found
     type(error_type), allocatable :: error
+    integer :: stat
 
     handle => behind(beam)
     sizes = 0
-    if (allocated(handle%history)) deallocate (handle%history)
-    allocate (handle%history)
-    allocate (handle%history%path)
-    call follow_history(handle%beam%lowered, factor, limit, most, handle%history%path, error)
-    call name_range(handle%beam%lowered, error)
+    call new_handle(history_tag, found, error)
+    if (.not. allocated(error)) then
+        allocate (found%history%path, stat=stat)
+        if (stat == 0) call follow_on_laws(handle%beam%lowered, factor, limit, most, found%history%path, error)
+        call name_range(handle%beam%lowered, error)
+        if (stat == 0 .and. .not. allocated(error)) then
+            call find_events(handle%beam%lowered, found%history%path, found%history%events, stat)
+        end if
+        if (stat /= 0) call no_memory(error)
+    end if
+    call finish_handle(found, error)
+    hist = number_of(found)
     call report(error, status, message)
     if (allocated(error)) return
-    associate (path => handle%history%path)
-        sizes = [path%number, size(path%limits), size(path%others), path%ending, path%solves]
+    associate (path => found%history%path)
+        sizes = [path%number, size(path%limits), size(path%others), size(runs_of(path), 2), size(found%history%events), &
+                 path%ending, path%solves]
     end associate
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors, which, motion, others, scheme)
+subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, laws, factors, which, motion, others, scheme, &
+                  runs, at, events)
     use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_history, only: laws_at
+    use gapbeam_history_record, only: laws_at, runs_of
+    use gapbeam_path_states, only: is_exact
     use gapbeam_polyline, only: node_support_type
     implicit none
-    integer(8), intent(in) :: beam
-    ! Links; supports of the engine, stretches, limits and ways not taken, one more than there are
-    integer, intent(in) :: nl, ns, nh, nk, nw
-    ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump
+    integer(8), intent(in) :: beam, hist
+    ! Links; supports of the engine, stretches, limits, ways not taken, runs and events, one more than there are
+    integer, intent(in) :: nl, ns, nh, nk, nw, nr, ne
+    ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end
+    ! is on the smooth laws
     double precision, intent(out) :: along(2, nh)
-    integer, intent(out) :: about(5, nh)
+    integer, intent(out) :: about(6, nh)
     ! Scheme: 1 closed, 0 open; contact level, force, slope and slope before of every support as it has become
     integer(1), intent(out) :: closed(ns, nh)
     double precision, intent(out) :: laws(4, ns, nh)
@@ -115,11 +134,17 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
     ! Of every way not taken: stretch that was taken instead (from 1), direction, index; scheme
     integer, intent(out) :: others(3, nw)
     integer(1), intent(out) :: scheme(ns, nw)
-    type(handle_type), pointer :: handle
+    ! First and last stretch (from 1) of every part on which all supports stay on their piece, a smooth law being one
+    integer, intent(out) :: runs(2, nr)
+    ! Of every event: load factor; support of the scene (from 1), what happens as in gapbeam_pieces
+    double precision, intent(out) :: at(ne)
+    integer, intent(out) :: events(2, ne)
+    type(handle_type), pointer :: handle, found
     type(node_support_type), allocatable :: now(:)
     integer :: k
 
     handle => behind(beam)
+    found => behind(hist)
     along = 0.0d0
     about = 0
     closed = int(0, kind(closed))
@@ -127,31 +152,97 @@ subroutine gbhget(beam, nl, ns, nh, nk, nw, along, about, closed, laws, factors,
     factors = 0.0d0
     which = 0
     motion = 0.0d0
-    if (allocated(handle%history%path%motion)) motion = handle%history%path%motion
-    do k = 1, nh - 1
-        associate (s => handle%history%path%stretches(k))
-            along(:, k) = [s%from, s%to]
-            about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped)]
-            closed(:ns - 1, k) = int(merge(1, 0, s%closed), kind(closed))
-            now = laws_at(handle%beam%lowered, s)
-            laws(1, :ns - 1, k) = now%contact
-            laws(2, :ns - 1, k) = now%force
-            laws(3, :ns - 1, k) = now%stiffness
-            laws(4, :ns - 1, k) = now%before
-        end associate
-    end do
-    do k = 1, nk - 1
-        associate (limit => handle%history%path%limits(k))
-            factors(k) = limit%factor
-            which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
-        end associate
-    end do
     others = 0
     scheme = int(0, kind(scheme))
-    do k = 1, nw - 1
-        associate (way => handle%history%path%others(k))
-            others(:, k) = [way%stretch, way%direction, way%index]
-            scheme(:ns - 1, k) = int(merge(1, 0, way%closed), kind(scheme))
+    runs = 0
+    at = 0.0d0
+    events = 0
+    do k = 1, ne - 1
+        associate (event => found%history%events(k))
+            at(k) = event%factor
+            events(:, k) = [event%support, event%change]
         end associate
     end do
+    associate (path => found%history%path)
+        if (allocated(path%motion)) motion = path%motion
+        do k = 1, nh - 1
+            associate (s => path%stretches(k))
+                along(:, k) = [s%from, s%to]
+                about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped), merge(1, 0, is_exact(path, k))]
+                closed(:ns - 1, k) = int(merge(1, 0, s%closed), kind(closed))
+                now = laws_at(handle%beam%lowered, s)
+                laws(1, :ns - 1, k) = now%contact
+                laws(2, :ns - 1, k) = now%force
+                laws(3, :ns - 1, k) = now%stiffness
+                laws(4, :ns - 1, k) = now%before
+            end associate
+        end do
+        do k = 1, nk - 1
+            associate (limit => path%limits(k))
+                factors(k) = limit%factor
+                which(:, k) = [limit%kind, limit%leg, limit%stretch, limit%landing]
+            end associate
+        end do
+        do k = 1, nw - 1
+            associate (way => path%others(k))
+                others(:, k) = [way%stretch, way%direction, way%index]
+                scheme(:ns - 1, k) = int(merge(1, 0, way%closed), kind(scheme))
+            end associate
+        end do
+        runs(:, :nr - 1) = runs_of(path)
+    end associate
 end subroutine gbhget
+
+! Lines in place of smooth laws in the state at a load factor on a path
+subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_path_states, only: find_lines
+    use gapbeam_polyline, only: node_support_type
+    implicit none
+    ! With the loads of the leg: its dead ones as live ones while these are put on
+    integer(8), intent(in) :: beam, hist
+    integer, intent(in) :: ns
+    ! From 1: one of its run in, that with the scheme out
+    integer, intent(inout) :: stretch
+    double precision, intent(in) :: factor
+    ! As from GBHGET; 1 tangents lead to the state, 2 it has these lines, 3 it is known on the polylines only
+    double precision, intent(out) :: laws(4, ns)
+    integer, intent(out) :: how, status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    type(handle_type), pointer :: handle, found
+    type(error_type), allocatable :: error
+    type(node_support_type), allocatable :: lines(:)
+
+    handle => behind(beam)
+    found => behind(hist)
+    laws = 0.0d0
+    call find_lines(handle%beam%lowered, found%history%path, stretch, factor, lines, how, error)
+    call report(error, status, message)
+    if (allocated(error)) return
+    laws(1, :ns - 1) = lines%contact
+    laws(2, :ns - 1) = lines%force
+    laws(3, :ns - 1) = lines%stiffness
+    laws(4, :ns - 1) = lines%before
+end subroutine gbhlin
+
+! Energy that is set free from a limit to its landing
+subroutine gbheng(beam, hist, limit, energy, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_released_energy, only: find_released_energy
+    implicit none
+    integer(8), intent(in) :: beam, hist
+    ! From 1
+    integer, intent(in) :: limit
+    double precision, intent(out) :: energy
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
+    !f2py threadsafe
+    type(handle_type), pointer :: handle, found
+    type(error_type), allocatable :: error
+
+    handle => behind(beam)
+    found => behind(hist)
+    call find_released_energy(handle%beam%lowered, found%history%path, limit, energy, error)
+    call report(error, status, message)
+end subroutine gbheng

@@ -12,7 +12,8 @@ subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, cou
     ! Factor of the live loads; rule 0 block, 1 single, 2 CLOSED is known to be the contact state (as along a path)
     double precision, intent(in) :: factor
     integer, intent(in) :: rule
-    ! 1: on the smooth laws themselves; 0: on the polylines or lines in place of them
+    ! 1: on the smooth laws themselves; else on the polylines or lines in place of them, 2: which have to give their forces, 3: as
+    ! far as polylines do
     integer, intent(in) :: onlaws
     ! Scheme: 1 closed, 0 open; start in, contact state out
     integer, intent(inout) :: closed(ns + 1)
@@ -37,7 +38,7 @@ subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, cou
     undec = 0
     values = 0.0d0
     counts = 0
-    call keep_state(handle, factor, rule, onlaws /= 0, closed(:ns) /= 0, solved, error)
+    call keep_state(handle, factor, rule, onlaws, closed(:ns) /= 0, solved, error)
     state = number_of(solved)
     call report(error, status, message)
     if (allocated(error)) return
@@ -228,25 +229,33 @@ subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     call report(error, status, message)
 end subroutine gbextr
 
-! Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear
-subroutine gbwork(beam, one, fone, other, fother, energy)
+! Slopes of the smooth laws in a state, in the scene's units
+subroutine gbslop(beam, state, n, slope)
     use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_path_energy, only: energy_between
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at
     implicit none
-    integer(8), intent(in) :: beam
-    ! The states and their fields
-    integer(8), intent(in) :: one, fone, other, fother
-    double precision, intent(out) :: energy
-    !f2py threadsafe
-    type(handle_type), pointer :: handle, from, to, along_from, along_to
+    integer(8), intent(in) :: beam, state
+    ! Smooth laws, and one more
+    integer, intent(in) :: n
+    double precision, intent(out) :: slope(n)
+    type(handle_type), pointer :: handle, solved
+    integer, allocatable :: numbers(:)
+    double precision :: past, force
+    integer :: j, way
 
     handle => behind(beam)
-    from => behind(one)
-    to => behind(other)
-    along_from => behind(fone)
-    along_to => behind(fother)
-    energy = energy_between(handle%beam%lowered, from%result%state, along_from%starts, to%result%state, along_to%starts)
-end subroutine gbwork
+    solved => behind(state)
+    slope = 0.0d0
+    associate (lowered => handle%beam%lowered)
+        allocate (numbers, source=smooth_supports(lowered))
+        do j = 1, size(numbers)
+            associate (s => lowered%model%supports(numbers(j)))
+                call past_the_gap(s, deflection_at(lowered, solved%result%state%deflection, numbers(j)), past, way)
+                call force_and_slope(s, past, force, slope(j))
+            end associate
+        end do
+    end associate
+end subroutine gbslop
 
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)

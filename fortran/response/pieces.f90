@@ -1,12 +1,13 @@
 !> Codes for states of supports, pieces of laws and events.
 module gapbeam_pieces
     use gapbeam_kinds, only: wp
+    use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_law, only: both
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: acting_type, acting_piece, acts_in, as_one_piece, what_happens, no_change
+    public :: acting_type, acting_piece, acts_in, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
         gapbeam_unloads
@@ -68,7 +69,7 @@ contains
         if (any(closed)) acting%slope = breakpoints(count(closed))%stiffness
     end function acting_piece
 
-    !> What acts of a support of the model in a scheme
+    !> What acts of a support of the model in a scheme; a smooth law is one piece
     pure function acts_in(assembled, support, closed, laws) result(acting)
         type(assembled_type), intent(in) :: assembled
         !> Number of the support, held to the beam, and the scheme of all
@@ -85,6 +86,7 @@ contains
                 else
                     acting = acting_piece(assembled%beam%supports(first:last), side, closed(first:last))
                 end if
+                if (is_smooth(assembled%model%supports(support)%law)) acting = as_one_piece(acting)
             end associate
         end associate
     end function acts_in

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import gapbeam
 import numpy as np
-from gapbeam.engine.paths import follow_history
+from gapbeam.engine.paths import Followed
 from oracle.history import history
 from oracle.laws import follow
 from scenes.law import law_scene, symmetric_scene
@@ -64,8 +64,8 @@ def judge(made, seed=0):
 
 def path_faults(made, path):
     """How the engine's segments differ from the exact ones."""
-    found = follow_history(gapbeam.scene.reading.read_beam(made)[1], np.array([1.0]), "follow", 2000)
-    rows = [(leg, direction, index, ways, *ends) for ends, (leg, direction, index, ways, _) in
+    found = Followed(gapbeam.scene.reading.read_beam(made)[1], np.array([1.0]), "follow", 2000).history()
+    rows = [(leg, direction, index, ways, *ends) for ends, (leg, direction, index, ways, *_) in
             zip(found.along.tolist(), found.about.tolist(), strict=True)]  # fmt: skip
     ways = {special.segment: len(special.ways) for special in path.specials if len(special.ways) > 1}
     exact = [(s.leg, s.rate, s.index, ways.get(k, 1), float(s.start.factor), float(s.end.factor))

@@ -124,8 +124,10 @@ class History(NamedTuple):
         Leg, direction, stable, index, ways, skipped of every stretch.
     events : list of (float, int, str)
         Load factor, support, what happens.
-    limits : list of (float, str, int, int)
-        Load factor, kind, leg, landing.
+    limits : list of (float, str, int, int, bool)
+        Load factor, kind, leg, landing, whether it is on the smooth laws.
+    exact : list of bool
+        Whether the ends of the stretches are on the smooth laws.
     ending : str
     """
 
@@ -133,6 +135,7 @@ class History(NamedTuple):
     about: np.ndarray
     events: list
     limits: list
+    exact: list
     ending: str
 
 
@@ -322,9 +325,11 @@ class CBeam:
         assert self.c.gapbeam_get_events(self.history, pointer(at), *map(pointer, of_events)) == 0
         where, of_limits = np.empty(k), np.empty((4, k), np.int32)
         assert self.c.gapbeam_get_limits(self.history, pointer(where), *map(pointer, of_limits)) == 0
+        exact, known = np.empty(n, np.int32), np.empty(k, np.int32)
+        assert self.c.gapbeam_get_exact(self.history, pointer(exact), pointer(known)) == 0
         events = [(f, s, CHANGES[e]) for f, s, e in zip(at, of_events[0], of_events[2], strict=True)]
-        limits = [(f, KINDS_OF_LIMIT[a], leg, to) for f, a, leg, _, to in zip(where, *of_limits, strict=True)]
-        return 0, "", History(ends.T, about.T, events, limits, ENDINGS[info.ending])
+        limits = [(f, KINDS_OF_LIMIT[a], leg, to, bool(on)) for f, a, leg, _, to, on in zip(where, *of_limits, known, strict=True)]
+        return 0, "", History(ends.T, about.T, events, limits, exact.astype(bool).tolist(), ENDINGS[info.ending])
 
     def solve_on_path(self, stretch, factor):
         """Status and message of a solve on the history followed last."""
@@ -576,8 +581,13 @@ class F77Beam:
         assert self.call("ghhget", self.history, n, ends, about, m, at, of_events, k, where, of_limits) == 0
         about[:, 0] -= 1
         events = [(f, s - 1, CHANGES[e]) for f, (s, _, e, _) in zip(at, of_events, strict=True)]
-        limits = [(f, KINDS_OF_LIMIT[a], leg - 1, to - 1) for f, (a, leg, _, to) in zip(where, of_limits, strict=True)]
-        return 0, History(ends, about, events, limits, ENDINGS[ending])
+        exact, known = np.empty(n, np.int32), np.empty(k, np.int32)
+        assert self.call("ghhexa", self.history, n, exact, k, known) == 0
+        limits = [
+            (f, KINDS_OF_LIMIT[a], leg - 1, to - 1, bool(on))
+            for f, (a, leg, _, to), on in zip(where, of_limits, known, strict=True)
+        ]
+        return 0, History(ends, about, events, limits, exact.astype(bool).tolist(), ENDINGS[ending])
 
     def solve_on_path(self, stretch, factor):
         """INFO of GHHSOL for the history followed last."""

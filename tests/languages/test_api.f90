@@ -444,8 +444,13 @@ contains
         call check(size(events) == 1, "it closes")
         call check(events(1)%support == 2 .and. events(1)%state == gapbeam_branch + 1, "and has one piece then")
         call check_close(events(1)%factor, 0.01_wp/(5*3*4.0_wp**4/(384*100)), "where the beam comes to it")
-        call follow_history(beam, [1.0_wp], 0, history, error)
-        call check(error%code == gapbeam_bad_input .and. index(error%message, "curve") > 0, "its history is refused")
+        call follow_history(beam, [1.0_wp, 0.5_wp], 0, history, error)
+        call check(size(history%stretches) == 3 .and. size(history%events) == 1, "it has a history")
+        call check(all(history%stretches%exact), "on the curve")
+        call check_close(history%events(1)%factor, events(1)%factor, "with the same event")
+        call solve_on_path(beam, history, 0.7_wp, result, error, 3)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), 4*tanh(900*(deflection(2) - 0.01_wp)/4), "and its states there")
         model%supports(2)%gap = 0.0_wp
         model%supports(2)%parameter(2) = 0.0_wp
         call refuse(model, 3, 2, "law.limit: expected a finite number above 0, got 0")

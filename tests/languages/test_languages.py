@@ -214,15 +214,26 @@ def test_events_agree(library, first):
 
 def assert_same_history(found, path):
     """Everything that a history says."""
-    history = path._history
-    np.testing.assert_array_equal(found.along, history.along)
-    np.testing.assert_array_equal(found.about[:, [0, 1, 3, 4, 5]] + [1, 0, 0, 0, 0], history.about)
-    stable = {segment.number: segment.stable for segment in path.segments}
+    history, (first, last) = path._history, path._history.runs.T
+    np.testing.assert_array_equal(found.along.T, [history.along[first, 0], history.along[last, 1]])
+    about = history.about[last]
+    about[:, 3] = history.about[first, 3]
+    np.testing.assert_array_equal(found.about[:, [0, 1, 3, 4, 5]] + [1, 0, 0, 0, 0], about[:, :5])
+    assert found.exact == about[:, 5].astype(bool).tolist()
+    numbers = numbers_of(path)
+    stable = {numbers[k]: segment.stable for k, segment in enumerate(path.segments)}
     assert {k: bool(found.about[k, 2]) for k in stable} == stable
     assert found.events == [(e.factor, e.support, e.event) for e in path.events]
-    landings = (history.limits[:, 3] - 1).tolist()
-    assert found.limits == [(a.factor, a.kind, a.leg, to) for a, to in zip(path.limits, landings, strict=True)]
+    landings = [int(np.searchsorted(last, to - 1)) if to else -1 for to in history.limits[:, 3]]
+    limits = [(a.factor, a.kind, a.leg, to) for a, to in zip(path.limits, landings, strict=True)]
+    assert [limit[:4] for limit in found.limits] == limits
+    assert all(on or not limit.exact for limit, (*_, on) in zip(path.limits, found.limits, strict=True))
     assert found.ending == path.ending
+
+
+def numbers_of(path):
+    """Number of every segment among the stretches of C and Fortran 77."""
+    return [path._history.runs[:, 0].tolist().index(segment.first) for segment in path.segments]
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -264,9 +275,9 @@ def test_laws_agree(library, family):
             assert (motion is None) == (result.path.motion is None)
             if motion is not None:
                 assert list(zip(*motion, strict=True)) == result.motion
-            for step, segment in zip(result.steps, result.path.segments, strict=True):
-                assert beam.solve_on_path(segment.number, step.factor) == (0, "")
-                assert f77.solve_on_path(segment.number, step.factor) == 0
+            for step, number in zip(result.steps, numbers_of(result.path), strict=True):
+                assert beam.solve_on_path(number, step.factor) == (0, "")
+                assert f77.solve_on_path(number, step.factor) == 0
                 np.testing.assert_array_equal(beam.at_supports()[0], step.reaction)
             if result.steps:
                 assert_same_state(beam, f77, result, scene, random.Random(seed))
@@ -479,6 +490,74 @@ def test_laws_of_supports_by_name_agree(library, seed):
     assert {state for _, k, state in events if k in smooth} <= {0, 3, 11}
 
 
+def soft_scene(seed):
+    """Supports with cubics whose forces fall, beside others, and load factors in turn."""
+    rng = np.random.default_rng(seed)
+    supports, total = [{"node": 0}, {"node": 2}], 0.0
+    for x in (1.0, 2.5, 4.0)[: int(rng.integers(1, 4))]:
+        size, k1 = float(rng.choice([0.01, 0.03])), float(rng.uniform(100.0, 3e3))
+        law = {"type": "cubic", "k1": k1, "k2": -float(rng.uniform(1.6, 1.99)) * k1 / size, "k3": k1 / size**2}
+        total += k1 * size
+        supports.append({"x": x, "side": str(rng.choice(["below", "both"])), "law": law})
+    other = [{"law": NAMED[0]}, {"law": {"type": "brittle", "stiffness": 500.0, "limit": 4.0}}, {"stiffness": 50.0, "gap": 0.02},
+             {"law": {"type": "plastic", "stiffness": 500.0, "limit": 4.0}, "unloading": "plastic"}]  # fmt: skip
+    supports.append({"x": 3.0, "side": "below", **other[seed % 4]})
+    history = [[1.0], [1.0, 0.0], [0.6, -0.3, 1.0], [1.0, 0.0, 0.8]][int(rng.integers(4))]
+    return {
+        "beam": {"spans": [2.0, 3.0], "EI": float(rng.choice([10.0, 100.0]))}, "supports": supports,
+        "loads": [
+            {"type": "force", "x": 2.0, "F": total * float(rng.uniform(0.5, 1.5))}, {"type": "uniform", "q": 0.5, "case": "dead"},
+        ],
+        "analysis": {"follow": "events", "at_limit": ("stop", "jump", "follow")[seed % 3], "history": history},
+    }  # fmt: skip
+
+
+def test_histories_on_curves_agree(library):
+    """Paths past limit points, whole histories, their states and energies have the digits of Python."""
+    kinds, rough, events, refused = set(), 0, 0, 0
+    for seed in range(60):
+        scene = soft_scene(seed)
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        status, message, found = beam.follow_history(scene["analysis"]["history"], scene["analysis"]["at_limit"])
+        info, found_f77 = f77.follow_history(scene["analysis"]["history"], scene["analysis"]["at_limit"])
+        if isinstance(result, EngineError):
+            refused += 1
+            assert status > 10 or "the path leads to a reaction" in str(result)
+            assert status < 10 or message in str(result)
+            continue
+        assert (status, message, info) == (0, "", 0), seed
+        assert_same_history(found, result.path)
+        assert_same_history(found_f77, result.path)
+        for k, limit in enumerate(result.limits):
+            kinds.add((limit.kind, limit.exact))
+            if limit.leg >= 0 and limit.landing is not None:
+                assert [*beam.released(k), *f77.released(k)] == [0, limit.released] * 2
+        events += len(result.events)
+        for step, segment, number in zip(result.steps, result.path.segments, numbers_of(result.path), strict=True):
+            assert (step.exact, segment.exact) == (found.exact[number],) * 2
+            there = [step.factor, 0.3 * segment.start + 0.7 * segment.stop]
+            for factor in there:
+                state = result.path.step(segment, factor)
+                status, message = beam.solve_on_path(number, factor)
+                if not state.exact:
+                    assert (status, f77.solve_on_path(number, factor)) == (13, 13)
+                    assert "is known on the polylines of the smooth laws only" in message
+                    rough += 1
+                    continue
+                assert (status, message, f77.solve_on_path(number, factor)) == (0, "", 0), seed
+                for one in (beam, f77):
+                    reaction, deflection, *_ = one.at_supports()
+                    np.testing.assert_array_equal([reaction, deflection], [state.reaction, state.deflection])
+        beam.close()
+    assert ("limit", True) in kinds
+    assert rough > 0
+    assert events > 20
+    assert refused < 15
+
+
 def test_wrong_laws_of_supports_by_name_are_refused(library):
     scene = {"beam": {"spans": [6.0], "EI": 3e3}, "supports": [{"node": 0}, {"node": 1, "law": NAMED[0]}], "loads": []}
     for key, value, words in (
@@ -489,9 +568,3 @@ def test_wrong_laws_of_supports_by_name_are_refused(library):
         assert words in library.prepare(scene)[1]
         f77 = F77Beam(library, scene)
         assert (f77.info_, f77.entry[0]) == (-16, 2)
-    scene["supports"][1]["law"] = NAMED[0]
-    beam, _ = library.prepare(scene)
-    status, words, history = beam.follow_history([1.0], "stop")
-    assert status != 0
-    assert "law" in words
-    assert history is None

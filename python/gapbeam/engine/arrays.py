@@ -208,7 +208,8 @@ class History:
         Load factors at both ends of the stretches, n by 2.
     about : numpy.ndarray of int
         Leg (0 while the dead loads are put on, then from 1), direction (1 rising, -1 falling, 0 turning at constant load), number
-        of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump; n by 5.
+        of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump, 1 if its end is on the
+        smooth laws; n by 6.
     closed : numpy.ndarray of int
         Schemes, n by supports of the engine.
     breakpoints : numpy.ndarray
@@ -221,6 +222,12 @@ class History:
         Ways not taken at ties: stretch that was taken instead (from 1), direction, number of ways of giving way; k by 3.
     other_schemes : numpy.ndarray of int
         Their schemes, k by supports of the engine.
+    runs : numpy.ndarray of int
+        First and last stretch of every part on which all supports stay on their piece, a smooth law being one; r by 2.
+    event_factors : numpy.ndarray
+        Load factors at which something happens to a support.
+    events : numpy.ndarray of int
+        Number of the support in the scene, and what happens, as gapbeam_pieces numbers it; e by 2.
     ending : str
         How it ended: one of ENDINGS; empty at the last factor.
     motion : numpy.ndarray or None
@@ -237,6 +244,9 @@ class History:
     limits: np.ndarray
     others: np.ndarray
     other_schemes: np.ndarray
+    runs: np.ndarray
+    event_factors: np.ndarray
+    events: np.ndarray
     ending: str
     motion: np.ndarray | None
     solves: int

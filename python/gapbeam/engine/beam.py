@@ -23,6 +23,9 @@ GIVEN = "given"
 """Instead of a rule: the scheme is known, as along a path."""
 RULE_GIVEN, RULE_EXTENDED = 2, 3
 """Its code, as in gapbeam_extended_precision, and that where lines are followed beyond where it holds, as tangents are."""
+ON_LINES, BY_TANGENTS, WITH_LINES, ON_POLYLINES = 0, 1, 2, 3
+"""How a state meets smooth laws: on the polylines, or lines, in place of them; by tangents on the laws themselves; on lines that
+have to give their forces; on polylines, as far as these give them. The last three as in gapbeam_path_states."""
 METHODS = ("block tridiagonal mixed", "three-moment", "mixed with pivoting")
 """What was solved, as in gapbeam_system."""
 LAW_ROW, FIRST_CURVE = 6, 3
@@ -171,7 +174,7 @@ class Beam(Layout):
         same = same and (self._factors is None or np.array_equal(self._factors, other._factors))
         return self is other or (same and (not self.has_laws or np.array_equal(self.breakpoints, other.breakpoints)))
 
-    def solve(self, factor: float, rule: str, closed: np.ndarray, on_laws: bool = False) -> Solution:
+    def solve(self, factor: float, rule: str, closed: np.ndarray, on_laws: int = ON_LINES) -> Solution:
         """Find the contact state at one load factor.
 
         Parameters
@@ -182,8 +185,8 @@ class Beam(Layout):
             How the contact state is found; GIVEN where it is known.
         closed : numpy.ndarray of int
             Starting scheme, one entry per support; left as it is.
-        on_laws : bool
-            Whether smooth laws are met themselves, or the polylines or lines in place of them.
+        on_laws : {ON_LINES, BY_TANGENTS, WITH_LINES, ON_POLYLINES}
+            How smooth laws are met.
 
         Returns
         -------
@@ -209,7 +212,7 @@ class Beam(Layout):
             state,
         )  # fmt: skip
 
-    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: bool) -> _engine.Owned:
+    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: int) -> _engine.Owned:
         """Solve a state once more.
 
         Parameters

@@ -170,7 +170,7 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
 
 
 class Owned(int):
-    """A number by which the compiled layer knows an object: a beam, room for its cases, a state, the fields of one, a train.
+    """A number by which the compiled layer knows an object: a beam, room for its cases, a state, its fields, a path, a train.
 
     The object is freed with the last reference to the number; calls that go on after Ctrl-C keep theirs. Nothing of it is written
     in Python, which hears signals between its own instructions: a Ctrl-C inside `__del__` would be printed and lost. The property
@@ -225,9 +225,9 @@ def _solve(beam: Handle, links: int, *about: Any) -> tuple:
     return *found, Owned(state), status, message
 
 
-def _make_arc(beam: Handle, links: int, *about: Any) -> tuple:
-    arc, status, message = _engine.gbamak(beam, *about)
-    return Owned(arc), status, message
+def _follow(beam: Handle, *about: Any) -> tuple:
+    sizes, path, status, message = _engine.gbhist(beam, *about)
+    return sizes, Owned(path), status, message
 
 
 def _recover(beam: Handle, pieces: int, state: Owned) -> tuple:
@@ -254,14 +254,9 @@ gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)
 gbsolv = interruptible(_solve, lambda beam, links, *_: SHORT if beam.has_curves else links)
 gbpath = interruptible(_engine.gbpath)
-gbhist = interruptible(_engine.gbhist)
-gbamak = interruptible(_make_arc, lambda beam, links, *_: links)
-gbaget = interruptible(lambda beam, links, *about: _engine.gbaget(*about), lambda beam, links, *_: links)
-gbaroo = interruptible(lambda beam, links, *about: _engine.gbaroo(*about), lambda beam, links, *_: links)
-gbalok = interruptible(lambda beam, links, *about: _engine.gbalok(*about), lambda beam, links, *_: links)
-gbaeig = interruptible(lambda beam, links, *about: _engine.gbaeig(*about), lambda *_: 0)
-gbabra = interruptible(lambda beam, links, *about: _engine.gbabra(*about), lambda beam, links, *_: links)
-gbafac = interruptible(lambda beam, links, *about: _engine.gbafac(*about), lambda beam, links, *_: links)
+gbhist = interruptible(_follow)
+gbhlin = interruptible(lambda beam, links, *about: _engine.gbhlin(beam, *about), lambda beam, links, *_: links)
+gbheng = interruptible(_engine.gbheng)
 gbgpth = interruptible(_engine.gbgpth)
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
 gbreco = interruptible(_recover, lambda beam, pieces, *_: pieces)
@@ -276,7 +271,7 @@ gbextr = interruptible(
     lambda beam, pieces, stretches, *_: _on_ground(beam, stretches) if stretches else pieces,
 )
 gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
-gbwork = interruptible(lambda beam, pieces, *about: _engine.gbwork(beam, *about), lambda beam, pieces, *_: pieces)
+gbslop = _engine.gbslop
 gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
 gbcomb = interruptible(_engine.gbcomb)
 gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from ..base.errors import check_status
 from . import calls as _engine
 from .arrays import GroundChanges, History, Stretch, extended
 from .beam import RULES, Beam
-from .states import Solution
 
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 ENDINGS = ("", "limit", "bifurcation", "mechanism", "ended", "cut off")
@@ -54,39 +55,109 @@ def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.n
     return Stretch(status, factor, closed[:m], marginal[:m], *events, motion, solves, nodes)
 
 
-def follow_history(beam: Beam, factors: np.ndarray, at_limit: str, most: int) -> History:
-    """Put on the dead loads and go through load factors in turn, by the path itself.
+class Followed:
+    """A path in the compiled layer; pickled by what it is followed from, and followed again when it is looked at after that.
 
     Parameters
     ----------
     beam : Beam
         The beam.
     factors : numpy.ndarray
-        Load factors.
+        Load factors that it goes to.
     at_limit : {"stop", "jump", "follow"}
         What to do where the load cannot go on.
     most : int
         Stretches after which the path is cut off.
-
-    Returns
-    -------
-    History
-
-    Raises
-    ------
-    EngineError
-        More breakpoints at one factor than can be tried, or numbers out of range.
     """
-    sizes, status, message = _engine.gbhist(beam.handle, factors, AT_LIMIT[at_limit], most)
-    check_status(status, message)
-    count, limits, others, ending, solves = sizes.tolist()
-    along, about, closed, breakpoints, where, which, motion, ways, schemes = _engine.gbhget(
-        beam.handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1
-    )
-    return History(
-        along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(breakpoints, 2, 0)[:count, :, :-1], where[:limits],
-        which.T[:limits], ways.T[:others], schemes.T[:others, :-1], ENDINGS[ending], motion if motion.any() else None, solves,
-    )  # fmt: skip
+
+    def __init__(self, beam: Beam, factors: np.ndarray, at_limit: str, most: int):
+        self.beam, self.factors, self.at_limit, self.most = beam, factors, at_limit, most
+
+    def __reduce__(self) -> tuple:
+        """Pickle by what it is followed from."""
+        return type(self), (self.beam, self.factors, self.at_limit, self.most)
+
+    @cached_property
+    def _found(self) -> tuple[np.ndarray, _engine.Owned]:
+        sizes, handle, status, message = _engine.gbhist(self.beam.handle, self.factors, AT_LIMIT[self.at_limit], self.most)
+        check_status(status, message)
+        return sizes, handle
+
+    def history(self) -> History:
+        """Give what there is along the path.
+
+        Returns
+        -------
+        History
+
+        Raises
+        ------
+        EngineError
+            More breakpoints at one factor than can be tried, numbers out of range, or what cannot be told on smooth laws.
+        """
+        beam, (sizes, handle) = self.beam, self._found
+        count, limits, others, runs, events, ending, solves = sizes.tolist()
+        along, about, closed, breakpoints, where, which, motion, ways, schemes, parts, at, happens = _engine.gbhget(
+            beam.handle, handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1, runs + 1, events + 1
+        )
+        return History(
+            along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(breakpoints, 2, 0)[:count, :, :-1],
+            where[:limits], which.T[:limits], ways.T[:others], schemes.T[:others, :-1], parts.T[:runs] - 1, at[:events],
+            happens.T[:events] - (1, 0), ENDINGS[ending], motion if motion.any() else None, solves,
+        )  # fmt: skip
+
+    def lines(self, beam: Beam, stretch: int, factor: float) -> tuple[np.ndarray, int, int]:
+        """Find lines in place of smooth laws in the state at a load factor.
+
+        Parameters
+        ----------
+        beam : Beam
+            With the loads of the leg: its dead ones as live ones while these are put on.
+        stretch : int
+            One of its run, from 0.
+        factor : float
+            The load factor.
+
+        Returns
+        -------
+        breakpoints : numpy.ndarray
+            As `Beam.breakpoints`.
+        stretch : int
+            That with the scheme.
+        how : int
+            BY_TANGENTS, WITH_LINES or ON_POLYLINES.
+
+        Raises
+        ------
+        EngineError
+            Memory is at an end.
+        """
+        at = np.array(stretch + 1, dtype=np.int32)
+        laws, how, status, message = _engine.gbhlin(beam.handle, beam.links, self._found[1], beam.supports + 1, at, factor)
+        check_status(status, message)
+        return laws[:, :-1], int(at) - 1, how
+
+    def released(self, limit: int) -> float:
+        """Tell how much energy is set free from a limit to its landing.
+
+        Parameters
+        ----------
+        limit : int
+            Which one, from 0.
+
+        Returns
+        -------
+        float
+            Force times length.
+
+        Raises
+        ------
+        EngineError
+            A state that does not stand its audit.
+        """
+        energy, status, message = _engine.gbheng(self.beam.handle, self._found[1], limit + 1)
+        check_status(status, message)
+        return float(energy)
 
 
 def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
@@ -119,21 +190,3 @@ def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
         at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
         float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
     )  # fmt: skip
-
-
-def energy_between(one: Solution, other: Solution) -> float:
-    """Energy that is set free on the way from one state of a path to another, along which all but smooth laws is linear.
-
-    Parameters
-    ----------
-    one, other : Solution
-        The states, with the same loads.
-
-    Returns
-    -------
-    float
-        Force times length.
-    """
-    beam = one.state.beam
-    states = (part for solution in (one, other) for part in (solution.state.handle, solution.state.fields))
-    return float(_engine.gbwork(beam.handle, beam.pieces, *states))

@@ -40,15 +40,15 @@ class State:
         Where the search for it starts.
     stretches, layers : int
         Of a beam on the ground its stretches, and most layers under one of them; else 0.
-    on_laws : bool
-        Whether it is on the smooth laws themselves.
+    on_laws : int
+        How it meets smooth laws, as `Beam.solve`.
     handle : Owned, optional
         Of the state.
     """
 
     def __init__(
         self, beam: Beam, factor: float, code: int, start: np.ndarray, stretches: int, layers: int,
-        on_laws: bool, handle: _engine.Owned | None = None,
+        on_laws: int, handle: _engine.Owned | None = None,
     ):  # fmt: skip
         self.beam, self.factor, self.code, self.start = beam, factor, code, read_only(start)
         self.stretches, self.layers, self.on_laws = stretches, layers, on_laws
@@ -201,6 +201,16 @@ class Solution(Record):
             return same
         pairs = [(getattr(self, name), getattr(other, name)) for name in ON_DEMAND]
         return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs) and self.ground == other.ground
+
+    def slopes(self) -> np.ndarray:
+        """Give the slopes of the smooth laws in the scene's units, in the order of `Beam.curves`.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        beam = self.state.beam
+        return _engine.gbslop(beam.handle, self.state.handle, len(beam.curves) + 1)[:-1]
 
     @property
     def deflection(self) -> np.ndarray:

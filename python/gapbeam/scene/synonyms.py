@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
 KEYS = {
@@ -46,6 +47,8 @@ VALUES = {
 """What was probably meant by a value, by its key and the value in lower case."""
 LAW = '{ type = "tanh", stiffness = 2e4, limit = 90.0 }'
 """An example of a law of the ground by name."""
+TAPERED = re.compile(r"(sections\[\d+\]|beam)\.(EI|GA|EA)(\[\d+\])?")
+"""Places of stiffnesses, where a pair or a table was probably meant as one that changes along the beam."""
 LONGEST = 30
 """Characters of a text that is read as a number, to be written again."""
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>[A-Za-z][\w ^*/.-]*)?")
@@ -103,6 +106,8 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
     key = place.rpartition(".")[2]
     if place.rpartition("[")[0].endswith(".axles"):
         return "; an axle is [distance behind the first axle, force]"
+    if TAPERED.fullmatch(place) and isinstance(value, list | tuple | Mapping) and len(value) > 1:
+        return "; stiffness that changes along a stretch is not available: short sections, each of one number, come close"
     if not isinstance(value, str | bool):
         return ""
     if key == "law" and place.startswith("foundation"):

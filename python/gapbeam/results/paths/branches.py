@@ -10,22 +10,18 @@ import numpy as np
 
 from ...base.errors import EngineError, Status
 from ...base.records import Pickled, read_only
-from ...engine.arrays import History
-from ...engine.beam import GIVEN, Beam
-from ...engine.paths import ENDINGS, energy_between, follow_history
+from ...engine.beam import BY_TANGENTS, GIVEN, ON_POLYLINES, Beam
+from ...engine.paths import ENDINGS, Followed
 from ...engine.tolerances import MOST_PATH_SEGMENTS
-from ..state.breakpoints import piece_of, what_happens
+from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.step import Step
 from .branch_segments import BranchSegment, Limit, OtherWay
-from .curved import CurvedPath
 from .path import Event
 
 if TYPE_CHECKING:
     from ...scene.structs import Scene
     from ..result import Result
 
-BEYOND = 0.1
-"""By what share the polylines of smooth laws are followed further, where on the laws the load does not come to its end."""
 CURVE = 25
 """States of a segment with smooth laws in a picture."""
 DIRECTIONS = {1: "rising", -1: "falling", 0: "turning"}
@@ -52,11 +48,10 @@ class BranchPath(Pickled):
         Time of these.
     """
 
-    def __init__(self, scene: Scene, beam: Beam, history: History, seconds: float, curved: CurvedPath | None = None):
-        self._beam = beam
-        self._curved = curved
-        self._dead = beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
-        self._history = history = history if curved is None else curved.history
+    def __init__(self, scene: Scene, followed: Followed, seconds: float):
+        self._followed, self._beam = followed, followed.beam
+        self._history = history = followed.history()
+        self._dead = self._beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
         self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
         self.ending = history.ending
         self.motion = history.motion
@@ -67,15 +62,15 @@ class BranchPath(Pickled):
     def _segments(self) -> list[BranchSegment]:
         found: list[BranchSegment] = []
         path, h = 0.0, self._history
-        for first, last in [(k, k) for k in range(len(h.about))] if self._curved is None else self._curved.runs:
-            leg, direction, index, _, skipped = h.about[last].tolist()
+        for first, last in h.runs.tolist():
+            leg, direction, index, _, skipped, exact = h.about[last].tolist()
             if skipped or leg == 0 or direction == 0:
                 continue
             start, stop = float(h.along[first, 0]), float(h.along[last, 1])
             path += abs(stop - start)
             stable = index == 0 and direction == self._ways[leg - 1]
-            exact = self._curved is None or self._curved.is_exact(last)
-            found.append(BranchSegment(start, stop, 0, first, last, leg - 1, path, stable, index, self._others(first), exact))
+            others = self._others(first)
+            found.append(BranchSegment(start, stop, 0, first, last, leg - 1, path, stable, index, others, bool(exact)))
         return found
 
     def _others(self, k: int) -> tuple[OtherWay, ...]:
@@ -92,34 +87,8 @@ class BranchPath(Pickled):
         beam, h = self._beam, self._history
         x = beam.node_x[beam.places.support_nodes]
         places = dict(zip(beam.numbers.tolist(), x.tolist(), strict=True))
-        found: list[Event] = []
-        before = None
-        passed: list[tuple[int, str]] = []
-        for k, (leg, direction, *_, skipped) in enumerate(h.about.tolist()):
-            if skipped:
-                # What is passed in a jump happens where it begins
-                passed += self._changes(k - 1, k)
-                before = k
-                continue
-            factor = float(h.along[k, 0])
-            if direction == 0 and k + 1 < len(h.about):
-                held = np.flatnonzero(h.closed[k + 1] > h.closed[k])
-                if leg > 0 and len(held):
-                    number = int(beam.numbers[held[0]])
-                    found.append(Event(factor, number, places[number], "turns"))
-            if before is not None and leg > 0:
-                changes, passed = [*passed, *self._changes(before, k)], []
-                at_start = factor == 0.0 and self._leg_begins(k) and leg == 1
-                found += [Event(factor, i, places[i], what) for i, what in changes if not at_start]
-            before = k
-        if passed and self._history.limits.size:
-            # The path ends at a limit: what happens there is all that happens
-            limit = self.limits[-1]
-            found += [Event(limit.factor, i, places[i], what) for i, what in limit.causes]
-        return found
-
-    def _leg_begins(self, k: int) -> bool:
-        return k == 0 or self._history.about[k, 0] != self._history.about[k - 1, 0]
+        happens = zip(h.event_factors.tolist(), h.events.tolist(), strict=True)
+        return [Event(factor, support, places[support], EVENTS[what]) for factor, (support, what) in happens]
 
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
@@ -143,31 +112,13 @@ class BranchPath(Pickled):
     @cached_property
     def limits(self) -> list[Limit]:
         """Where the load could not go on."""
-        found = []
-        for factor, (kind, leg, before, landing) in zip(
-            self._history.limit_factors.tolist(), self._history.limits.tolist(), strict=True
-        ):
-            causes = self._changes(before - 1, before) if 0 < before < len(self._history.about) else []
+        found, h = [], self._history
+        for j, (factor, (kind, leg, before, landing)) in enumerate(zip(h.limit_factors.tolist(), h.limits.tolist(), strict=True)):
+            causes = self._changes(before - 1, before) if 0 < before < len(h.about) else []
             step = self._step(landing - 1, factor) if landing and (leg > 0 or self._dead is not None) else None
-            released = None if step is None else self._released(before, landing, factor)
-            is_known = self._curved is None or before == 0 or self._curved.is_exact(before - 1)
-            exact = is_known and (step is None or step.exact)
+            released = None if step is None else self._followed.released(j)
+            exact = (before == 0 or bool(h.about[before - 1, 5])) and (step is None or step.exact)
             found.append(Limit(factor, ENDINGS[kind], leg - 1, tuple(causes), step, released, exact))
-        return found
-
-    def _released(self, before: int, landing: int, factor: float) -> float:
-        """Energy that is set free from a limit to the landing: along a path it changes by the work of the loads only."""
-        found, h = 0.0, self._history
-        runs = [(k, k) for k in range(before, landing)]
-        if self._curved is not None:
-            runs = [(max(a, before), min(b, landing - 1)) for a, b in self._curved.runs if a < landing and b >= before]
-        for first, last in runs:
-            # In a jump the landing is said to begin at the factor of the limit
-            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
-            if last == landing - 1:
-                start, stop = float(h.along[first - 1, 1]), factor
-            if start != stop:
-                found += energy_between(self._step(first, start).solution, self._step(last, stop).solution)
         return found
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
@@ -202,7 +153,7 @@ class BranchPath(Pickled):
             In the order of the path; the last one need not be at the greatest load factor.
         """
         # Closer at both ends, where the load may turn round
-        share = (1.0 - np.cos(np.linspace(0.0, np.pi, 2 if self._curved is None else CURVE))) / 2
+        share = (1.0 - np.cos(np.linspace(0.0, np.pi, CURVE if self._beam.curves else 2))) / 2
         between = (segment.start + share * (segment.stop - segment.start))[1:-1].tolist()
         factors = [segment.start, *between, segment.stop]
         return [self._step(segment.number if k else segment.first, factor) for k, factor in enumerate(factors)]
@@ -252,16 +203,24 @@ class BranchPath(Pickled):
         -------
         bool
         """
-        return segment.first > 0 and bool(self._history.about[segment.first - 1, -1])
+        return segment.first > 0 and bool(self._history.about[segment.first - 1, 4])
 
     def _beam_at(self, k: int) -> Beam:
-        beam = self._beam if self._history.about[k, 0] else self._dead
-        return beam.with_breakpoints(self._history.breakpoints[k])
+        return self._loaded(k).with_breakpoints(self._history.breakpoints[k])
+
+    def _loaded(self, k: int) -> Beam:
+        """The beam with the loads of the leg of a stretch."""
+        return self._beam if self._history.about[k, 0] else self._dead
 
     def _step(self, k: int, factor: float) -> Step:
-        if self._curved is not None:
-            return self._curved.step(k, factor)
-        return Step(self._beam_at(k), factor, GIVEN, read_only(self._history.closed[k].astype(np.int32)))
+        if not self._beam.curves:
+            return Step(self._beam_at(k), factor, GIVEN, self._scheme(k))
+        breakpoints, k, how = self._followed.lines(self._loaded(k), k, factor)
+        beam = self._loaded(k).with_breakpoints(breakpoints)
+        return Step(beam, factor, GIVEN, self._scheme(k), settled=how != BY_TANGENTS, exact=how != ON_POLYLINES)
+
+    def _scheme(self, k: int) -> np.ndarray:
+        return read_only(self._history.closed[k].astype(np.int32))
 
     def find(self, factor: float) -> BranchSegment | None:
         """Find the segment that a load factor belongs to, as `Path.find`."""
@@ -284,22 +243,8 @@ def follow_branches(result: Result) -> BranchPath:
     begin = perf_counter()
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
-    stops = analysis.at_limit == "stop"
-    at_limit = "jump" if stops and result._beam.curves else analysis.at_limit
-    history = follow_history(result._beam, factors, at_limit, MOST_PATH_SEGMENTS)
-    curved = CurvedPath(result._beam, history, factors[-1], stops) if result._beam.curves else None
-    if curved is not None and curved.unreached == len(factors):
-        # The limit load that keeps it from there lies beyond on the polylines
-        further = np.append(factors[:-1], factors[-1] + BEYOND * (factors[-1] - np.append(0.0, factors)[-2]))
-        history = follow_history(result._beam, further, at_limit, MOST_PATH_SEGMENTS)
-        curved = CurvedPath(result._beam, history, factors[-1], stops)
-    if curved is not None and curved.unreached is not None:
-        which = f"load factor {factors[curved.unreached - 1]:g} is" if curved.unreached else "the dead loads are"
-        raise EngineError(
-            f"{which} so near a limit load that the smooth laws of the supports cannot be followed there: change it a little",
-            Status.NOT_CONVERGED,
-        )
-    path = BranchPath(result.scene, result._beam, history, perf_counter() - begin, curved)
+    followed = Followed(result._beam, factors, analysis.at_limit, MOST_PATH_SEGMENTS)
+    path = BranchPath(result.scene, followed, perf_counter() - begin)
     if path.ending == "cut off":
         raise EngineError(
             f"the path has more than {MOST_PATH_SEGMENTS:,} stretches: shorten the history, or follow it in parts",

@@ -15,20 +15,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ...base.records import Pickled, read_only
-from ...engine.beam import SOLVED, Beam
+from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LINES, Beam
 from ...engine.case_certificates import BOUNDED
 from ...engine.states import Solution
 from ...engine.units import bound_in_scene, scaled
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
-from .smooth import SmoothLaws
 from .state_extremes import extremes_of_state
 
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
-ON_LAWS, ON_POLYLINES = 1e-6, 0.05
-"""Shares of the largest reaction by which a force may be beside its smooth law: far above rounding; what polylines leave out."""
 
 
 class Known(NamedTuple):
@@ -80,11 +77,10 @@ class Step(Pickled):
     @cached_property
     def _solved(self) -> tuple[Solution, float]:
         begin = perf_counter()
-        on_laws = bool(self._beam.curves) and not self._settled
-        solution = self._beam.solve(self.factor, self._rule, self._start, on_laws)
-        if self._beam.curves and self._settled:
-            SmoothLaws(self._beam).audit(solution, self.factor, ON_LAWS if self.exact else ON_POLYLINES)
-        return solution, perf_counter() - begin
+        how = ON_LINES
+        if self._beam.curves:
+            how = (WITH_LINES if self.exact else ON_POLYLINES) if self._settled else BY_TANGENTS
+        return self._beam.solve(self.factor, self._rule, self._start, how), perf_counter() - begin
 
     @property
     def solution(self) -> Solution:

@@ -33,7 +33,6 @@ from ...scene.structs import Foundation, Scene, Support
 from ..envelopes.envelope import AT_SUPPORTS
 from ..state.breakpoints import piece_of
 from ..state.ground import TOUCHING, Contact
-from ..state.smooth import SmoothLaws
 
 if TYPE_CHECKING:
     from .trains import TrainState
@@ -108,11 +107,8 @@ def _slopes(state: TrainState, beam: Beam) -> list[float]:
     for k in beam.laws if beam.has_laws else ():
         slope = piece_of(beam, k, state.closed, beam.breakpoints).slope
         found[k] = float(scaled(np.float64(slope), units.force - units.deflection))
-    if beam.curves:
-        laws = SmoothLaws(beam)
-        _, slopes = laws.forces_and_slopes(laws.past_the_gap(laws.deflections(state.solution))[0])
-        for (k, _), slope in zip(beam.curves, slopes.tolist(), strict=True):
-            found[k] = slope
+    for (k, _), slope in zip(beam.curves, state.solution.slopes().tolist(), strict=True):
+        found[k] = slope
     return found
 
 

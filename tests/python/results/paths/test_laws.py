@@ -12,7 +12,7 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam import EngineError, SceneError
-from gapbeam.engine.paths import follow_history
+from gapbeam.engine.paths import Followed
 from oracle.history import history
 from oracle.laws import follow
 from scenes.law import law_scene, symmetric_scene
@@ -251,9 +251,9 @@ def test_what_does_not_go_together():
 def stretches(scene, factors=(1.0,)):
     """The path of the engine: leg, from, to, direction, index, ways on there were at the beginning."""
     beam = gapbeam.scene.reading.read_beam(scene)[1]
-    found = follow_history(beam, np.array(factors), "follow", 2000)
+    found = Followed(beam, np.array(factors), "follow", 2000).history()
     both = zip(found.along.tolist(), found.about.tolist(), strict=True)
-    rows = [(leg, *ends, direction, index, ways) for ends, (leg, direction, index, ways, _) in both]
+    rows = [(leg, *ends, direction, index, ways) for ends, (leg, direction, index, ways, *_) in both]
     return rows, found.ending
 
 
