@@ -25,14 +25,12 @@ OF_SUPPORTS = {
 _BELOW = 'a support that lies under the beam and lets it lift off is "below"'
 _BOTH = 'one that holds the beam up and down is "both", one from which it can lift off "below"'
 _EITHER = f'{_BELOW}, one that holds it down only is "above"'
-_NO_AXIAL_SIDE = 'an axial support that pushes one way only is not available in this version'
 VALUES = {
     ("side", "down"): _EITHER, ("side", "up"): _EITHER, ("side", "bottom"): _BELOW, ("side", "lower"): _BELOW,
     ("side", "under"): _BELOW,
     ("side", "compression"): _BELOW, ("side", "top"): 'did you mean "above"?', ("side", "upper"): 'did you mean "above"?',
     ("side", "tension"): 'one that holds the beam down only is "above"', ("side", "roller"): _BOTH, ("side", "pin"): _BOTH,
     ("side", "pinned"): _BOTH, ("side", "hinged"): _BOTH, ("side", "fixed"): f'{_BOTH}; rotation = "fixed" clamps it',
-    ("side", "left"): _NO_AXIAL_SIDE, ("side", "right"): _NO_AXIAL_SIDE,
     ("rotation", "true"): 'did you mean "fixed"?', ("rotation", "false"): 'did you mean "free"?',
     ("rotation", "clamped"): 'did you mean "fixed"?', ("rotation", "rigid"): 'did you mean "fixed"?',
     ("rotation", "pinned"): 'did you mean "free"?', ("rotation", "hinged"): 'did you mean "free"?',
@@ -114,6 +112,8 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return ""
     if key == "law" and place.startswith("foundation"):
         return "; give points [displacement, force per length], or a law by name such as " + LAW
+    if key == "side" and value in ("left", "right") and place.startswith("supports"):
+        return "; an axial support that pushes one way only is not available in this version"
     if (hint := VALUES.get((key, str(value).lower()))) is not None:
         return f"; {hint}"
     is_short = isinstance(value, str) and len(value) <= LONGEST
