@@ -17,7 +17,8 @@ from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.held import hold
-from ...scene.names import label
+from ...scene.loads import MovementLoad
+from ...scene.names import DEAD, label
 from ...scene.structs import Scene
 from ...scene.wording import shown
 from ..views.extreme import Extremes
@@ -181,6 +182,8 @@ class States(Pickled):
         if path.motion is not None:
             self.motion = list(zip(self._beam.node_x.tolist(), path.motion.tolist(), strict=True))
             self.reason += f"; {describe_motion(self._beam, path.motion)}"
+        elif limit.kind == "mechanism" and any(isinstance(load, MovementLoad) and load.case != DEAD for load in self.scene.loads):
+            self.reason += "; supports that loads move may leave no room between them there"
 
     def state(self, factor: float, leg: int | None = None) -> Step:
         """Solve the exact state at any load factor.

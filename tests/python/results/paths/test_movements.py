@@ -93,6 +93,16 @@ def test_dead_movements_are_settlements():
     assert (gapbeam.solve(made).state(1.0).reaction == gapbeam.solve(other).state(1.0).reaction).all()
 
 
+def test_supports_that_meet_are_named():
+    """A support raised by 0.05 comes to one 0.02 above it at a factor of 0.4; what stops there is no free motion."""
+    supports = [at(0), at(1, side="below", gap=0.01), at(1, side="above", gap=0.01), at(2)]
+    made = scene([4.0, 4.0], supports, [uniform(10.0, case="dead"), movement(1, -0.05)], EI=2000.0)
+    result = gapbeam.solve(made)
+    assert result.status == "limit-load"
+    assert result.limits[0].factor == pytest.approx(0.4, rel=1e-14)
+    assert result.reason.endswith("supports that loads move may leave no room between them there")
+
+
 def test_combinations():
     """Factors of cases multiply movements, those of dead too."""
     loads = [uniform(3.0, case="live"), movement(1, 0.01, case="dead"), movement(2, -0.004, case="heat")]
