@@ -109,10 +109,11 @@ analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
 analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
 loads = [{}] ->
-    loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature", "temperature", "axial" or "movement"
+    loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature", "temperature",
+    "axial" or "movement"
 loads = [{type = "point"}] ->
-    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature", "axial" or "movement", got "point"; did you
-    mean "force"?
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature",
+    "axial" or "movement", got "point"; did you mean "force"?
 loads = [{type = 3}] ->
     loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature", "axial" or "movement", got 3
 loads = [5] -> loads[0]: expected a table, got 5
