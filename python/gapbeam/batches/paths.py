@@ -135,6 +135,9 @@ def varies_by_case(scene: Mapping[str, Any], path: KeyPath) -> bool:
     if head == "foundation":  # a modulus that is one number
         return rest[1:] == ["k"] and isinstance(scene["foundation"][rest[0]]["k"], int | float)
     if head == "loads":
+        load = scene["loads"][rest[0]]
+        if rest[1] == "dT" or (rest[1] == "gradient" and load["dT"]):  # a case has one factor for all values of a load
+            return False
         return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
     if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
         support = scene["supports"][rest[0]]
@@ -203,9 +206,9 @@ def _put(old: Any, parts: tuple[str | int, ...], value: float) -> Any:
 
 
 def _times(load: dict[str, Any], factor: float) -> dict[str, Any]:
-    key = next(key for key in VALUES if key in load)
-    value = load[key]
-    return {**load, key: [factor * one for one in value] if isinstance(value, list) else factor * value}
+    given = {key: load[key] for key in VALUES if key in load}
+    made = {key: [factor * one for one in value] if isinstance(value, list) else factor * value for key, value in given.items()}
+    return load | made
 
 
 def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, ...]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
-from ..scene.columns import effect_of_temperature
 from ..scene.names import DEAD, label, labels
+from ..scene.temperature import as_curvatures
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -103,7 +103,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for k, load in enumerate(scene.loads):
+    for load in as_curvatures(scene).loads:
         kind = load.__struct_config__.tag
         if kind == "movement":
             continue
@@ -113,11 +113,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
             one["value"] = load.M if kind == "moment" else load.F
         else:
             from_, to = fmt.stretch(scene, load)
-            if kind == "temperature":
-                kind = one["type"] = "curvature"
-                ends = 2 * [effect_of_temperature(scene, load, k)[0]]
-            else:
-                ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
+            ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
             one |= {"from": from_, "to": to, "ends": ends}
         found.append(one)
     return found

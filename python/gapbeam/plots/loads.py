@@ -10,17 +10,9 @@ import numpy as np
 
 from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
-from ..scene.columns import effect_of_temperature
-from ..scene.loads import (
-    AxialLoad,
-    CurvatureLoad,
-    ForceLoad,
-    LinearLoad,
-    MomentLoad,
-    TemperatureLoad,
-    UniformLoad,
-)
+from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.table import kind_of
+from ..scene.temperature import as_curvatures
 from .labels import LINE, Labels, spread, text_width
 from .sheet import is_upright
 
@@ -198,19 +190,17 @@ def _share(load: object, factor: float) -> float:
 def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     blocks = []
     cases = len({load.case for load in scene.loads})
-    for k, load in enumerate(scene.loads):
+    for load in as_curvatures(scene).loads:
         share = _share(load, factor)
-        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad) or not share:
+        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad) or not share:
             continue
         if isinstance(load, CurvatureLoad):
             first = last = share * load.kappa
-        elif isinstance(load, TemperatureLoad):
-            first = last = share * effect_of_temperature(scene, load, k)[0]
         elif isinstance(load, UniformLoad):
             first = last = share * load.q
         else:
             first, last = share * load.q[0], share * load.q[1]
-        quantity = "curvature" if isinstance(load, CurvatureLoad | TemperatureLoad) else "uniform"
+        quantity = "curvature" if isinstance(load, CurvatureLoad) else "uniform"
         words = _unit_and_case(scene, load, quantity, cases)
         blocks.append(Block(*stretch(scene, load), first, last, "", words, quantity == "curvature"))
     # Small arrows say which way a load acts; the sign says it only where there are none

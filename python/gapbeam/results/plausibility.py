@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene.names import column_of
+from ..scene.temperature import is_held_along
 from . import formatting as fmt
 from .equilibrium import sum_of_loads
 from .state.ground import joined
@@ -91,8 +92,12 @@ def _no_load(scene: Scene) -> str | None:
         return None
     if not len(scene.loads):
         return "loads is empty, so no load acts."
-    keys = ("F", "M", "q", "kappa", "gradient", "dT", "value")
+    keys = ("F", "M", "q", "kappa", "value", "gradient")
     if not any(np.any(getattr(load, key)) for load in scene.loads for key in keys if hasattr(load, key)):
+        if any(getattr(load, "dT", 0.0) for load in scene.loads):
+            if is_held_along(scene):
+                return None
+            return "loads have dT alone, which lengthens a beam that nothing holds along its axis: no force comes of it."
         return "all values of loads are 0, so no load acts."
     return None
 

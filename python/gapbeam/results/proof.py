@@ -16,11 +16,12 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..engine.beam import Beam
-from ..scene.combinations import plan_combinations, times, with_plain_loads
+from ..scene.combinations import plan_combinations, settle_movements, times
 from ..scene.laws import is_smooth, law_points
 from ..scene.places import same_place
 from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene
+from ..scene.temperature import as_curvatures
 from ..scene.wording import choice, shown
 from .result import Result
 from .state.step import Step
@@ -111,7 +112,7 @@ def _at_factor(scene: Scene, factor: float) -> Scene:
     """The scene whose state in full is that of the load factor, reached in one step."""
     loads = [load if load.case == "dead" or factor == 1.0 else times(load, factor) for load in scene.loads]
     once = msgspec.structs.replace(scene.analysis, steps=1, follow="steps", history=[1.0], at_limit="stop")
-    return with_plain_loads(msgspec.structs.replace(scene, loads=loads, analysis=once))
+    return as_curvatures(settle_movements(msgspec.structs.replace(scene, loads=loads, analysis=once)), those_that_bend_only=True)
 
 
 def _on_path(result: Result, factor: float) -> Step | None:
@@ -146,8 +147,8 @@ def _snapped(places: Sequence[float], beam: Beam) -> np.ndarray:
 def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
     """The scene with every key that changes a result, laws as points, and places that are one as one number."""
     data = {"title": scene.title, **{key: msgspec.to_builtins(getattr(scene, key)) for key in ("units", "beam")}}
-    for shown_only in ("width", "direction"):
-        del data["beam"][shown_only]
+    for unused in ("width", "direction", "alpha", "depth"):
+        del data["beam"][unused]
     data["beam"]["hinges"] = _snapped(scene.beam.hinges, beam).tolist()
     for key in ("sections", "supports", "foundation", "loads"):
         items = map(msgspec.to_builtins, getattr(scene, key))

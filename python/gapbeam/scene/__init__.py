@@ -22,6 +22,6 @@ from .structs import Beam, Combination, Foundation, Scene, Section, Support, Tra
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "TemperatureLoad", "Train",
-    "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
+    "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "TemperatureLoad",
+    "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
 ]  # fmt: skip

@@ -30,6 +30,7 @@ from .names import find
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
+from .temperature import check_beam, effect_of
 from .wording import number, shown
 
 BY_X = -1
@@ -50,8 +51,8 @@ KINDS = {
     UniformLoad: (DISTRIBUTED, "q"),
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
-    MovementLoad: (MOVEMENT, "value"),
     TemperatureLoad: (TEMPERATURE, "gradient"),
+    MovementLoad: (MOVEMENT, "value"),
 }
 """Kinds of load, as in gapbeam_scene, and the key of their value."""
 
@@ -83,6 +84,7 @@ def columns(scene: Scene) -> Columns:
             count = f"has {len(values)} values for {spans} spans"
             raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
         span[row, :spans] = values if spans else np.inf
+    check_beam(beam)
     hinge = np.empty(len(beam.hinges) + 1)
     hinge[:-1] = beam.hinges
     hinge[-1] = 0.0
@@ -216,43 +218,8 @@ def _settle(codes: np.ndarray, values: np.ndarray, supports: np.ndarray) -> None
         values[2, k] = 0.0
 
 
-def effect_of_temperature(scene: Scene, load: TemperatureLoad, k: int) -> tuple[float, float]:
-    """Give what a temperature does to a beam that nothing holds.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    load : TemperatureLoad
-        The load.
-    k : int
-        Its number.
-
-    Returns
-    -------
-    curvature : float
-        Positive where the upper side gets longer (1/length).
-    strain : float
-        Elongation per length.
-
-    Raises
-    ------
-    SceneError
-        It takes what the beam has not, or has no number.
-    """
-    for key in ("gradient", "dT"):
-        if not np.isfinite(getattr(load, key)):
-            raise SceneError(f"loads[{k}].{key}", f"expected a finite number, got {number(getattr(load, key))}")
-    beam = scene.beam
-    for key, value in (("alpha", beam.alpha), ("depth", beam.depth if load.gradient else 1.0)):
-        if value is None or not 0.0 < value < np.inf:
-            problem = "is missing" if value is None else f"expected a finite number above 0, got {number(value)}"
-            raise SceneError(f"beam.{key}", f"{problem}; loads[{k}] is a temperature and takes it")
-    return -beam.alpha * load.gradient / beam.depth if load.gradient else 0.0, beam.alpha * load.dT
-
-
 def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    items, supports = scene.loads, scene.supports
+    items = scene.loads
     codes, found = _empty(3, len(items), np.int32), _empty(4, len(items))
     (kinds, cases, nodes), (left, right, values, values_to) = codes[:, :-1], found[:, :-1]
     of = _column(items, "case")
@@ -263,17 +230,17 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         kinds[some] = kind
         if kind == MOVEMENT:
             of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
-            nodes[some] = [find(supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
+            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
             left[some] = right[some] = 0.0
         elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
-        given = _numbers(group, key)
         if kind == TEMPERATURE:
-            of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
-            given = np.array([effect_of_temperature(scene, load, k) for k, load in of_items])
+            given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
+        else:
+            given = _numbers(group, key)
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .columns import SIDES, effect_of_temperature
+from .columns import SIDES
 from .cut_loads import Placement, check_parts, cut_loads
-from .loads import CurvatureLoad, MovementLoad, TemperatureLoad
+from .loads import MovementLoad
 from .names import cases_of, find
 from .structs import Combination, Scene, Support
 from .tables import Table
@@ -24,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa", "gradient", "dT", "value")
+VALUES = ("F", "M", "q", "kappa", "value", "gradient", "dT")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -116,8 +116,8 @@ def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
     )
 
 
-def with_plain_loads(scene: Scene) -> Scene:
-    """Make loads that move supports settlements, as they are at full load, and temperatures curvatures.
+def settle_movements(scene: Scene) -> Scene:
+    """Make loads that move supports settlements, as they are at full load.
 
     Parameters
     ----------
@@ -128,15 +128,9 @@ def with_plain_loads(scene: Scene) -> Scene:
     for k, load in enumerate(scene.loads):
         if isinstance(load, MovementLoad):
             moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
-        elif isinstance(load, TemperatureLoad):
-            kappa, strain = effect_of_temperature(scene, load, k)
-            if strain and any(one.direction == "axial" for one in scene.supports):
-                loads.append(load)
-                continue
-            loads.append(CurvatureLoad(from_=load.from_, to=load.to, kappa=kappa, name=load.name, case=load.case))
         else:
             loads.append(load)
-    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads)
+    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads) if moves.any() else scene
 
 
 def refuse_movements(scene: Scene, problem: str) -> None:
@@ -170,9 +164,10 @@ def times(load: Any, factor: float) -> Any:
         By what.
     """
     given = {key: getattr(load, key) for key in VALUES if hasattr(load, key)}
-    for key, value in given.items():
-        given[key] = tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
-    return msgspec.structs.replace(load, **given)
+    made = {
+        key: tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value for key, value in given.items()
+    }
+    return msgspec.structs.replace(load, **made)
 
 
 def _moved(support: Support, by: float) -> Support:

@@ -1,4 +1,4 @@
-"""Loads of a scene: forces, couples, distributed loads, imposed curvatures, temperatures, axial forces, movements of supports."""
+"""Loads of a scene: forces, couples, distributed loads, curvatures, temperature, axial forces, movements of supports."""
 
 from __future__ import annotations
 
@@ -107,19 +107,20 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 
 
 class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
-    """A temperature of the beam; default: over its whole length. It takes beam.alpha, and a gradient beam.depth.
+    """A change of temperature from one place to another; default: over the whole beam. It needs `beam.alpha`.
 
     Parameters
     ----------
-    gradient : float
-        Temperature of the lower side less that of the upper side (no unit) in degrees, linear in between. Positive bends as a
-        sagging moment does: the same as an imposed curvature of -alpha*gradient/depth.
     dT : float
-        Rise of the temperature of the whole section (no unit) in degrees. It matters between axial supports only.
+        Change of the mean temperature (no unit), in the degrees of `beam.alpha`, positive warmer. It lengthens the beam, by
+        alpha dT per length, which makes forces between supports of direction axial only.
+    gradient : float
+        Temperature of the bottom less that of the top, over `beam.depth` (no unit), positive warmer below. It bends as a sagging
+        moment does, by the curvature alpha gradient/depth: kappa = -alpha gradient/depth.
     """
 
-    gradient: float = 0.0
     dT: float = 0.0
+    gradient: float = 0.0
 
 
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
@@ -144,4 +145,4 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
     case: str = "live"
 
 
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | AxialLoad | MovementLoad | TemperatureLoad
+Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialLoad | MovementLoad

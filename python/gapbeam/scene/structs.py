@@ -75,15 +75,15 @@ class Beam(Table, forbid_unknown_fields=True):
         Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
-    alpha : float, optional
-        Thermal expansion (no unit) per degree, for loads of type temperature.
-    depth : float, optional
-        Depth of the section (length), over which temperatures vary.
     width : float, optional
         Width on the ground (length), by which pressures are set beside `limits.pressure`; it changes no result.
     direction : {"right", "down"}
         Where x goes in pictures: right (default), or down for what stands upright, such as a pile; it changes no result.
         Downward in a lying beam is to the right then.
+    alpha : float or list of float, optional
+        Thermal expansion per degree (no unit), one number or one per span; needed with loads of type temperature only.
+    depth : float or list of float, optional
+        Depth of the beam (length), one number or one per span; needed where such a load has a gradient.
     """
 
     spans: Spans
@@ -91,10 +91,10 @@ class Beam(Table, forbid_unknown_fields=True):
     GA: Positive | list[Positive] = inf
     EA: Positive | list[Positive] = inf
     hinges: list[float] = []
-    alpha: Positive | None = None
-    depth: Positive | None = None
     width: Positive | None = None
     direction: Literal["right", "down"] = "right"
+    alpha: float | list[float] | None = None
+    depth: Positive | list[Positive] | None = None
 
 
 class Section(Stretch, kw_only=True, gc=False):
@@ -282,7 +282,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Supports; results list them in the same order.
     foundation : list of Foundation
         Elastic ground under stretches of the beam.
-    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, AxialLoad
+    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, TemperatureLoad, AxialLoad, MovementLoad
         Loads, each of a load case.
     trains : list of Train
         Loads that move.

@@ -15,7 +15,6 @@ from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.stepping import solve
 from ..scene.analysis import Analysis
-from ..scene.combinations import with_plain_loads
 from ..scene.reading import read_scene
 from ..scene.structs import Scene
 from .exact import Reference
@@ -176,7 +175,7 @@ def scene_comparisons(source: Mapping[str, Any] | Scene | str, parts: Sequence[i
     SceneError
         The scene is not valid, or it has no unique solution to compare with.
     """
-    scene = with_plain_loads(read_scene(source))
+    scene = read_scene(source)
     result = solve(structs.replace(scene, analysis=Analysis()))
     if result.status != "solved":
         raise SceneError("", f"nothing to compare: {result.reason}")

@@ -23,6 +23,7 @@ from ..scene.columns import SIDES
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
 from ..scene.structs import Scene
+from ..scene.temperature import as_curvatures
 
 DIGITS = 200
 """Decimal digits where a beam has too many places for fractions."""
@@ -54,6 +55,7 @@ class Reference:
     """
 
     def __init__(self, scene: Scene):
+        scene = as_curvatures(scene)
         ends = scene.span_ends()
         exact_ends = [Fraction(0)]
         for span in scene.beam.spans:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..engine.beam import HINGE, RESTRAINED
 from ..results.formatting import title
-from ..scene.loads import CurvatureLoad, LinearLoad, MomentLoad
+from ..scene.loads import CurvatureLoad, LinearLoad, MomentLoad, TemperatureLoad
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
 
@@ -199,7 +199,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     arrays = beam.places
     ends = (0, len(arrays.pieces))
     clamps = arrays.kinds == RESTRAINED
-    others = any(isinstance(load, CurvatureLoad | LinearLoad | MomentLoad) for load in scene.loads)
+    others = any(isinstance(load, CurvatureLoad | TemperatureLoad | LinearLoad | MomentLoad) for load in scene.loads)
     at_ends = np.isin(arrays.node_points, ends)
     places = arrays.node_points[arrays.support_nodes]
     for wrong, what in (

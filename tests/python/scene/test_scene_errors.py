@@ -109,13 +109,13 @@ analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5
 analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "fast"
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
 loads = [{}] ->
-    loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature", "axial", "movement" or
-    "temperature"
+    loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature", "temperature",
+    "axial" or "movement"
 loads = [{type = "point"}] ->
-    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "axial", "movement" or "temperature", got
-    "point"; did you mean "force"?
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature",
+    "axial" or "movement", got "point"; did you mean "force"?
 loads = [{type = 3}] ->
-    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "axial", "movement" or "temperature", got 3
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature", "axial" or "movement", got 3
 loads = [5] -> loads[0]: expected a table, got 5
 loads = [{type = "force", x = 1.0}] -> loads[0].F: this key is missing; give a number
 loads = [{type = "moment", x = 1.0, F = 1.0}] ->
@@ -476,7 +476,8 @@ def refused(**parts):
         ({"supports": [Support(x="6")]}, 'supports[0].x: expected a number, got "6"; write 6 without quotes'),
         (
             {"supports": [Support(x=6.0, side="left")]},
-            'supports[0].side: expected "above", "below" or "both", got "left"',
+            'supports[0].side: expected "above", "below" or "both", got "left"; an axial support that pushes one way only is not '
+            "available in this version",
         ),
         ({"supports": Support(x=6.0)}, "supports: expected a list of tables, got a table"),
         (
