@@ -18,7 +18,7 @@ def test_every_level_of_instructions_as_optimized(tmp_path):
     lapack = ["-llapack"]
     if any(BUILD.glob("libscipy_openblas*")):
         lapack = [f"-L{BUILD}", f"-Wl,-rpath,{BUILD}", "-lscipy_openblas"]
-    libraries = [BUILD / "fortran" / "libgapbeam.a", *lapack, "-lquadmath", "-pthread"]
+    libraries = [BUILD / "fortran" / "libgapbeam_engine.a", *lapack, "-lquadmath", "-pthread"]
     program = tmp_path / "lane_widths"
     command = ["gfortran", "-std=f2018", f"-J{tmp_path}", *folders, *SOURCES, "-o", program, *libraries]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
