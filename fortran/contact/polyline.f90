@@ -18,7 +18,7 @@ module gapbeam_polyline
     public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
     public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
-    public :: break_law, rewrite_law, rewrite_laws, find_unit
+    public :: break_law, find_unit
 
     !> A support at a node, or a breakpoint of its law
     type :: node_support_type
@@ -311,58 +311,6 @@ contains
         supports(first:k)%stiffness = supports(k)%stiffness
         supports(first:k)%passed = .true.
     end subroutine break_law
-
-    !> Write a law that unloads parallel to its first piece anew, from where it is: its breakpoints up to there become one
-    pure subroutine rewrite_law(supports, closed, k, top, first_slope, deflection, reaction)
-        type(node_support_type), intent(inout) :: supports(:)
-        logical, intent(in) :: closed(:)
-        !> First breakpoint of the law, and the last one that is closed, a later one
-        integer, intent(in) :: k, top
-        !> Slope along which it unloads
-        real(wp), intent(in) :: first_slope
-        !> Of the node beside the support's own movement; reaction, used where the piece is vertical
-        real(wp), intent(in) :: deflection, reaction
-        real(wp) :: at, force, slope
-        logical :: acts
-
-        call piece_that_acts(supports, closed, top, acts, slope)
-        associate (s => supports)
-            at = deflection
-            if (abs(slope) > huge(slope)) then
-                at = s(top)%contact
-                force = s(k)%side*reaction
-            else
-                force = s(top)%force + slope*s(top)%side*(at - s(top)%contact)
-            end if
-            s(k)%contact = at
-            if (abs(first_slope) <= huge(slope)) s(k)%contact = at - s(k)%side*force/first_slope
-            s(k + 1:top)%contact = at
-            s(k + 1:top)%force = force
-            s(k + 1:top)%stiffness = s(top)%stiffness
-            s(k + 2:top)%before = s(top)%stiffness
-            s(k + 2:top)%passed = .true.
-            s(k + 1)%before = first_slope
-        end associate
-    end subroutine rewrite_law
-
-    !> The same for all laws beyond their first breakpoint that unload so
-    pure subroutine rewrite_laws(supports, closed, keeps_set, first_slope, deflection, reaction)
-        type(node_support_type), intent(inout) :: supports(:)
-        logical, intent(in) :: closed(:)
-        !> Which do, and as for rewrite_law, each of shape (size(supports))
-        logical, intent(in) :: keeps_set(:)
-        real(wp), intent(in) :: first_slope(:), deflection(:), reaction(:)
-        integer :: k, last, top
-
-        k = 1
-        do while (k <= size(supports))
-            last = last_breakpoint(supports, k)
-            top = k - 1 + count(closed(k:last))
-            if (keeps_set(k) .and. top > k) call rewrite_law(supports, closed, k, top, first_slope(k), deflection(k), &
-                                                             sum(reaction(k:last)))
-            k = last + 1
-        end do
-    end subroutine rewrite_laws
 
     !> Breakpoints that are passed together with one: first and last
     pure subroutine find_unit(supports, closed, k, first, last)

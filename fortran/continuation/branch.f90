@@ -11,7 +11,8 @@ module gapbeam_branch
     use gapbeam_kinds, only: wp => qp, dp => wp
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: break_law, rewrite_law, rewrite_laws
+    use gapbeam_polyline_quad, only: break_law
+    use gapbeam_unloading_quad, only: rewrite_law, rewrite_laws
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: coarse_beam_type => beam_type
     use gapbeam_model_quad, only: beam_type

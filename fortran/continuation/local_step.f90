@@ -6,7 +6,8 @@
 module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, rewrite_law, rewrite_laws, find_unit
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit
+    use gapbeam_unloading, only: rewrite_law, rewrite_laws, holds_both_ways
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -63,7 +64,8 @@ contains
         type(local_type), intent(out) :: local
         integer :: i
 
-        local%usable = .not. allocated(beam%ground)
+        ! Sliders are moved in quadruple precision
+        local%usable = .not. (allocated(beam%ground) .or. any(keeps_set .and. holds_both_ways(beam%supports)))
         if (.not. local%usable) return
         local%beam = beam
         local%settling = real(settling, wp)

@@ -162,7 +162,7 @@ contains
         end subroutine find_least
 
         !> What may have been left out of the forces at node i: reactions that are nothing but rounding, of the largest load or of
-        !> what bends the links beside it
+        !> what bends the links beside it, and what the force of a law loses where it is small beside that at its breakpoint
         pure function size_left_out(bent) result(found)
             real(wp), intent(in) :: bent
             real(wp) :: found, force, rounding
@@ -171,9 +171,12 @@ contains
 
             found = 0.0_wp
             do k = beam%first(i), beam%first(i + 1) - 1
-                if (abs(reaction(beam%order(k))) > 0.0_wp) cycle
-                call force_by_spring(beam%supports, closed, beam%order(k), 0.0_wp, 0.0_wp, acts, rigid, force, rounding)
-                if (acts) found = most_left_out/epsilon(1.0_wp)*most_load + bent
+                associate (pushes => abs(reaction(beam%order(k))) > 0.0_wp)
+                    if (pushes .and. beam%supports(beam%order(k))%breakpoint == 0) cycle
+                    call force_by_spring(beam%supports, closed, beam%order(k), 0.0_wp, 0.0_wp, acts, rigid, force, rounding)
+                    if (acts .and. .not. pushes) found = max(found, most_left_out/epsilon(1.0_wp)*most_load + bent)
+                end associate
+                found = found + rounding/epsilon(1.0_wp)
             end do
         end function size_left_out
 

@@ -62,6 +62,9 @@ contains
                     call check_points(law(first:i), problem)
                     if (.not. allocated(problem) .and. model%supports(k)%unloading == gapbeam_plastic) then
                         call check_unloading(law(first:i), problem)
+                        if (.not. allocated(problem) .and. model%supports(k)%side == gapbeam_both) then
+                            call check_sliders(law(first:i), problem)
+                        end if
                     end if
                 end if
                 if (allocated(problem)) call refuse(error, of_supports, k, size(model%supports), bad_law, "law", problem)
@@ -89,9 +92,15 @@ contains
                                 "unloads in another way than along it; give law, or remove it")
                     return
                 end if
-                if (model%supports(i)%side == gapbeam_both .and. unloading <= gapbeam_broken) then
+                if (model%supports(i)%side == gapbeam_both .and. unloading == gapbeam_broken) then
                     call refuse(error, of_supports, i, size(model%supports), bad_law, "unloading", "a support that holds both "// &
-                                "ways unloads along its law; put one below and one above at this place instead")
+                                "ways does not break for good; put one below and one above at this place instead")
+                    return
+                end if
+                if (model%supports(i)%side == gapbeam_both .and. unloading == gapbeam_plastic &
+                    .and. abs(model%supports(i)%gap) > 0.0_wp) then
+                    call refuse(error, of_supports, i, size(model%supports), bad_law, "gap", "a support that holds both ways "// &
+                                "and yields has none in this version; put one below and one above at this place instead")
                     return
                 end if
                 if (unloading > gapbeam_elastic .and. unloading <= gapbeam_broken) cycle
@@ -171,6 +180,40 @@ contains
             end do
         end associate
     end subroutine check_unloading
+
+    !> A law both ways whose pieces get no steeper and do not fall is springs with sliders side by side
+    subroutine check_sliders(points, problem)
+        !> With plastic unloading, whose pieces are no steeper than the first
+        type(law_point_type), intent(in) :: points(:)
+        character(len=:), allocatable, intent(out) :: problem
+        real(wp) :: width, rise, width_before, rise_before
+        integer :: j
+
+        width_before = points(1)%displacement
+        rise_before = points(1)%force
+        if (.not. width_before > 0.0_wp) then
+            problem = "a support that holds both ways and yields is not rigid at first in this version; give its first "// &
+                "piece a slope"
+            return
+        end if
+        if (size(points) < 2) then
+            problem = "it has one piece only, so it never yields; leave unloading out"
+            return
+        end if
+        do j = 2, size(points)
+            width = points(j)%displacement - points(j - 1)%displacement
+            rise = points(j)%force - points(j - 1)%force
+            if (rise >= 0.0_wp .and. rise*width_before <= rise_before*width*(1 + same_slope)) then
+                width_before = width
+                rise_before = rise
+                cycle
+            end if
+            problem = "both ways it yields by springs with sliders side by side, but the piece up to "// &
+                trim(pair(points(j)%displacement, points(j)%force))//" falls or is steeper than that before; give pieces "// &
+                "that get flatter, or leave unloading out"
+            return
+        end do
+    end subroutine check_sliders
 
     !> Is the last piece of some points vertical
     pure function is_vertical(points) result(vertical)

@@ -29,6 +29,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000")
 """Of cycles in turn; of Okabe and Ito, their greys differ."""
 MOST_CYCLES = 12
 """Cycles whose energy is written each; of more the sum."""
+SIDE_BY_SIDE = 48
+"""Characters of words on a cycle of which two fit beside each other."""
 ROUNDING = 1e-12
 """Share of what goes in and out of a cycle below which what stays in it is rounding."""
 FINE = 200
@@ -112,7 +114,9 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     if len(cycles) > MOST_CYCLES:
         total = with_minus_signs(fmt.value(scene, "moment", sum(cycle.energy for cycle in cycles), 4))
         axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} in all")
-    picture.legend(loc="outside lower center", ncols=1 if len(cycles) < 3 else 2, fontsize=8, frameon=False)
+    longest = max((len(line.get_label()) for line in axes.get_lines()), default=0)
+    columns = 2 if len(cycles) > 2 and longest <= SIDE_BY_SIDE else 1
+    picture.legend(loc="outside lower center", ncols=columns, fontsize=8, frameon=False)
     return literal(picture)
 
 

@@ -228,6 +228,18 @@ def test_what_goes_out_as_data():
     assert gapbeam.solve(snap()) != result
 
 
+@pytest.mark.parametrize("unloading", ["elastic", "plastic"])
+def test_a_two_way_law_without_load(unloading):
+    """Its force is a difference of numbers at its breakpoint, which do not cancel to the last digit; the audit knows that."""
+    law = [[0.005, 45.0], [0.010, 60.0], [0.110, 120.0]]
+    supports = [{"node": 0}, {"node": 1, "side": "both", "law": law, "unloading": unloading}, {"node": 2}]
+    loads = [{"type": "force", "node": 1, "F": 150.0}]
+    made = {"beam": {"spans": [6.0, 6.0], "EI": 3e4}, "supports": supports, "loads": loads, "analysis": {"follow": "events"}}
+    result = gapbeam.solve(made)
+    assert result.state(0.0).reaction == pytest.approx([0.0] * 3, abs=1e-13)
+    assert [event.event for event in result.events] == ["yields", "yields"]
+
+
 def test_what_does_not_go_together():
     with pytest.raises(SceneError, match='"follow" needs follow = "events"'):
         gapbeam.solve(snap(follow="steps", at_limit="follow"))
@@ -235,8 +247,16 @@ def test_what_does_not_go_together():
         gapbeam.solve(snap(follow="steps", history=[1.0, 0.0]))
     with pytest.raises(SceneError, match="only a support with a law unloads"):
         gapbeam.solve({**snap(), "supports": [{"node": 0, "unloading": "plastic"}, {"node": 2}]})
-    with pytest.raises(SceneError, match="put one below and one above at this place"):
-        gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.0]], side="both", unloading="plastic"))
+    with pytest.raises(SceneError, match="does not break for good; put one below and one above at this place"):
+        gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.0]], side="both", unloading="broken"))
+    with pytest.raises(SceneError, match="has none in this version; put one below and one above"):
+        gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.0]], side="both", unloading="plastic", gap=0.1))
+    with pytest.raises(SceneError, match="not rigid at first in this version"):
+        gapbeam.solve(midspan([[0.0, 1.0], [0.2, 1.0]], side="both", unloading="plastic"))
+    with pytest.raises(SceneError, match="it has one piece only, so it never yields"):
+        gapbeam.solve(midspan([[0.1, 1.0]], side="both", unloading="plastic"))
+    with pytest.raises(SceneError, match=r"up to \[0\.3, 2\] falls or is steeper than that before"):
+        gapbeam.solve(midspan([[0.1, 1.0], [0.2, 1.2], [0.3, 2.0]], side="both", unloading="plastic"))
     with pytest.raises(SceneError, match="a smooth law unloads along itself"):
         gapbeam.solve(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}, unloading="plastic"))
     with pytest.raises(SceneError, match="its first piece, which does not rise"):
