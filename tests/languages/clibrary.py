@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 SIDES = {"both": 0, "below": 1, "above": -1}
-KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6}
+KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
     "plastic": (1, ("stiffness", "limit")),
@@ -150,7 +150,16 @@ def columns(scene):
     def spread(key):
         return np.broadcast_to(np.array(scene["beam"].get(key, math.inf), dtype=float), len(spans)).copy()
 
+    def number_of(load):
+        found = load.get("support", load.get("node"))
+        if found is None:
+            return -1
+        return [support.get("name") for support in supports].index(found) if isinstance(found, str) else found
+
     def values(load):
+        if load["type"] == "temperature":  # of one beam.alpha and depth
+            alpha, depth = scene["beam"]["alpha"], scene["beam"].get("depth", 1.0)
+            return [-alpha * load.get("gradient", 0.0) / depth, alpha * load.get("dT", 0.0)]
         value = next(load[key] for key in ("F", "M", "q", "kappa", "value") if key in load)
         return value if isinstance(value, list) else [value, value]
 
@@ -175,7 +184,7 @@ def columns(scene):
         "load_kind": np.array([KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
-        "load_node": np.array([load.get("support", load.get("node", -1)) for load in loads], dtype=np.int32),
+        "load_node": np.array([number_of(load) for load in loads], dtype=np.int32),
         "load_to": real(loads, "to", end),
         "load_value": both[:, 0].copy(),
         "load_value_to": both[:, 1].copy(),
