@@ -71,7 +71,7 @@ contains
         logical :: known
 
         kept%position = position
-        kept%acts = acts
+        allocate (kept%acts, source=acts)
         allocate (kept%placed, kept%state)
         call put_train(assembled, train, position, acts, kept%placed, error)
         if (.not. allocated(error)) call new_state(kept%placed, kept%state, error)
