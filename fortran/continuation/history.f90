@@ -20,9 +20,9 @@ module gapbeam_history
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, laws_of, goes_on, no_way_on, &
         never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_state, only: detail_of
-    use gapbeam_history_start, only: find_beginning, find_movements, growth_of, has_dead_loads, find_rest
+    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
     use gapbeam_history_record, only: history_type, stretch_type, limit_type, other_way_type, new_history, laws_at, &
         add_stretch, add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
         no_limit, limit_point, bifurcation, mechanism, ended, cut_off

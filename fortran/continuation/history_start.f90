@@ -12,7 +12,7 @@ module gapbeam_history_start
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: find_beginning, find_movements, growth_of, supports_move, has_dead_loads, grow_dead_loads, find_rest
+    public :: find_beginning, find_movements, supports_move, has_dead_loads, grow_dead_loads, find_rest
 
 contains
 
@@ -92,17 +92,6 @@ contains
             dead%model%loads%value_to = 0.0_wp
         end where
     end subroutine grow_dead_loads
-
-    !> Movement of every support of the engine at load factor 1, in its units
-    pure function growth_of(assembled) result(growth)
-        type(assembled_type), intent(in) :: assembled
-        real(qp) :: growth(size(assembled%normal))
-
-        growth(:) = 0.0_qp
-        if (allocated(assembled%growth)) then
-            growth(:) = scale(real(assembled%growth(assembled%normal), qp), -assembled%units%deflection)
-        end if
-    end function growth_of
 
     !> Let the live loads act the other way
     subroutine reverse_live(beam)

@@ -9,7 +9,7 @@ module gapbeam_path_energy
     use gapbeam_element, only: sum_type, add, total, field_type
     use gapbeam_fields, only: values_at
     use gapbeam_laws, only: law_energy
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, growth_of
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at
     use gapbeam_solution, only: state_type
     implicit none
@@ -42,7 +42,7 @@ contains
         type(sum_type) :: parts
         type(panels_type) :: panels
         type(field_type) :: there
-        real(wp) :: points(most_points), weights(most_points)
+        real(wp) :: points(most_points), weights(most_points), growth(size(assembled%normal))
         integer :: i, j, number
 
         ! A load that is linear times a deflection of degree 5
@@ -76,8 +76,9 @@ contains
             end associate
         end do
         if (allocated(assembled%growth)) then
-            do i = 1, size(state%reaction)
-                call add(parts, state%reaction(i)*scale(assembled%growth(assembled%normal(i)), -assembled%units%deflection))
+            growth(:) = growth_of(assembled)
+            do i = 1, size(growth)
+                call add(parts, state%reaction(i)*growth(i))
             end do
         end if
         work = scale(total(parts), assembled%units%force + assembled%units%deflection)

@@ -8,7 +8,7 @@ module gapbeam_solution
     use gapbeam_input_error, only: refuse_range
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_units, only: name_farthest
     implicit none
@@ -246,7 +246,7 @@ contains
             laws(:) = assembled%beam%supports
         end if
         if (allocated(assembled%growth)) then
-            laws%contact = laws%contact + state%factor*scale(assembled%growth(assembled%normal), -assembled%units%deflection)
+            laws%contact = laws%contact + state%factor*growth_of(assembled)
         end if
     end function laws_in
 

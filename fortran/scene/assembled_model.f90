@@ -12,7 +12,7 @@ module gapbeam_assembled_model
     implicit none
     private
     public :: stiffness_of, in_bending, in_shear, along_axis
-    public :: assembled_type, axial_type, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
+    public :: assembled_type, axial_type, growth_of, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -97,6 +97,15 @@ module gapbeam_assembled_model
     end type assembled_type
 
 contains
+
+    !> Movement of every support of the engine at load factor 1, in its units
+    pure function growth_of(assembled) result(growth)
+        type(assembled_type), intent(in) :: assembled
+        real(wp) :: growth(size(assembled%normal))
+
+        growth(:) = 0.0_wp
+        if (allocated(assembled%growth)) growth(:) = scale(assembled%growth(assembled%normal), -assembled%units%deflection)
+    end function growth_of
 
     !> Does a load act over a stretch
     elemental function is_stretch(load) result(yes)
