@@ -256,8 +256,7 @@ contains
         integer, intent(in), optional :: case
         type(load_type) :: load
 
-        load = load_type(kind=gapbeam_distributed, x=from, to=to, value=value, value_to=value_to)
-        if (present(case)) load%case = case
+        load = stretch_load(gapbeam_distributed, value, value_to, from, to, case)
     end function linear_load
 
     !> An imposed curvature over a stretch (temperature, shrinkage, prestress)
@@ -269,8 +268,7 @@ contains
         integer, intent(in), optional :: case
         type(load_type) :: load
 
-        load = load_type(kind=gapbeam_curvature, x=from, to=to, value=value, value_to=value)
-        if (present(case)) load%case = case
+        load = stretch_load(gapbeam_curvature, value, value, from, to, case)
     end function imposed_curvature
 
     !> A temperature over a stretch: what it bends and lengthens where nothing holds the beam
@@ -282,9 +280,19 @@ contains
         integer, intent(in), optional :: case
         type(load_type) :: load
 
-        load = load_type(kind=gapbeam_temperature, x=from, to=to, value=curvature, value_to=strain)
-        if (present(case)) load%case = case
+        load = stretch_load(gapbeam_temperature, curvature, strain, from, to, case)
     end function temperature_load
+
+    !> A load over a stretch
+    elemental function stretch_load(kind, value, value_to, from, to, case) result(load)
+        integer, intent(in) :: kind
+        real(wp), intent(in) :: value, value_to, from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = load_type(kind=kind, x=from, to=to, value=value, value_to=value_to)
+        if (present(case)) load%case = case
+    end function stretch_load
 
     !> A load at one place
     elemental function point_load(kind, value, x, node, case) result(load)
