@@ -138,7 +138,7 @@ def varies_by_case(scene: Mapping[str, Any], path: KeyPath) -> bool:
         load = scene["loads"][rest[0]]
         if rest[1] == "dT" or (rest[1] == "gradient" and load["dT"]):  # a case has one factor for all values of a load
             return False
-        return len(rest) == 2 and rest[1] in VALUES and not isinstance(scene["loads"][rest[0]][rest[1]], list)
+        return len(rest) == 2 and rest[1] in VALUES and not isinstance(load[rest[1]], list)
     if head == "supports" and rest[1] == "gap":  # it moves the place where a one-sided support begins to act
         support = scene["supports"][rest[0]]
         return support["side"] != "both" and support["law"] is None
