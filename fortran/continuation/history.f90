@@ -22,7 +22,7 @@ module gapbeam_history
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_state, only: detail_of
-    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, find_rest
+    use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
     use gapbeam_history_record, only: history_type, stretch_type, limit_type, other_way_type, new_history, laws_at, &
         add_stretch, add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
         no_limit, limit_point, bifurcation, mechanism, ended, cut_off
@@ -81,7 +81,7 @@ contains
         call refine_beam(assembled%beam, detail_of(assembled), beam)
         call new_history(at_limit, history)
         call new_walk(assembled, beam, most, walk)
-        if (has_dead_loads(beam) .or. any(abs(walk%settling) > 0.0_qp)) then
+        if (has_dead_loads(beam) .or. any(abs(walk%settling) > 0.0_qp) .or. has_dead_along(assembled)) then
             call drop_live(beam, dead)
             call drop_live_in_doubles(assembled%beam, dead_in_doubles)
             walk%laws%contact = walk%laws%contact - walk%settling

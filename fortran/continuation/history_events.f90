@@ -3,8 +3,8 @@ module gapbeam_history_events
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
-        gapbeam_closes
+    use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
+        gapbeam_closes, gapbeam_slips, gapbeam_sticks
     use gapbeam_events, only: event_type, add_event
     use gapbeam_history, only: history_type
     implicit none
@@ -60,9 +60,7 @@ contains
             if (stat /= 0) return
             if (pending > 0) call end_at_limit()
         end associate
-        if (stat /= 0) return
-        allocate (found(number), stat=stat)
-        if (stat == 0) found(:) = events(:number)
+        if (stat == 0) allocate (found, source=events(:number), stat=stat)
 
     contains
 
@@ -70,7 +68,7 @@ contains
         subroutine note_changes(one, other)
             integer, intent(in) :: one, other
             type(acting_type) :: before, after
-            integer :: i, first, change
+            integer :: i, first, change, added
 
             if (stat /= 0) return
             associate (a => path%stretches(one), b => path%stretches(other))
@@ -94,6 +92,9 @@ contains
                     if (stat /= 0) return
                 end do
             end associate
+            if (.not. allocated(path%along)) return
+            call find_changes_along(assembled, path, one, other, events, number, added, stat)
+            pending = pending + added
         end subroutine note_changes
 
         !> The path ends at a limit: what happens there is all that happens
@@ -112,5 +113,49 @@ contains
         end subroutine end_at_limit
 
     end subroutine find_events
+
+    !> What happens to every link along the beam between two stretches
+    subroutine find_changes_along(assembled, path, one, other, events, number, added, stat)
+        type(assembled_type), intent(in) :: assembled
+        type(history_type), intent(in) :: path
+        integer, intent(in) :: one, other
+        !> Added to; how many there are
+        type(event_type), allocatable, intent(inout) :: events(:)
+        integer, intent(inout) :: number
+        !> How many were added
+        integer, intent(out) :: added
+        !> Not 0 where memory is at an end
+        integer, intent(inout) :: stat
+        type(acting_type) :: before, after
+        integer :: k, last, change, first
+
+        first = number
+        added = 0
+        k = 1
+        associate (a => path%stretches(one)%along, b => path%stretches(other)%along, axial => assembled%axial)
+            do while (k <= size(axial%laws) .and. stat == 0)
+                last = last_breakpoint(axial%laws, k)
+                if (any(a(k:last) .neqv. b(k:last))) then
+                    associate (side => assembled%model%supports(axial%support(k))%side)
+                        before = acting_piece(axial%laws(k:last), side, a(k:last))
+                        after = acting_piece(axial%laws(k:last), side, b(k:last))
+                    end associate
+                    if (axial%rubs(k)) then
+                        change = merge(gapbeam_sticks, gapbeam_slips, b(k) .neqv. b(last))
+                    else if (axial%laws(k)%breakpoint > 0) then
+                        change = what_happens(before, after)
+                    else
+                        change = merge(gapbeam_closes, gapbeam_opens, b(k))
+                    end if
+                    if (change /= no_change) then
+                        call add_event(event_type(path%stretches(other)%from, axial%support(k), after%condition, change, other), &
+                                       events, number, stat)
+                    end if
+                end if
+                k = last + 1
+            end do
+        end associate
+        added = number - first
+    end subroutine find_changes_along
 
 end module gapbeam_history_events

@@ -8,7 +8,8 @@ module gapbeam_history_record
     use gapbeam_smooth_arc, only: arc_type
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, point_type, new_history, laws_at, same_laws
+    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, point_type, new_history, laws_at
+    public :: same_laws
     public :: runs_of
     public :: add_stretch, add_others, note_limit, note_landings, is_jumping
     public :: at_limit_stop, at_limit_jump, at_limit_follow
@@ -35,6 +36,11 @@ module gapbeam_history_record
         logical, allocatable :: closed(:)
         !> The laws as they have become, where they are not those of the beam
         type(node_support_type), allocatable :: laws(:)
+        !> Of links along the beam: their scheme, and which numbers of the chain are at the ends
+        logical, allocatable :: along(:)
+        integer :: ends(2) = 0
+        !> Is the chain free there, so that forces are unique and its position is not
+        logical :: loose = .false.
     end type stretch_type
 
     !> Another way on from a tie
@@ -85,6 +91,16 @@ module gapbeam_history_record
         type(arc_type), allocatable :: arc
     end type on_laws_type
 
+    !> The chain along the beam at the ends of stretches, where its links act one way, yield or rub
+    type :: along_type
+        !> Support of the model of every link
+        integer, allocatable :: support(:)
+        !> Displacements of its points, forces of its bars, forces of the links on the beam to the right, in units of the axial
+        !> system: the first `number` columns
+        real(wp), allocatable :: values(:, :)
+        integer :: number = 0
+    end type along_type
+
     !> The loading history
     type :: history_type
         !> at_limit_stop, at_limit_jump or at_limit_follow
@@ -104,6 +120,8 @@ module gapbeam_history_record
         integer :: solves = 0
         !> Of a beam with smooth laws
         type(on_laws_type), allocatable :: on_laws
+        !> Of a beam with such links
+        type(along_type), allocatable :: along
     end type history_type
 
 contains
@@ -149,6 +167,9 @@ contains
 
         call move_alloc(from%closed, to%closed)
         call move_alloc(from%laws, to%laws)
+        call move_alloc(from%along, to%along)
+        to%ends = from%ends
+        to%loose = from%loose
         to%leg = from%leg
         to%from = from%from
         to%to = from%to

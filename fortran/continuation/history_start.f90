@@ -8,11 +8,11 @@ module gapbeam_history_start
     use gapbeam_model_quad, only: beam_type
     use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: find_region, region_type
-    use gapbeam_scene, only: gapbeam_both, gapbeam_live, gapbeam_dead
+    use gapbeam_scene, only: gapbeam_both, gapbeam_live, gapbeam_dead, gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: find_beginning, find_movements, supports_move, has_dead_loads, grow_dead_loads, find_rest
+    public :: find_beginning, find_movements, supports_move, has_dead_loads, has_dead_along, grow_dead_loads, find_rest
 
 contains
 
@@ -123,6 +123,20 @@ contains
             end associate
         end do
     end function has_dead_loads
+
+    !> Do dead loads, settlements or lacks of fit act along the beam, where its links act one way, yield or rub
+    pure function has_dead_along(assembled) result(has)
+        type(assembled_type), intent(in) :: assembled
+        logical :: has
+
+        associate (axial => assembled%axial, s => assembled%model%supports)
+            has = allocated(axial%laws)
+            if (.not. has) return
+            has = any(abs(axial%force(1, :)) > 0.0_wp) &
+                .or. any(s%direction == gapbeam_axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
+            if (allocated(axial%elongation)) has = has .or. any(abs(axial%elongation(1, :)) > 0.0_wp)
+        end associate
+    end function has_dead_along
 
     !> Where supports are before any load: on the piece on which the straight beam is
     subroutine find_rest(assembled, closed)

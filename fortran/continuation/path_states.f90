@@ -20,7 +20,7 @@ module gapbeam_path_states
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
     private
-    public :: solve_on_path, find_lines, is_exact, audit_lines
+    public :: solve_on_path, take_along, find_lines, is_exact, audit_lines
     public :: with_lines, by_tangents, on_polylines
 
     !> How a state is known: lines stand in place of smooth laws at their points; tangents lead to it; on their polylines only
@@ -69,9 +69,44 @@ contains
         end if
         if (.not. same_laws(laws, beam%beam%supports)) call move_alloc(laws, state%laws)
         call solve_state(beam, factor, merge(rule_extended, rule_given, allocated(history%on_laws)), state, error)
+        if (allocated(history%along) .and. .not. allocated(error)) call take_along(beam, history, stretch, factor, state)
         if (.not. allocated(history%on_laws) .or. allocated(error)) return
         call audit_lines(beam, factor, how == on_polylines, state, error)
     end subroutine solve_on_path
+
+    !> What there is along the beam at a load factor on a stretch
+    pure subroutine take_along(beam, history, stretch, factor, state)
+        type(assembled_type), intent(in) :: beam
+        !> With links along the beam
+        type(history_type), intent(in) :: history
+        integer, intent(in) :: stretch
+        real(wp), intent(in) :: factor
+        !> Of the same beam
+        type(state_type), intent(inout) :: state
+        real(wp), allocatable :: values(:)
+        real(wp) :: share
+        integer :: n, l
+
+        associate (s => history%stretches(stretch), along => history%along)
+            share = 0.0_wp
+            if (abs(s%to - s%from) > 0.0_wp) share = (factor - s%from)/(s%to - s%from)
+            values = (1 - share)*along%values(:, s%ends(1)) + share*along%values(:, s%ends(2))
+            n = size(state%tension)
+            state%displacement(:) = values(:n + 1)
+            state%tension(:) = values(n + 2:2*n + 1)
+            state%along = s%along
+            state%indifferent = state%indifferent .or. s%loose
+            state%axial_reaction(:) = 0.0_wp
+            if (allocated(state%along_force)) deallocate (state%along_force)
+            allocate (state%along_force(size(beam%model%supports)), source=0.0_wp)
+            do l = 1, size(along%support)
+                state%along_force(along%support(l)) = values(2*n + 1 + l)
+                associate (node => beam%axial%node(along%support(l)))
+                    state%axial_reaction(node) = state%axial_reaction(node) + values(2*n + 1 + l)
+                end associate
+            end do
+        end associate
+    end subroutine take_along
 
     !> Is the end of a stretch known on the laws
     pure function is_exact(history, stretch) result(it_is)

@@ -13,6 +13,7 @@ module gapbeam_smooth_path
     use gapbeam_smooth_arc, only: arc_type, lose, is_lost
     use gapbeam_arc_states, only: find_on_arc, rate_beside
     use gapbeam_arc_roots, only: arc_test_type, of_eigenvalue, find_root, test_value
+    use gapbeam_axial_path, only: follow_along_axis
     use gapbeam_history_start, only: grow_dead_loads, supports_move
     use gapbeam_history, only: history_type, follow_history, at_limit_stop, at_limit_jump, no_limit, ended, cut_off
     use gapbeam_path_on_laws, only: view_type, begin_on_laws, arc_about, is_known, keep_end, forget_end, check_on_laws, find_at, &
@@ -43,6 +44,9 @@ contains
 
         if (size(smooth_supports(assembled)) == 0) then
             call follow_history(assembled, factors, at_limit, most, history, error)
+            if (allocated(error) .or. history%ending == cut_off .or. .not. allocated(assembled%axial%laws)) return
+            call grow_dead_loads(assembled, dead)
+            call follow_along_axis(assembled, dead, most, history, error)
             return
         end if
         n = size(factors)

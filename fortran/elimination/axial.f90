@@ -94,7 +94,7 @@ contains
                 - flexibility(i)*left
             pull = left
         end do
-        reaction(0) = -pull - force(0)
+        if (stiffness(0) > 0.0_wp) reaction(0) = -pull - force(0)
     end subroutine solve_axial
 
 end module gapbeam_axial

@@ -18,7 +18,7 @@ module gapbeam_api
     use gapbeam_state, only: certify_state
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_events, only: event_type, follow_events
-    use gapbeam_support_values, only: support_values, find_undecided
+    use gapbeam_support_values, only: support_values, friction_values, find_undecided
     use gapbeam_query, only: motion_of_nodes
     use gapbeam_quantities, only: bounded_count, bending
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
@@ -28,7 +28,7 @@ module gapbeam_api
     private
     public :: prepared_type, options_type, result_type, certificate_type
     public :: prepare_model, replace_loads, count_supports, count_nodes
-    public :: solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+    public :: solve_beam, follow_load, get_supports, get_friction, get_fields, get_extremes, get_motion, get_certificate
 
     !> Fields of get_fields and get_extremes: the first so many quantities (gapbeam_quantities)
     integer, parameter :: field_count = 6
@@ -252,6 +252,28 @@ contains
         call hold_environment(environment)
         call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
     end subroutine get_supports
+
+    !> What friction does at the supports, in the order of the model, in a state from solve_on_path; zeros where there is none;
+    !> shapes (count_supports(beam))
+    subroutine get_friction(beam, result, force, slip, slides, error)
+        !> Prepared; its solved result
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        !> Force on the beam, and how far it has gone over the support, both to the right
+        real(wp), intent(out) :: force(:), slip(:)
+        !> 1 where the beam slides to the right, -1 to the left, 0 where it sticks
+        integer, intent(out) :: slides(:)
+        !> As for get_supports
+        type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
+
+        call require_result(beam, result, gapbeam_solved, error)
+        if (allocated(error)) return
+        call require_size(count_supports(beam), [size(force), size(slip), size(slides)], error)
+        if (allocated(error)) return
+        call hold_environment(environment)
+        call friction_values(beam%lowered, result%state, force, slip, slides)
+    end subroutine get_friction
 
     !> Exact fields anywhere along the beam
     subroutine get_fields(beam, result, x, fields, error, from_left)

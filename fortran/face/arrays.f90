@@ -70,8 +70,9 @@ contains
                 if (size(isup, 1) > 3) s%unloading = isup(4, i)
                 if (size(isup, 1) > 4) then
                     s%law = isup(5, i)
-                    s%parameter = sup(6:, i)
+                    s%parameter = sup(6:8, i)
                 end if
+                if (size(sup, 1) > 8) s%friction = sup(9, i)
             end associate
         end do
         do i = 1, size(model%law)

@@ -6,7 +6,7 @@ module gapbeam_capi
     use gapbeam_scene, only: model_type
     use gapbeam_events, only: event_type
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, prepare_model, count_supports, &
-        count_nodes, solve_beam, follow_load, get_supports, get_fields, get_motion, get_certificate
+        count_nodes, solve_beam, follow_load, get_supports, get_friction, get_fields, get_motion, get_certificate
     use gapbeam_handles, only: handle_type, state_tag, find_handle
     use gapbeam_capi_model, only: c_model, model_from_c
     use gapbeam_capi_quantities, only: c_get_quantity_extremes
@@ -161,6 +161,33 @@ contains
         if (present(couple)) couple(1:m) = values(:, 4)
         if (present(condition)) condition(1:m) = conditions
     end subroutine copy_supports
+
+    !> See the header
+    function c_get_friction(beam, state, force, slip, slides) result(status) bind(c, name="gapbeam_get_friction")
+        type(c_ptr), intent(in), value :: beam, state
+        real(c_double), intent(inout), optional :: force(*), slip(*)
+        integer(c_int), intent(inout), optional :: slides(*)
+        integer(c_int) :: status
+        type(handle_type), pointer :: prepared, solved
+        type(error_type), allocatable :: error
+        real(c_double), allocatable :: values(:, :)
+        integer, allocatable :: ways(:)
+        integer :: m, stat
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) then
+            m = count_supports(prepared%beam)
+            allocate (values(m, 2), ways(m), stat=stat)
+            if (stat /= 0) call no_memory(error)
+        end if
+        if (.not. allocated(error)) call get_friction(prepared%beam, solved%result, values(:, 1), values(:, 2), ways, error)
+        if (.not. allocated(error)) then
+            if (present(force)) force(1:m) = values(:, 1)
+            if (present(slip)) slip(1:m) = values(:, 2)
+            if (present(slides)) slides(1:m) = ways
+        end if
+        call report(error, status)
+    end function c_get_friction
 
     !> See the header
     function c_get_fields(beam, state, count, x, from_left, fields, message, message_size) result(status) &

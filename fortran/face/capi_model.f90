@@ -39,7 +39,7 @@ module gapbeam_capi_model
         type(c_ptr) :: foundation_law = c_null_ptr, foundation_parameter = c_null_ptr, foundation_parameter_to = c_null_ptr
         integer(c_int) :: table_points = 0
         type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
-        type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr
+        type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
     end type c_model
 
 contains
@@ -141,6 +141,7 @@ contains
             if (has_integers(c%support_unloading, n, integers)) s%unloading = integers
             if (with_all) then
                 if (has_integers(c%support_law, n, integers)) s%law = integers
+                if (has_reals(c%support_friction, n, reals)) s%friction = reals
                 if (has_reals(c%support_parameter, n*parameters_of_law, reals)) then
                     do i = 1, n
                         s(i)%parameter = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)

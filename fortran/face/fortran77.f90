@@ -101,6 +101,32 @@ subroutine ghprsl(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
                  0, none, no_points, 0, none, no_points, none, no_numbers, 0, none, no_points, beam, ientry, info, islaw, slaw)
 end subroutine ghprsl
 
+! Prepare a beam whose supports may follow laws by name, and rub along it
+subroutine ghprfr(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, islaw, slaw, fric, &
+                  beam, ientry, info)
+    use gapbeam_fortran77_model, only: prepare
+    implicit none
+    ! As for GHPRSL
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*)
+    integer, intent(in) :: islaw(*)
+    double precision, intent(in) :: slaw(3, *)
+    ! Friction coefficient of every support across the beam, 0 or more
+    double precision, intent(in) :: fric(*)
+    ! As from GHPREP
+    integer(8), intent(out) :: beam
+    integer, intent(out) :: ientry
+    ! -1 to -16 as from GHPRSL; -17: FRIC(IENTRY); 14, 15
+    integer, intent(out) :: info
+    double precision :: no_points(2, 1), no_numbers(6, 1)
+    integer :: none(2)
+
+    call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, 0, none, no_numbers, &
+                 0, none, no_points, 0, none, no_points, none, no_numbers, 0, none, no_points, beam, ientry, info, islaw, slaw, &
+                 fric)
+end subroutine ghprfr
+
 ! Free what a handle stands for, whatever it is
 subroutine ghfree(handle, info)
     use gapbeam_handles, only: free_handle, address_numbered

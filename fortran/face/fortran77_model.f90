@@ -1,4 +1,4 @@
-!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL and GHPRFD do
+!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL, GHPRFR and GHPRFD do
 module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
@@ -19,7 +19,7 @@ contains
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                        found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
-                       slaw)
+                       slaw, fric)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
@@ -29,6 +29,8 @@ contains
         !> Laws of supports by name and their parameters, as for GHPRSL
         integer, intent(in), optional :: islaw(*)
         real(wp), intent(in), optional :: slaw(parameters_of_law, *)
+        !> Friction coefficients of supports, as for GHPRFR
+        real(wp), intent(in), optional :: fric(*)
         !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
         integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
         type(model_type) :: model
@@ -84,6 +86,7 @@ contains
                     model%supports(k)%parameter = slaw(:, k)
                 end do
             end if
+            if (present(fric)) model%supports%friction = fric(1:nsup)
             call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then
@@ -99,6 +102,7 @@ contains
             if (error%key == "law") info = -12
             if (index(error%key, "law.") == 1) info = -16
             if (error%key == "unloading") info = -14
+            if (error%key == "friction") info = -17
         case (of_foundations)
             if (error%key == "law") info = merge(-24, -22, error%reason == not_expected)
             if (index(error%key, "law.") == 1) info = -25

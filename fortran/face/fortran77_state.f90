@@ -25,6 +25,29 @@ subroutine ghsupp(beam, state, supval, kstate, info)
     info = info_of(error, 2)
 end subroutine ghsupp
 
+! What friction does at the supports, in a state from GHPATH
+subroutine ghfric(beam, state, frival, kslide, info)
+    use gapbeam_api, only: get_friction, count_supports
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
+    implicit none
+    integer(8), intent(in) :: beam, state
+    ! Force on the beam and how far it has gone over the support, to the right; zeros where there is none
+    double precision, intent(inout) :: frival(2, *)
+    ! 1 where it slides to the right, -1 to the left, 0 where it sticks
+    integer, intent(inout) :: kslide(*)
+    ! -1, -2
+    integer, intent(out) :: info
+    type(handle_type), pointer :: prepared, solved
+    type(error_type), allocatable :: error
+    integer :: n
+
+    call find_both(beam, state, state_tag, prepared, solved, info)
+    if (info /= 0) return
+    n = count_supports(prepared%beam)
+    call get_friction(prepared%beam, solved%result, frival(1, 1:n), frival(2, 1:n), kslide(1:n), error)
+    info = info_of(error, 2)
+end subroutine ghfric
+
 ! Exact fields anywhere along the beam
 subroutine ghflds(beam, state, nx, x, left, field, info)
     use gapbeam_api, only: get_fields

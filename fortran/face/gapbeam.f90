@@ -53,7 +53,7 @@ module gapbeam
         point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
         temperature_load, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
-        gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
@@ -62,10 +62,11 @@ module gapbeam
     use gapbeam_events, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
-        gapbeam_unloads, gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
+        gapbeam_unloads, gapbeam_slips, gapbeam_sticks, gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, &
+        gapbeam_reaches, gapbeam_leaves
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
-        solve_beam, follow_load, get_supports, get_fields, get_extremes, get_motion, get_certificate
+        solve_beam, follow_load, get_supports, get_friction, get_fields, get_extremes, get_motion, get_certificate
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes, gapbeam_of_deflection, gapbeam_of_rotation, &
         gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
         gapbeam_of_curvature

@@ -226,6 +226,79 @@ subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
     laws(4, :ns - 1) = lines%before
 end subroutine gbhlin
 
+! What there is along the beam in a state on a path, put into the state and to the values of its supports
+subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force, slip, slides, loose)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_path_states, only: take_along
+    use gapbeam_support_values, only: support_values, friction_values
+    implicit none
+    ! The beam with the loads of the leg, the path, the state at the factor on the stretch
+    integer(8), intent(in) :: beam, hist, state
+    ! From 1
+    integer, intent(in) :: stretch
+    double precision, intent(in) :: factor
+    integer, intent(in) :: nm
+    ! As from GBSOLV; state of every support of the scene (gapbeam_pieces); force of friction on the beam and how far it has gone
+    ! over the support, to the right; 1 where it slides to the right, -1 to the left
+    double precision, intent(out) :: values(nm + 1, 4), force(nm), slip(nm)
+    integer, intent(out) :: condit(nm), slides(nm)
+    ! 1 where the beam can move freely
+    integer, intent(out) :: loose
+    type(handle_type), pointer :: handle, found, solved
+
+    handle => behind(beam)
+    found => behind(hist)
+    solved => behind(state)
+    values = 0.0d0
+    associate (lowered => handle%beam%lowered, s => solved%result%state)
+        call take_along(lowered, found%history%path, stretch, factor, s)
+        call support_values(lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), condit)
+        call friction_values(lowered, s, force, slip, slides)
+        loose = merge(1, 0, s%indifferent)
+    end associate
+end subroutine gbhaxi
+
+! Which numbers along the beam are at the ends of the stretches of a path
+subroutine gbhend(hist, nh, ends)
+    use gapbeam_python_handles, only: handle_type, behind
+    implicit none
+    integer(8), intent(in) :: hist
+    ! Stretches
+    integer, intent(in) :: nh
+    ! Of every stretch, at both ends, from 1
+    integer, intent(out) :: ends(2, nh)
+    type(handle_type), pointer :: found
+    integer :: k
+
+    found => behind(hist)
+    do k = 1, nh
+        ends(:, k) = found%history%path%stretches(k)%ends
+    end do
+end subroutine gbhend
+
+! Axial forces at the ends of the stretches of a path
+subroutine gbhten(beam, hist, np, nc, tension)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_assemble_axial, only: axial_node
+    implicit none
+    integer(8), intent(in) :: beam, hist
+    ! Pieces; ends, as from GBHEND
+    integer, intent(in) :: np, nc
+    ! Of every piece, in the scene's units
+    double precision, intent(out) :: tension(np, nc)
+    type(handle_type), pointer :: handle, found
+    integer :: j, bar
+
+    handle => behind(beam)
+    found => behind(hist)
+    associate (axial => handle%beam%lowered%axial, values => found%history%path%along%values)
+        do j = 1, np
+            bar = axial_node(axial%point, j)
+            tension(j, :) = scale(values(size(axial%point) + bar, :nc), axial%units%force)
+        end do
+    end associate
+end subroutine gbhten
+
 ! Energy that is set free from a limit to its landing
 subroutine gbheng(beam, hist, limit, energy, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, behind, report

@@ -248,8 +248,10 @@ contains
         integer :: i, n
 
         n = size(flexibility)
-        most = everywhere*max(maxval(abs(force)), maxval(abs(reaction)))
         farthest = max(maxval(abs(displacement)), maxval(abs(settlement)))
+        ! Where elongations make no force, what springs give is their rounding
+        most = max(everywhere*max(maxval(abs(force)), maxval(abs(reaction))), &
+                   epsilon(most)*farthest*maxval(stiffness, stiffness <= huge(most)))
         do i = 0, n
             left = 0.0_wp
             right = 0.0_wp

@@ -10,7 +10,7 @@ module gapbeam_pieces
     public :: acting_type, acting_piece, acts_in, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
-        gapbeam_unloads
+        gapbeam_unloads, gapbeam_slips, gapbeam_sticks
     public :: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
 
     !> States of a support
@@ -23,6 +23,8 @@ module gapbeam_pieces
     integer, parameter :: gapbeam_opens = gapbeam_open, gapbeam_closes = gapbeam_closed, gapbeam_turns = 3
     !> Of supports with a law: on to a piece that is flatter, or steeper; on which the force falls, or drops at once; back
     integer, parameter :: gapbeam_yields = 4, gapbeam_hardens = 5, gapbeam_softens = 6, gapbeam_breaks = 7, gapbeam_unloads = 8
+    !> Of friction: the beam begins to slide over the support, or no longer does
+    integer, parameter :: gapbeam_slips = 9, gapbeam_sticks = 10
     !> Of zones of contact with the ground; of their ends, at those of the foundation or of the beam
     integer, parameter :: gapbeam_appears = 20, gapbeam_vanishes = 21, gapbeam_merges = 22, gapbeam_splits = 23, &
                           gapbeam_reaches = 24, gapbeam_leaves = 25

@@ -41,6 +41,9 @@ module gapbeam_solution
         real(wp), allocatable :: reaction(:)
         !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
         real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
+        !> With links along the beam: their scheme, and the force on the beam, to the right, of every support of the model
+        logical, allocatable :: along(:)
+        real(wp), allocatable :: along_force(:)
         !> On the ground, what is in its stretches
         type(ground_solution_type), allocatable :: ground
         !> Fields at the left end of every piece; made when first asked for

@@ -225,7 +225,8 @@ contains
         real(wp), allocatable :: longer(:), force(:)
         integer :: found, place
 
-        if (.not. allocated(assembled%axial%point)) return
+        ! Links that act one way, yield or rub are known on a path alone
+        if (.not. allocated(assembled%axial%point) .or. allocated(assembled%axial%laws)) return
         associate (axial => assembled%axial)
             allocate (longer(size(axial%flexibility)), source=0.0_wp)
             force = axial%force(1, :) + state%factor*axial%force(2, :)

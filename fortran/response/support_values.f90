@@ -12,7 +12,7 @@ module gapbeam_support_values
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
     private
-    public :: support_values, find_undecided
+    public :: support_values, friction_values, find_undecided
 
 contains
 
@@ -50,9 +50,7 @@ contains
                 if (assembled%with_law(k)) condition(k) = gapbeam_branch + 1
                 associate (s => assembled%model%supports(k), node => assembled%node_of_point(assembled%support_point(k)))
                     if (s%direction == gapbeam_axial) then
-                        if (.not. allocated(axial%node)) cycle
-                        reaction(k) = scale(state%axial_reaction(axial%node(k)), axial%units%force)
-                        deflection(k) = scale(state%displacement(axial%node(k)), axial%units%deflection)
+                        call value_along(assembled, state, k, reaction(k), deflection(k), opening(k), condition(k))
                         cycle
                     end if
                     deflection(k) = scale(state%deflection(node), units%deflection)
@@ -87,6 +85,74 @@ contains
             end do
         end associate
     end subroutine support_values
+
+    !> The same of a support along the beam
+    pure subroutine value_along(assembled, state, k, reaction, deflection, opening, condition)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: k
+        !> In the user's units; the first two and the condition as for a beam without axial system in
+        real(wp), intent(inout) :: reaction, deflection
+        real(wp), intent(out) :: opening
+        integer, intent(inout) :: condition
+        type(acting_type) :: acting
+        integer :: first, last
+
+        associate (axial => assembled%axial, s => assembled%model%supports(k))
+            opening = 0.0_wp
+            if (s%side /= both) then
+                opening = max(0.0_wp, s%gap)
+                if (opening > 0.0_wp) condition = gapbeam_open
+                if (condition == gapbeam_bilateral) condition = gapbeam_closed
+            end if
+            if (.not. allocated(axial%node)) return
+            deflection = scale(state%displacement(axial%node(k)), axial%units%deflection)
+            if (.not. allocated(state%along)) then
+                if (.not. allocated(axial%laws)) reaction = scale(state%axial_reaction(axial%node(k)), axial%units%force)
+                return
+            end if
+            reaction = scale(state%along_force(k), axial%units%force)
+            first = findloc(axial%support, k, 1)
+            if (first == 0) return
+            last = last_breakpoint(axial%laws, first)
+            acting = acting_piece(axial%laws(first:last), s%side, state%along(first:last))
+            condition = acting%condition
+            opening = 0.0_wp
+            if (condition /= gapbeam_open) return
+            opening = state%displacement(axial%node(k))
+            if (allocated(assembled%growth)) opening = opening - state%factor*scale(assembled%growth(k), -axial%units%deflection)
+            if (axial%laws(first)%breakpoint > 0) then
+                opening = way_to_law(axial%laws(first:last), s%side, opening)
+            else
+                opening = max(0.0_wp, s%side*(axial%laws(first)%contact - opening))
+            end if
+            opening = scale(opening, axial%units%deflection)
+        end associate
+    end subroutine value_along
+
+    !> Forces of friction on the beam, how far it has gone over the supports, both to the right, and whether it slides
+    pure subroutine friction_values(assembled, state, force, slip, slides)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> In the user's units, shape (nsupport)
+        real(wp), intent(out) :: force(:), slip(:)
+        !> 1 to the right, -1 to the left, 0: it sticks
+        integer, intent(out) :: slides(:)
+        integer :: k
+
+        force(:) = 0.0_wp
+        slip(:) = 0.0_wp
+        slides(:) = 0
+        if (.not. allocated(state%along)) return
+        associate (axial => assembled%axial)
+            do k = 1, size(axial%laws) - 1
+                if (.not. (axial%rubs(k) .and. axial%laws(k)%more)) cycle
+                force(axial%support(k)) = scale(state%along_force(axial%support(k)), axial%units%force)
+                slip(axial%support(k)) = scale(state%displacement(axial%laws(k)%node), axial%units%deflection)
+                slides(axial%support(k)) = count(state%along(k:k + 1)) - 1
+            end do
+        end associate
+    end subroutine friction_values
 
     !> Which piece of a law acts, as a condition, and how far it is open
     pure subroutine state_of_law(breakpoints, side, closed, deflection, condition, opening)

@@ -15,6 +15,7 @@ module gapbeam_assemble
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
     use gapbeam_support_laws, only: gather_points
     use gapbeam_check_laws, only: check_laws, have_laws
+    use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
     use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
     use gapbeam_assemble_supports, only: assemble_supports
@@ -64,6 +65,7 @@ contains
             end if
             assembled%with_law(:) = have_laws(model, assembled%law)
             call check_rest(model, assembled%with_law, assembled%ends, error)
+            if (.not. allocated(error)) call check_along(model, assembled%law, assembled%with_law, error)
             if (allocated(error)) return
             call check_foundations(model, assembled%ends(n), error)
             if (allocated(error)) return

@@ -8,9 +8,11 @@ module gapbeam_assemble_axial
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, along_axis
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_supports
+    use gapbeam_check_axial, only: has_links_along
+    use gapbeam_assemble_links_along, only: assemble_links_along
     implicit none
     private
-    public :: assemble_axial, axial_node
+    public :: assemble_axial, axial_node, moves_along
 
 contains
 
@@ -36,6 +38,7 @@ contains
                 if (model%supports(k)%direction /= gapbeam_axial) cycle
                 call stiff%note(model%supports(k)%stiffness, 0)
                 call ways%note(abs(model%supports(k)%settlement), 0)
+                call ways%note(abs(model%supports(k)%gap), 0)
             end do
             do k = 1, size(model%loads)
                 if (model%loads(k)%kind == gapbeam_axial_force) call forces%note(abs(model%loads(k)%value), 0)
@@ -65,7 +68,7 @@ contains
             axial%settlement(:) = 0.0_wp
             do k = 1, size(model%supports)
                 i = axial%node(k)
-                if (i < 0) cycle
+                if (i < 0 .or. model%supports(k)%direction /= gapbeam_axial .or. assembled%with_law(k)) cycle
                 associate (s => model%supports(k))
                     axial%stiffness(i) = scale(s%stiffness, -stiffness_unit(axial%units))
                     axial%settlement(i) = scale(s%settlement, -axial%units%deflection)
@@ -93,8 +96,19 @@ contains
                     axial%force(j, i) = axial%force(j, i) + scale(load%value, -axial%units%force)
                 end associate
             end do
+            if (has_links_along(model, assembled%with_law) .or. moves_along(assembled)) call assemble_links_along(assembled)
         end associate
     end subroutine assemble_axial
+
+    !> Does a load move a support along the beam
+    pure function moves_along(assembled) result(it_does)
+        type(assembled_type), intent(in) :: assembled
+        logical :: it_does
+
+        it_does = .false.
+        if (.not. allocated(assembled%growth)) return
+        it_does = any(assembled%model%supports%direction == gapbeam_axial .and. abs(assembled%growth) > 0.0_wp)
+    end function moves_along
 
     !> Node of the axial system at a point, or else the next one to the right, with which the bar there ends
     pure function axial_node(points, point) result(node)

@@ -101,7 +101,7 @@ contains
         type(motion_type), allocatable :: motions(:)
 
         depends = .true.
-        if (allocated(assembled%given_settlement)) return
+        if (allocated(assembled%given_settlement) .or. allocated(assembled%axial%laws)) return
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate

@@ -31,11 +31,23 @@ contains
         if (allocated(error)) return
         call check_rigid_pieces(assembled, error)
         if (allocated(error)) return
-        associate (axial => assembled%model%supports%direction == gapbeam_axial, loads => assembled%model%loads)
-            if (any(loads%kind == gapbeam_axial_force) .or. (any(axial) .and. any(makes_longer(loads))) &
-                .or. any(axial .and. abs(assembled%model%supports%settlement) > 0.0_wp)) call build_axial(assembled, error)
-        end associate
+        if (acts_along(assembled)) call build_axial(assembled, error)
     end subroutine assemble_supports
+
+    !> Is anything loaded or moved along the beam, where something holds it
+    pure function acts_along(assembled) result(it_is)
+        type(assembled_type), intent(in) :: assembled
+        logical :: it_is
+
+        associate (s => assembled%model%supports, loads => assembled%model%loads)
+            associate (axial => s%direction == gapbeam_axial)
+                it_is = any(loads%kind == gapbeam_axial_force) &
+                    .or. (any(axial .or. s%friction > 0.0_wp) .and. any(makes_longer(loads))) &
+                    .or. any(axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
+                if (allocated(assembled%growth)) it_is = it_is .or. any(axial .and. abs(assembled%growth) > 0.0_wp)
+            end associate
+        end associate
+    end function acts_along
 
     !> Does a load make the beam longer where nothing holds it
     elemental function makes_longer(load) result(yes)
@@ -49,13 +61,13 @@ contains
     subroutine check_neighbours(assembled, error)
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
-        !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 2 along the beam, elastic ones
-        !> too, 3 clamp
+        !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 3 clamp, along the beam, elastic ones
+        !> too, 5 and for those that push one way 4 and 6
         integer, allocatable :: rigid(:, :)
         integer :: k, m, stat, point
 
         m = size(assembled%model%supports)
-        allocate (rigid(-1:3, 0:ubound(assembled%point_span, 1)), stat=stat)
+        allocate (rigid(-1:6, 0:ubound(assembled%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -68,7 +80,7 @@ contains
                     call refuse(error, of_supports, k, m, at_hinge, "rotation", &
                                 "there is a hinge here, so it is unclear which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
-                    call note(2, "direction", "hold the beam along its axis")
+                    call note(5 + s%side, "direction", "hold the beam along its axis")
                 else if (s%stiffness > huge(s%stiffness)) then
                     ! A law is no stiffness; what it holds rigidly depends on its piece
                     if (.not. assembled%with_law(k)) call note(s%side, "side", "do the same rigidly")
@@ -273,6 +285,14 @@ contains
         yes = support%direction == gapbeam_normal .and. (support%stiffness > 0.0_wp .or. support%side == gapbeam_both)
     end function can_carry
 
+    !> Does a support hold the beam along its axis, by friction at least
+    elemental function holds_along(support) result(it_does)
+        type(support_type), intent(in) :: support
+        logical :: it_does
+
+        it_does = support%direction == gapbeam_axial .or. support%friction > 0.0_wp
+    end function holds_along
+
     !> The axial system: its points are the beam's ends and the places of axial forces and supports
     subroutine build_axial(assembled, error)
         type(assembled_type), intent(inout) :: assembled
@@ -291,7 +311,7 @@ contains
             node(0) = 0
             node(n) = 0
             do k = 1, size(model%supports)
-                if (model%supports(k)%direction == gapbeam_axial) node(assembled%support_point(k)) = 0
+                if (holds_along(model%supports(k))) node(assembled%support_point(k)) = 0
             end do
             do k = 1, size(model%loads)
                 if (model%loads(k)%kind == gapbeam_axial_force) node(assembled%load_from(k)) = 0
@@ -313,7 +333,7 @@ contains
             end do
             do k = 1, size(model%supports)
                 axial%node(k) = -1
-                if (model%supports(k)%direction == gapbeam_axial) axial%node(k) = node(assembled%support_point(k))
+                if (holds_along(model%supports(k))) axial%node(k) = node(assembled%support_point(k))
             end do
         end associate
     end subroutine build_axial

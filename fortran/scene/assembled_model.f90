@@ -4,7 +4,7 @@ module gapbeam_assembled_model
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_layers, only: layer_type, law_piece_type
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
         gapbeam_temperature
     use gapbeam_stations, only: place_span_ends
@@ -37,8 +37,14 @@ module gapbeam_assembled_model
         real(wp), allocatable :: elongation(:, :)
         !> Support of each point, 0: none, shape (0:n)
         real(wp), allocatable :: stiffness(:), settlement(:)
-        !> For every support of the model its node of this system; -1 for supports across the beam
+        !> For every support of the model its node of this system; -1 for supports across the beam that do not rub
         integer, allocatable :: node(:)
+        !> Where supports along the beam act one way, have a law or are moved by loads, or others rub: all of them as links, one
+        !> entry a breakpoint, with its support of the model, and whether it is friction. In units of this system; friction has no
+        !> limit yet
+        type(node_support_type), allocatable :: laws(:)
+        integer, allocatable :: support(:)
+        logical, allocatable :: rubs(:)
     end type axial_type
 
     !> A model made ready
@@ -275,6 +281,7 @@ contains
             associate (s => model%supports(i))
                 call mix(all_bits, [s%x, s%stiffness, s%gap, s%settlement, s%rotation, real([s%node, s%side, s%direction], wp)])
                 call mix(all_bits, [real(s%law, wp), s%parameter])
+                if (s%friction > 0.0_wp) call mix(all_bits, [s%friction])
             end associate
         end do
         if (allocated(model%law)) then

@@ -159,16 +159,12 @@ contains
             call refuse_number(error, here, "settlement", s%settlement, "a finite number")
         else if (.not. s%rotation >= 0.0_wp) then
             call refuse_number(error, here, "rotation", s%rotation, "a number, 0 or more (infinite: clamped)")
-        else if (s%direction == gapbeam_axial .and. s%side /= gapbeam_both) then
-            call refuse_entry(error, here, "side", not_axial, "an axial support holds on both sides; give 0 (both)")
-        else if (s%direction == gapbeam_axial .and. abs(s%gap) > 0.0_wp) then
-            call refuse_entry(error, here, "gap", not_axial, "an axial support has no gap; make it 0")
         else if (s%direction == gapbeam_axial .and. s%rotation > 0.0_wp) then
             call refuse_entry(error, here, "rotation", not_axial, &
                               "an axial support holds no rotation; a normal one here can do that")
         else if (s%side == gapbeam_both .and. abs(s%gap) > 0.0_wp .and. .not. has_law) then
             call refuse_entry(error, here, "gap", no_gap, &
-                              "only a support of side below or above has a gap, got "//trim(shown(s%gap)))
+                              "only a support that acts one way has a gap, got "//trim(shown(s%gap)))
         end if
 
     end subroutine check_support
@@ -181,11 +177,13 @@ contains
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)
         type(error_type), allocatable, intent(out) :: error
+        logical :: held
         integer :: i
 
+        held = any(model%supports%direction == gapbeam_axial .or. model%supports%friction > 0.0_wp)
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
-                call check_load(load, here, ends, any(model%supports%direction == gapbeam_axial), error)
+                call check_load(load, here, ends, held, error)
                 if (.not. allocated(error) .and. load%kind == gapbeam_movement) call check_movement(model, load, here, error)
             end associate
             if (allocated(error)) return
@@ -220,7 +218,7 @@ contains
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
         else if (load%kind == gapbeam_axial_force .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
-                              "nothing holds the beam along its axis; give a support with direction 1 (axial)")
+                              "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")
         end if
 
     end subroutine check_load
@@ -234,9 +232,6 @@ contains
 
         if (load%node < 1 .or. load%node > size(model%supports)) then
             call refuse_entry(error, here, "support", bad_movement, "there is no such support")
-        else if (model%supports(load%node)%direction == gapbeam_axial) then
-            call refuse_entry(error, here, "support", bad_movement, "it holds the beam along its axis; move "// &
-                              "it by its settlement")
         else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
             return
         else if (is_smooth(model%supports(load%node)%law)) then

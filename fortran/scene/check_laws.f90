@@ -4,7 +4,7 @@ module gapbeam_check_laws
     use gapbeam_tolerances, only: same_slope
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, pair
-    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_elastic, gapbeam_plastic, &
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_elastic, gapbeam_plastic, &
         gapbeam_broken
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
@@ -49,8 +49,6 @@ contains
                 end if
                 if (seen(k)) then
                     problem = "its points must stand beside each other"
-                else if (model%supports(k)%direction == gapbeam_axial) then
-                    problem = "an axial support has a stiffness only"
                 else if (.not. model%supports(k)%stiffness > huge(1.0_wp)) then
                     problem = "it stands instead of a stiffness; leave that out"
                 else if (model%supports(k)%side == gapbeam_both .and. model%supports(k)%gap < 0.0_wp) then

@@ -15,7 +15,7 @@ module gapbeam_scene
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
               temperature_load
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
-    public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial
+    public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature
     public :: gapbeam_live, gapbeam_dead
@@ -30,6 +30,8 @@ module gapbeam_scene
     integer, parameter :: gapbeam_by_x = -1
     !> Sides of a support or foundation: holds the beam both ways, pushes it up only, pushes it down only
     integer, parameter :: gapbeam_both = 0, gapbeam_below = 1, gapbeam_above = -1
+    !> Of an axial one: pushes it to the left only, to the right only
+    integer, parameter :: gapbeam_left = 1, gapbeam_right = -1
     !> Directions of a support: across the beam, along it
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
     !> Kinds of load
@@ -73,7 +75,8 @@ module gapbeam_scene
         real(wp) :: x = nowhere
         !> Or by node: 0 the left end, i the right end of span i; gapbeam_by_x: x counts
         integer :: node = gapbeam_by_x
-        !> gapbeam_both, gapbeam_below or gapbeam_above
+        !> gapbeam_both, gapbeam_below or gapbeam_above; along the beam gapbeam_both, gapbeam_left or gapbeam_right: which way it
+        !> pushes
         integer :: side = gapbeam_both
         !> Force per length; infinite: rigid; 0 and one-sided: it never carries
         real(wp) :: stiffness = gapbeam_infinity
@@ -92,6 +95,9 @@ module gapbeam_scene
         !> with k1, k2 and k3 (force/length to force/length**3); gapbeam_law_power, with d0 (length), limit and exponent
         integer :: law = gapbeam_law_by_points
         real(wp) :: parameter(parameters_of_law) = 0.0_wp
+        !> Of a support across the beam: friction coefficient. It holds the beam along its axis with a force up to that times its
+        !> reaction, and slips beyond
+        real(wp) :: friction = 0.0_wp
     end type support_type
 
     !> A point of the law of a support, which has one instead of a stiffness: a polyline from (0, 0) through its points, in which

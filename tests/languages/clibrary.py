@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-SIDES = {"both": 0, "below": 1, "above": -1}
+SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
@@ -18,7 +18,9 @@ GROUND_LAWS = {
 }
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
-CHANGES = {0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"}
+CHANGES = {0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"} | {
+    9: "slips", 10: "sticks"
+}
 KINDS_OF_LIMIT = {1: "limit", 2: "bifurcation", 3: "mechanism"}
 ENDINGS = {0: "", 3: "mechanism", 4: "ended"}
 REAL, INTEGER = c.POINTER(c.c_double), c.POINTER(c.c_int)
@@ -73,6 +75,7 @@ class Model(c.Structure):
         *((f"table_{name}", REAL) for name in ("x", "value")),
         ("support_law", INTEGER),
         ("support_parameter", REAL),
+        ("support_friction", REAL),
     )
 
 
@@ -197,6 +200,7 @@ def columns(scene):
             [([given.get(key, 0.0) for key in keys] + [np.nan] * 3)[:3] for given, (_, keys) in zip(named, codes, strict=True)],
             dtype=float,
         ).reshape(-1, 3),
+        "support_friction": real(supports, "friction", 0.0),
         **ground_columns(scene.get("foundation", ()), end),
     }
 
@@ -485,12 +489,13 @@ class F77Beam:
         model = [len(span), span, self.hinges, a["hinge_x"], len(sup), isup, sup, *self.loads_of(a)]
         alaw, ilaw = np.array([a["law_displacement"], a["law_force"]]).T.copy(), a["law_support"] + np.int32(1)
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
-        named = a["support_law"].any()
-        prepare = "ghprfd" if len(sides) else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
+        rubs = a["support_friction"].any()
+        named = a["support_law"].any() or rubs
+        prepare = "ghprfd" if len(sides) else "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         if len(ilaw) or len(sides) or named:
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
         if named:
-            model += [a["support_law"], a["support_parameter"]]
+            model += [a["support_law"], a["support_parameter"], *([a["support_friction"]] if rubs else [])]
         if len(sides):
             model += [len(sides), sides, np.array([a[f"foundation_{n}"] for n in foundations]).T.copy()]
             for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):

@@ -12,7 +12,7 @@ from . import calls as _engine  # the compiled layer itself, but for Ctrl-C
 from .arrays import Columns, extended
 from .layout import Curve, Layout
 from .quantities import QUANTITIES
-from .states import Solution, State
+from .states import Along, Chain, Solution, State
 from .units import Units
 
 SOLVED, NO_EQUILIBRIUM = Status.SOLVED, Status.NO_EQUILIBRIUM
@@ -103,9 +103,10 @@ class Beam(Layout):
         self.spare: deque[np.ndarray] = deque(maxlen=1)
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
-        self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path = map(
-            bool, has
-        )
+        (
+            self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path,
+            self.has_links_along,
+        ) = map(bool, has)  # fmt: skip
         self.units = Units(*units.tolist())
         c = self.columns
         self.handle.has_curves = bool((c.foundation[LAW_ROW] >= FIRST_CURVE).any() or c.has_varying_laws())
@@ -174,7 +175,9 @@ class Beam(Layout):
         same = same and (self._factors is None or np.array_equal(self._factors, other._factors))
         return self is other or (same and (not self.has_laws or np.array_equal(self.breakpoints, other.breakpoints)))
 
-    def solve(self, factor: float, rule: str, closed: np.ndarray, on_laws: int = ON_LINES) -> Solution:
+    def solve(
+        self, factor: float, rule: str, closed: np.ndarray, on_laws: int = ON_LINES, along: Along | None = None
+    ) -> Solution:
         """Find the contact state at one load factor.
 
         Parameters
@@ -187,6 +190,8 @@ class Beam(Layout):
             Starting scheme, one entry per support; left as it is.
         on_laws : {ON_LINES, BY_TANGENTS, WITH_LINES, ON_POLYLINES}
             How smooth laws are met.
+        along : Along, optional
+            What there is along the beam, where that is known on a path alone.
 
         Returns
         -------
@@ -206,18 +211,25 @@ class Beam(Layout):
         check_status(status, message)
         solves, method, indifferent, came_back, slides, *on_ground = counts.tolist()
         start = read_only(np.array(closed)) if closed.flags.writeable else closed
-        state = State(self, factor, code, start, *on_ground, on_laws, handle)
+        state = State(self, factor, code, start, *on_ground, on_laws, handle, along)
+        chain = None
+        if along is not None and status == SOLVED:
+            values, *found = along.put_into(self, factor, handle)
+            chain = Chain(*found)
+            indifferent = chain.loose
         return Solution(
             status, scheme[:m], undecided[:m], values.T[:, :-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
-            state,
+            state, chain,
         )  # fmt: skip
 
-    def solve_again(self, factor: float, code: int, start: np.ndarray, on_laws: int) -> _engine.Owned:
+    def solve_again(
+        self, factor: float, code: int, start: np.ndarray, on_laws: int, along: Along | None = None
+    ) -> _engine.Owned:
         """Solve a state once more.
 
         Parameters
         ----------
-        factor, code, start, on_laws
+        factor, code, start, on_laws, along
             As of `State`.
 
         Returns
@@ -233,6 +245,8 @@ class Beam(Layout):
             self.handle, self.links, self.scene_supports, factor, code, on_laws, extended(start)
         )
         check_status(status, message)
+        if along is not None:
+            along.put_into(self, factor, handle)
         return handle
 
     def find(self, x: np.ndarray, left: bool) -> tuple[np.ndarray, np.ndarray]:

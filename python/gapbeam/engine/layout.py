@@ -31,7 +31,7 @@ class Layout:
 
     Attributes
     ----------
-    handle, columns, curves, pieces, links, supports, scene_supports, ground_layers, depends_on_path
+    handle, columns, curves, pieces, links, supports, scene_supports, ground_layers, depends_on_path, has_links_along
         As of `Beam`.
     """
 
@@ -44,6 +44,7 @@ class Layout:
     scene_supports: int
     ground_layers: int
     depends_on_path: bool
+    has_links_along: bool
 
     @cached_property
     def places(self) -> Places:
@@ -79,6 +80,7 @@ class Layout:
     def laws(self) -> dict[int, tuple[slice, int, int]]:
         """Supports of the scene with a law: its breakpoints, how many are below its middle, piece there, 0 if it is open."""
         which = self.columns.with_laws()
+        which = which[self.across[which]]
         first, last = (np.searchsorted(self.numbers, which, side=side) for side in ("left", "right"))
         breakpoints = last - first
         both, gap = self.sides[which] == 0, self.columns.support[2, which]

@@ -137,6 +137,49 @@ class Followed:
         check_status(status, message)
         return laws[:, :-1], int(at) - 1, how
 
+    def put_along(
+        self, beam: Beam, stretch: int, factor: float, state: _engine.Owned
+    ) -> tuple:
+        """Put what there is along the beam on the path into a state.
+
+        Parameters
+        ----------
+        beam : Beam
+            With the loads of the leg.
+        stretch : int
+            From 0.
+        factor : float
+            The load factor.
+        state : Owned
+            Its state there.
+
+        Returns
+        -------
+        values : numpy.ndarray
+            At the supports, as from GBSOLV.
+        conditions, friction, slip, slides, loose
+            Of `Chain`.
+        """
+        return _engine.gbhaxi(beam.handle, self._found[1], state, stretch + 1, factor, beam.scene_supports)
+
+    def tensions(self, stretches: int) -> tuple[np.ndarray, np.ndarray]:
+        """Give the axial forces at the ends of all stretches, with links along the beam.
+
+        Parameters
+        ----------
+        stretches : int
+            How many there are.
+
+        Returns
+        -------
+        ends : numpy.ndarray of int
+            Row of both ends of every stretch, 2 rows; from 1.
+        tensions : numpy.ndarray
+            Axial force of every piece, a row an end.
+        """
+        ends = _engine.gbhend(self._found[1], stretches)
+        return ends, _engine.gbhten(self.beam.handle, self._found[1], self.beam.pieces, int(ends.max(initial=0))).T
+
     def released(self, limit: int) -> float:
         """Tell how much energy is set free from a limit to its landing.
 
@@ -158,6 +201,25 @@ class Followed:
         energy, status, message = _engine.gbheng(self.beam.handle, self._found[1], limit + 1)
         check_status(status, message)
         return float(energy)
+
+
+class OnStretch:
+    """What there is along the beam on a stretch of a path.
+
+    Parameters
+    ----------
+    followed : Followed
+        The path.
+    stretch : int
+        From 0.
+    """
+
+    def __init__(self, followed: Followed, stretch: int):
+        self.followed, self.stretch = followed, stretch
+
+    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> tuple:
+        """Put it into a state, as `Followed.put_along`."""
+        return self.followed.put_along(beam, self.stretch, factor, state)
 
 
 def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:

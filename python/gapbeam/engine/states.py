@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -23,6 +23,37 @@ ON_DEMAND = ("deflection", "moment_left", "moment_right", "shear", "reaction", "
 """Arrays of a state that come out of the compiled layer where they are asked for, in the order of GBSGET."""
 ALL = np.array(list(NUMBERS.values()), dtype=np.int32)
 """Numbers of all quantities along the beam."""
+
+
+class Along(Protocol):
+    """What there is along the beam, where that is known on a path alone."""
+
+    def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> tuple:
+        """Put it into a state; give its values at the supports, and those of a `Chain`."""
+
+
+class Chain(NamedTuple):
+    """Links along the beam, one entry a support of the scene.
+
+    Attributes
+    ----------
+    conditions : numpy.ndarray of int
+        State of every support, as gapbeam_pieces numbers it.
+    friction : numpy.ndarray
+        Force of friction on the beam, to the right, in the scene's units.
+    slip : numpy.ndarray
+        How far the beam has gone over the support, to the right, in the scene's units.
+    slides : numpy.ndarray of int
+        1 where the beam slides over the support to the right, -1 to the left, 0 where it sticks.
+    loose : int
+        1 where the beam can move freely.
+    """
+
+    conditions: np.ndarray
+    friction: np.ndarray
+    slip: np.ndarray
+    slides: np.ndarray
+    loose: int
 
 
 class State:
@@ -44,25 +75,28 @@ class State:
         How it meets smooth laws, as `Beam.solve`.
     handle : Owned, optional
         Of the state.
+    along : Along, optional
+        What there is along the beam, where that is known on a path alone.
     """
 
     def __init__(
         self, beam: Beam, factor: float, code: int, start: np.ndarray, stretches: int, layers: int,
-        on_laws: int, handle: _engine.Owned | None = None,
+        on_laws: int, handle: _engine.Owned | None = None, along: Along | None = None,
     ):  # fmt: skip
         self.beam, self.factor, self.code, self.start = beam, factor, code, read_only(start)
-        self.stretches, self.layers, self.on_laws = stretches, layers, on_laws
+        self.stretches, self.layers, self.on_laws, self.along = stretches, layers, on_laws, along
         if handle is not None:
             self.handle = handle
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is solved from."""
-        return type(self), (self.beam, self.factor, self.code, self.start, self.stretches, self.layers, self.on_laws)
+        about = self.beam, self.factor, self.code, self.start, self.stretches, self.layers, self.on_laws
+        return type(self), (*about, None, self.along)
 
     @cached_property
     def handle(self) -> _engine.Owned:
         """Its number in the compiled layer."""
-        return self.beam.solve_again(self.factor, self.code, self.start, self.on_laws)
+        return self.beam.solve_again(self.factor, self.code, self.start, self.on_laws, self.along)
 
     @cached_property
     def arrays(self) -> dict[str, np.ndarray]:
@@ -181,6 +215,8 @@ class Solution(Record):
         Whether nothing holds the beam along its axis.
     state : State
         All the rest.
+    chain : Chain, optional
+        Of links along the beam.
     """
 
     status: int
@@ -193,6 +229,7 @@ class Solution(Record):
     came_back: bool
     slides: bool
     state: State = field(compare=False)
+    chain: Chain | None = field(default=None, compare=False)
 
     def __eq__(self, other: object) -> bool:
         """Whether all numbers are equal."""

@@ -10,9 +10,16 @@ import numpy as np
 
 from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
-from ..scene.loads import AxialLoad, CurvatureLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.loads import (
+    AxialLoad,
+    CurvatureLoad,
+    ForceLoad,
+    LinearLoad,
+    MomentLoad,
+    TemperatureLoad,
+    UniformLoad,
+)
 from ..scene.table import kind_of
-from ..scene.temperature import as_curvatures
 from .labels import LINE, Labels, spread, text_width
 from .sheet import is_upright
 
@@ -30,7 +37,7 @@ MOST_LABELS = 24
 
 @dataclass
 class Block:
-    """A distributed load or an imposed curvature: its stretch, its two values, what it is."""
+    """A distributed load, an imposed curvature or a temperature: its stretch, its two values, what it is."""
 
     start: float
     stop: float
@@ -190,9 +197,14 @@ def _share(load: object, factor: float) -> float:
 def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     blocks = []
     cases = len({load.case for load in scene.loads})
-    for load in as_curvatures(scene).loads:
+    for load in scene.loads:
         share = _share(load, factor)
-        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad) or not share:
+        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad) or not share:
+            continue
+        if isinstance(load, TemperatureLoad):
+            told = [f"{name} {signed(share * value, 4)}" for name, value in (("dT", load.dT), ("gradient", load.gradient)) if value]
+            words = _unit_and_case(scene, load, None, cases)
+            blocks.append(Block(*stretch(scene, load), 0.0, 0.0, ", ".join(told), words, True))
             continue
         if isinstance(load, CurvatureLoad):
             first = last = share * load.kappa
@@ -206,6 +218,8 @@ def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     # Small arrows say which way a load acts; the sign says it only where there are none
     pointed = all((block.stop - block.start) * scale >= BETWEEN for block in blocks)
     for block in blocks:
+        if block.text:
+            continue
         way = -1.0 if pointed and not block.curvature and max(block.first, block.last) <= 0.0 else 1.0
         values = [signed(way * value, 4) for value in (block.first, block.last)]
         block.text = "curvature " * block.curvature + (values[0] if block.first == block.last else " to ".join(values))
@@ -246,9 +260,9 @@ def signed(value: float, digits: int) -> str:
     return with_minus_signs(number(value, digits))
 
 
-def _unit_and_case(scene: "Scene", load: object, quantity: str, cases: int) -> str:
-    """Word the unit of a load, and its name, or its case where the scene has several."""
-    return f"{unit(scene, quantity)} {visible(load.name or (load.case if cases > 1 else ''))}".strip()
+def _unit_and_case(scene: "Scene", load: object, quantity: str | None, cases: int) -> str:
+    """Word the unit of a load, if it has one, and its name, or its case where the scene has several."""
+    return f"{unit(scene, quantity) if quantity else ''} {visible(load.name or (load.case if cases > 1 else ''))}".strip()
 
 
 def _pack(blocks: list[Block], most: int = 6) -> int:

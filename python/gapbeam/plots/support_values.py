@@ -110,6 +110,11 @@ class StateValues:
             found += [(k, f"open {with_unit(scene, 'opening', float(step.opening[k]))}") for k in across]
         elif across and not largest and few:
             found.append((across[0], "0"))
+        rubs = [k for k in across if abs(float(step.friction[k])) > self._small]
+        found += [
+            (k, f"{self._along[int(step.friction[k] > 0.0)]} {with_unit(scene, 'friction', abs(float(step.friction[k])))}")
+            for k in rubs
+        ]
         words = [f"{self._names[k]}: {text}" if named or len(across) > 1 else text for k, text in found]
         small = NONE * float(np.abs(step.couple).max(initial=0.0))
         for k in indices:
@@ -199,6 +204,8 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
         found["settlement"] = f"{words} {with_unit(scene, 'gap', value)}"
     if support.law is None and 0.0 < support.stiffness < np.inf:
         found["spring"] = f"spring {fmt.number(support.stiffness, DIGITS)} {_per_length(scene)}".rstrip()
+    if support.friction:
+        found["friction"] = f"friction {fmt.number(support.friction, DIGITS)}"
     if not isinstance(support.rotation, str) and support.rotation:
         found["rotation"] = f"rotational spring {fmt.number(support.rotation, DIGITS)} {_turning(scene)}".rstrip()
     return {kind: with_minus_signs(words) for kind, words in found.items()}

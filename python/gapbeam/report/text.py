@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 
     from ..results.result import Result
     from ..results.state.step import Step
+    from ..scene.structs import Support
 
+WAYS = ("left", "right")
 MOST_EVENTS = 40
 """Events that the report lists."""
 
@@ -173,7 +175,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         return
     say.heading(f"Supports {at}")
     names = fmt.numbered(scene.supports)
-    sides = ["axial" if support.direction == "axial" else support.side for support in scene.supports]
+    sides = [_side(support) for support in scene.supports]
     states = [f"{symbol(state, say.plain)} {state_in_words(state)}" for state in step.state]
     bounds = step.certificate
     reaction, deflection = (
@@ -186,6 +188,8 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         quantities["opening"] = step.opening
     if any(step.set):
         quantities["set"] = step.set
+    if any(step.sliding):
+        quantities |= {"friction": step.friction, "slip": step.slip}
     for digits in (5, 4, 3):
         columns = [
             ("", names),
@@ -209,7 +213,16 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         say.line(line, "dim")
     counts = Counter(map(state_in_words, step.state))
     say.line(f"Upward positive; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
+    if slides := [f"{name} to the {way}" for name, way in zip(labels(scene.supports), step.sliding, strict=True) if way in WAYS]:
+        more = f" and {len(slides) - 10} more" if len(slides) > 10 else ""
+        say.line(f"The beam slides over support {', '.join(slides[:10])}{more}. Friction and slip: positive to the right.", "dim")
     _restraints_of_open_supports(say, result)
+
+
+def _side(support: "Support") -> str:
+    if support.direction != "axial":
+        return support.side
+    return "axial" if support.side == "both" else f"axial {support.side}"
 
 
 def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:

@@ -182,6 +182,12 @@ def limit_data(result: Result) -> dict[str, Any]:
     }
 
 
+def _friction(step: Step, k: int) -> dict[str, Any]:
+    """What friction does at a support."""
+    slides = step.sliding[k]
+    return {"force": float(step.friction[k]), "slip": float(step.slip[k]), "slides": slides if slides != "sticks" else ""}
+
+
 def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, Any]]:
     """Give the supports of a state as plain data.
 
@@ -207,6 +213,7 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
             "state": step.state[k],
             "opening": opening,
             **({"set": left} if support.unloading == "plastic" else {}),
+            **({"axial": _friction(step, k)} if support.friction else {}),
         }
         for k, (support, w, reaction, opening, couple, left) in enumerate(
             zip(result.scene.supports, *(column.tolist() for column in columns), strict=True)

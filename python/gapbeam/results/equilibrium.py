@@ -123,7 +123,7 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     ground = [zone.resultant for zone in step.contact]
     return Sums(
         _sum([*across.tolist(), *ground]), _sum([*(across * x).tolist(), *(-step.couple).tolist()]),
-        -_sum(reaction[~normal].tolist()),
+        -_sum([*reaction[~normal].tolist(), *step.friction.tolist()]),
     )  # fmt: skip
 
 
@@ -158,7 +158,7 @@ def balance_in_words(scene: Scene, step: Step) -> list[str]:
     parts = [("", "force", [one.force for one in sums])]
     if not len(scene.foundation):
         parts.append(("moment about x = 0", "moment", [one.moment for one in sums]))
-    if any(support.direction == "axial" for support in scene.supports):
+    if any(support.direction == "axial" or support.friction for support in scene.supports):
         parts.append(("along the beam", "force", [one.axial for one in sums]))
     lines = ["Sum of reactions  ", "Sum of loads      "]
     for name, quantity, values in parts:

@@ -220,8 +220,8 @@ def title(scene: Scene, without: str = "Beam without a title") -> str:
 
 
 UNITS = {one.name: one.unit for one in QUANTITIES} | {
-    **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length"), "{length}"),
-    **dict.fromkeys(("reaction", "force", "resultant"), "{force}"),
+    **dict.fromkeys(("x", "opening", "set", "gap", "sag", "length", "slip"), "{length}"),
+    **dict.fromkeys(("reaction", "force", "resultant", "friction"), "{force}"),
     "couple": "{force} {length}", "EI": "{force} {length}^2",
     "uniform": "{force}/{length}", "k": "{force}/{length}^2", "stress": "{force}/{length}^2",
 }
@@ -230,7 +230,7 @@ AREAS = {("N", "m"): "Pa", ("kN", "m"): "kPa", ("MN", "m"): "MPa", ("N", "mm"): 
 """Names of a force over an area."""
 HUGE = 1e300
 """Beyond it a value may leave the range of doubles in a smaller unit."""
-SMALL = ("deflection", "opening", "sag", "gap", "set")
+SMALL = ("deflection", "opening", "sag", "gap", "set", "slip")
 """Displacements, which are small beside lengths."""
 
 

@@ -158,6 +158,8 @@ def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
             for table, x in zip(tables, _snapped([table[name] for table in tables], beam).tolist(), strict=True):
                 table[name] = x
     for table, support in zip(data["supports"], scene.supports, strict=True):
+        if not support.friction:
+            del table["friction"]
         if support.law is not None:
             del table["stiffness"]
             if not is_smooth(support.law):

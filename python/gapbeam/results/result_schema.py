@@ -14,7 +14,7 @@ from .state.breakpoints import OF_SUPPORTS, OF_ZONES
 WORDS = {
     "Schema": [SCHEMA],
     "Status": ["solved", "no-equilibrium", "limit-load", "indeterminate", "not-converged", "not-finite"],
-    "Side": ["both", "below", "above"],
+    "Side": ["both", "below", "above", "left", "right"],
     "Normal": ["normal", "axial"],
     "Way": ["right", "left"],
 }
@@ -74,11 +74,17 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "side": ("Side", "Side on which it holds the beam, as in the scene."),
         "direction": ("Normal", "Direction, as in the scene."),
         "deflection": ("number", "Deflection of the beam there (length), positive downward; of an axial support to the right."),
-        "reaction": ("number", "Force of the support on the beam (force), positive upward."),
+        "reaction": ("number", "Force of the support on the beam (force), positive upward; of an axial one to the right."),
         "couple": ("number", "Moment of its rotational restraint on the beam (force*length), positive clockwise."),
         "state": ("string", "closed, open, bilateral, or of a support with a curve the segment of it: branch 1, branch 2, ..."),
         "opening": ("number", "Distance of the beam from its seat, the gap included (length); 0 in contact."),
         "set?": ("number", "Displacement that is left without force (length); only with plastic unloading."),
+        "axial?": ("Friction", "Along the beam; only of a support with friction."),
+    }),
+    "Friction": ("What friction does at a support.", {
+        "force": ("number", "Force on the beam (force), positive to the right."),
+        "slip": ("number", "How far the beam has gone over the support (length), positive to the right."),
+        "slides": ("string", "Which way it slides, left or right; empty where it sticks."),
     }),
     "ContactZone": ("A length of the beam in contact with the ground.", {
         "foundation": ("integer", "Number of the foundation, from 0."),

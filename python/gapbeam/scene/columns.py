@@ -37,7 +37,7 @@ BY_X = -1
 """Instead of a node: the place is given by x."""
 NOT_GIVEN = -np.finfo(float).max
 """Instead of a place, the right end of a stretch, or a stiffness of a section."""
-SIDES = {"both": 0, "below": 1, "above": -1}
+SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
 DIRECTIONS = {"normal": 0, "axial": 1}
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
@@ -133,9 +133,11 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
 
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    codes, found = _empty(5, len(items), np.int32), _empty(5 + PARAMETERS, len(items))
+    codes, found = _empty(5, len(items), np.int32), _empty(6 + PARAMETERS, len(items))
     codes[0, :-1] = _words(items, "side", SIDES)
     codes[1, :-1] = _words(items, "direction", DIRECTIONS)
+    if codes[0].any():
+        _refuse_sides(items, codes)
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
@@ -145,12 +147,31 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
         unloading.count("elastic") == len(unloading)
     )
     codes[3, :-1] = 0 if elastic else _words(items, "unloading", UNLOADING)
-    codes[4, :-1], found[5:, :-1] = 0, 0.0
+    codes[4, :-1], found[5:-1, :-1] = 0, 0.0
+    found[-1, :-1] = _numbers(items, "friction")
     laws = [] if isinstance(items, Table) else list(map(attrgetter("law"), items))
     for i, law in enumerate(laws if laws.count(None) < len(laws) else ()):
         if isinstance(law, Struct):
-            codes[4, i], found[5:, i] = law.code, law.parameters()
+            codes[4, i], found[5:-1, i] = law.code, law.parameters()
     return codes, found
+
+
+def _refuse_sides(items: Sequence[Any], codes: np.ndarray) -> None:
+    """Refuse an axial support that is below or above, and one across the beam that pushes to the left or right."""
+    sides = _column(items, "side")
+    axial, along = codes[1, :-1] == DIRECTIONS["axial"], np.isin(sides, ("left", "right"))
+    wrong = np.flatnonzero((codes[0, :-1] != 0) & (along != axial))
+    if not len(wrong):
+        return
+    i = int(wrong[0])
+    side = sides if isinstance(sides, str) else sides[i]
+    if axial[i]:
+        meant = "an axial support pushes to the left or to the right"
+        problem = f'{meant}; use side = "left", "right" or "both", got "{side}"'
+    else:
+        meant = "a support across the beam is below or above it"
+        problem = f'{meant}; use side = "below" or "above", or direction = "axial", got "{side}"'
+    raise SceneError(f"supports[{i}].side", problem)
 
 
 def points_given(law: Any) -> list[tuple[float, float]] | None:

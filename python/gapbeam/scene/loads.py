@@ -124,14 +124,15 @@ class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
 
 
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
-    """A movement of a support across the beam, beside its settlement: what jacks, sinks, or is lifted by heat.
+    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat.
 
     Parameters
     ----------
     support : int or str
-        Number, from 0, or name of the support; not an axial one.
+        Number, from 0, or name of the support.
     value : float
-        Movement (length), positive downward. It moves the place at which the support begins to act.
+        Movement (length), positive downward, of an axial support to the right. It moves the place at which the support begins
+        to act.
     name : str, optional
         Its name, unique among loads; shown instead of its number.
     case : str

@@ -28,10 +28,9 @@ EXPECTED = {
     "gap": "a finite number",
     "settlement": "a finite number",
     "rotation": '"free", "fixed" or a number, 0 or more',
+    "friction": "a finite number, 0 or more",
 }
 AXIAL = {
-    "side": 'an axial support holds on both sides; use side = "both"',
-    "gap": "an axial support has no gap; remove it",
     "rotation": "an axial support holds no rotation; a normal one here can do that",
 }
 
@@ -79,7 +78,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         AT_END: lambda: f"x = {number(item)} is an end of the beam, where no hinge can be; remove it",
         TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
-        NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial"',
+        NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", or friction',
         AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
         "which side takes it; put it on one side of the hinge",
     }
@@ -143,7 +142,8 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
     if reason == NOT_AXIAL:
         return SceneError(f"{path}.{key}", AXIAL[key])
     if reason == NO_GAP:
-        return SceneError(f"{path}.gap", 'only a support with side = "below" or "above" has a gap')
+        ways = '"left" or "right"' if item.direction == "axial" else '"below" or "above"'
+        return SceneError(f"{path}.gap", f"only a support with side = {ways} has a gap")
     if reason == AT_HINGE:
         problem = "there is a hinge here, so it is unclear which side is held; move one aside"
         return SceneError(f"{path}.rotation", problem)

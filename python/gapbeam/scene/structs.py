@@ -40,7 +40,7 @@ from .ground_tables import Along
 from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
-from .table import NotNegative, Point, Positive, Side, Spans, Stretch, Table
+from .table import NotNegative, Point, Positive, Side, Spans, Stretch, SupportSide, Table
 
 inf = math.inf
 
@@ -123,8 +123,9 @@ class Support(Point, kw_only=True, gc=False):
 
     Parameters
     ----------
-    side : {"both", "below", "above"}
-        Both (default) holds the beam, below pushes it up only (bearing), above pushes it down only (hold-down).
+    side : {"both", "below", "above", "left", "right"}
+        Both (default) holds the beam, below pushes it up only (bearing), above pushes it down only (hold-down). Of an axial
+        support left pushes it to the left only, right to the right only.
     stiffness : float
         Stiffness (force/length), default inf (rigid). A one-sided support with 0 never carries: it is open, and its
         opening negative where the beam has gone past it.
@@ -137,6 +138,9 @@ class Support(Point, kw_only=True, gc=False):
         when the support has lifted off, as in a guide.
     direction : {"normal", "axial"}
         Normal (default) is across the beam; axial holds it horizontally, only with axial loads.
+    friction : float
+        Coefficient (no unit) of a support across the beam: it holds the beam along its axis with a force up to that times its
+        reaction, then slips. Default 0.
     law : list of (float, float) or table, optional
         Instead of stiffness: points of a curve, displacement past the gap and force (length, force), from (0, 0) on, which is
         left out. Equal displacements are a vertical piece: rigid up to a force, or brittle. The last slope continues. With side
@@ -147,12 +151,13 @@ class Support(Point, kw_only=True, gc=False):
         again once its force has fallen.
     """
 
-    side: Side = "both"
+    side: SupportSide = "both"
     stiffness: NotNegative = inf
     gap: float = 0.0
     settlement: float = 0.0
     rotation: Literal["free", "fixed"] | NotNegative = "free"
     direction: Literal["normal", "axial"] = "normal"
+    friction: NotNegative = 0.0
     law: Law | None = None
     unloading: Literal["elastic", "plastic", "broken"] = "elastic"
 

@@ -19,7 +19,6 @@ OF_SUPPORTS = {
     '"fixed" clamps it',
     "kind": 'a support has no kind: side = "both" holds it up and down, "below" lets it lift off',
     "fixed": 'did you mean rotation = "fixed"?',
-    "friction": "friction of supports is not available in this version",
 }
 """What supports have in other words."""
 _BELOW = 'a support that lies under the beam and lets it lift off is "below"'
@@ -112,8 +111,6 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return ""
     if key == "law" and place.startswith("foundation"):
         return "; give points [displacement, force per length], or a law by name such as " + LAW
-    if key == "side" and value in ("left", "right") and place.startswith("supports"):
-        return "; an axial support that pushes one way only is not available in this version"
     if (hint := VALUES.get((key, str(value).lower()))) is not None:
         return f"; {hint}"
     is_short = isinstance(value, str) and len(value) <= LONGEST

@@ -47,7 +47,7 @@ def is_held_along(scene: Scene) -> bool:
     scene : Scene
         Keys and types are right.
     """
-    return any(support.direction == "axial" for support in scene.supports)
+    return any(support.direction == "axial" or support.friction for support in scene.supports)
 
 
 def effect_of(scene: Scene, k: int, load: Any) -> tuple[float, float]:

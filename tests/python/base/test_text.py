@@ -121,7 +121,7 @@ def test_errors(text):
     with pytest.raises(gapbeam.SceneError) as caught:
         gapbeam.read_scene({"beam": {"spans": [1.0], "EI": 1.0}, "supports": [{"node": 0, "side": written}]})
     message = str(caught.value)
-    assert message.startswith('supports[0].side: expected "above", "below" or "both", got "')
+    assert message.startswith('supports[0].side: expected "above", "below", "both", "left" or "right", got "')
     assert visible(message) == message
     with pytest.raises(gapbeam.SceneError) as caught:
         gapbeam.read_scene({"beam": {"spans": [1.0], "EI": 1.0}, written: 1})

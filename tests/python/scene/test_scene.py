@@ -356,7 +356,7 @@ def test_schema_fits_the_example():
         {"beam": {"spans": []}},
         {"loads": [{"type": "force"}]},
         {"analysis": {"steps": 0}},
-        {"supports": [{"side": "left"}]},
+        {"supports": [{"side": "up"}]},
         {"supports": [{"stiffness": -1.0}]},
         {"supports": [{"node": -1}]},
         {"sections": [{"EI": 0.0}]},

@@ -54,9 +54,9 @@ gap = {} -> supports[0].gap: expected a number, got a table
 node = "end" -> supports[0].node: expected a whole number, got "end"
 node = 1.5 -> supports[0].node: expected a whole number, got 1.5
 side = "under" ->
-    supports[0].side: expected "above", "below" or "both", got "under"; a support that lies under the beam and lets it
-    lift off is "below"
-side = 1 -> supports[0].side: expected "above", "below" or "both", got 1
+    supports[0].side: expected "above", "below", "both", "left" or "right", got "under"; a support that lies under the beam
+    and lets it lift off is "below"
+side = 1 -> supports[0].side: expected "above", "below", "both", "left" or "right", got 1
 rotation = "stiff" -> supports[0].rotation: expected "fixed", "free" or a number, got "stiff"
 rotation = [1] -> supports[0].rotation: expected "fixed", "free" or a number, got [1]
 direction = "x" -> supports[0].direction: expected "axial" or "normal", got "x"
@@ -67,7 +67,7 @@ stifness = 3 -> supports[0].stifness: unknown key; did you mean "stiffness"?
 Stiffness = 3 -> supports[0].Stiffness: unknown key; did you mean "stiffness"?
 zzz = 1 ->
     supports[0].zzz: unknown key; the keys are node, x, name, side, stiffness, gap, settlement, rotation,
-    direction, law and unloading
+    direction, friction, law and unloading
 """
 
 
@@ -219,8 +219,16 @@ x = 6.0; gap = 0.01 -> supports[0].gap: only a support with side = "below" or "a
 x = 6.0; rotation = -3 -> supports[0].rotation: expected "free", "fixed" or a number, 0 or more, got -3.0
 x = 6.0; rotation = nan -> supports[0].rotation: expected "free", "fixed" or a number, 0 or more, got nan
 x = 6.0; direction = "axial"; side = "below" ->
-    supports[0].side: an axial support holds on both sides; use side = "both"
-x = 6.0; direction = "axial"; gap = 0.1 -> supports[0].gap: an axial support has no gap; remove it
+    supports[0].side: an axial support pushes to the left or to the right; use side = "left", "right" or "both", got "below"
+x = 6.0; side = "left" ->
+    supports[0].side: a support across the beam is below or above it; use side = "below" or "above", or direction = "axial",
+    got "left"
+x = 6.0; direction = "axial"; gap = 0.1 ->
+    supports[0].gap: only a support with side = "left" or "right" has a gap
+x = 6.0; friction = -0.1 -> supports[0].friction: expected a finite number, 0 or more, got -0.1
+x = 6.0; friction = inf -> supports[0].friction: expected a finite number, 0 or more, got inf
+x = 6.0; direction = "axial"; friction = 0.1 ->
+    supports[0].friction: a support along the beam has none; give it to one across the beam
 x = 6.0; direction = "axial"; rotation = "fixed" ->
     supports[0].rotation: an axial support holds no rotation; a normal one here can do that
 x = 6.0; law = [] -> supports[0].law: has no point; give (displacement past the gap, force)
@@ -241,8 +249,10 @@ x = 6.0; side = "below"; law = [[0.01, 10.0], [0.02, 60.0]]; unloading = "plasti
     would give back more work than it took; begin with the steepest piece, or leave unloading out
 x = 6.0; law = [[0.0, 1.0], [0.0, 2.0]] ->
     supports[0].law: there are two vertical pieces at 0; give the outer points only
-x = 6.0; direction = "axial"; law = [[0.01, 5.0]] ->
-    supports[0].law: an axial support has a stiffness only
+x = 6.0; direction = "axial"; law = { type = "tanh", stiffness = 1.0, limit = 2.0 } ->
+    supports[0].law: a curve along the beam is not available in this version; give its points
+x = 6.0; direction = "axial"; side = "left"; law = [[0.0, 1.0], [0.1, 0.5], [1.0, 0.5]] ->
+    supports[0].law: a force that falls along the beam is not available in this version; give a law that rises or stays
 x = 6.0; law = { type = "soft" } ->
     supports[0].law.type: expected "plastic", "brittle", "hardening", "cubic", "hyperbolic", "tanh" or "power", got
     "soft"
@@ -355,7 +365,7 @@ type = "linear"; q = [1.0, 2.0]; from = 5.0; to = 25.0 ->
 type = "curvature"; kappa = 1.0; from = -5.0 ->
     loads[1].from: -5 is outside the beam, which runs from x = 0 to x = 18
 type = "axial"; F = 1.0; node = 0 ->
-    loads[1]: nothing holds the beam horizontally; give a support direction = "axial"
+    loads[1]: nothing holds the beam horizontally; give a support direction = "axial", or friction
 """
 
 
@@ -476,8 +486,8 @@ def refused(**parts):
         ({"supports": [Support(x="6")]}, 'supports[0].x: expected a number, got "6"; write 6 without quotes'),
         (
             {"supports": [Support(x=6.0, side="left")]},
-            'supports[0].side: expected "above", "below" or "both", got "left"; an axial support that pushes one way only is not '
-            "available in this version",
+            'supports[0].side: a support across the beam is below or above it; use side = "below" or "above", or direction = '
+            '"axial", got "left"',
         ),
         ({"supports": Support(x=6.0)}, "supports: expected a list of tables, got a table"),
         (

@@ -145,7 +145,7 @@ REFUSED = [
     ({"supports": {"node": [0, 1, 2], "gap": [0.0, 0.1]}}, "supports: its columns are of unequal length: node has 3 and gap has 2"),
     ({"supports": {"node": [0, 99]}}, "supports[1].node: there is no node 99; the nodes of the beam are 0 to 40"),
     ({"supports": {"x": [0.0, np.nan]}}, "supports[1].x: expected a number, got nan"),
-    ({"supports": {"node": [0, 1], "side": ["both", "under"]}}, 'supports[1].side: expected "above", "below" or "both"'),
+    ({"supports": {"node": [0, 1], "side": ["both", "under"]}}, 'supports[1].side: expected "above", "below", "both", "left" or'),
     ({"supports": {"nodes": [0, 1]}}, 'supports[0].nodes: unknown key; did you mean "node"?'),
     ({"supports": {"node": [0.5, 1.0]}}, "supports[0].node: expected a whole number, got 0.5"),
     ({"supports": {"node": [0, 1], "x": [0.0, 6.0]}}, "supports[0]: has both node = 0 and x = 0; give one of the two"),

@@ -11,7 +11,7 @@ import numpy as np
 from ...base.errors import EngineError, Status
 from ...base.records import Pickled, read_only
 from ...engine.beam import BY_TANGENTS, GIVEN, ON_POLYLINES, Beam
-from ...engine.paths import ENDINGS, Followed
+from ...engine.paths import ENDINGS, Followed, OnStretch
 from ...engine.tolerances import MOST_PATH_SEGMENTS
 from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.step import Step
@@ -52,6 +52,7 @@ class BranchPath(Pickled):
         self._followed, self._beam = followed, followed.beam
         self._history = history = followed.history()
         self._dead = self._beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
+        self._support_x = scene.positions(scene.supports).tolist()
         self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
         self.ending = history.ending
         self.motion = history.motion
@@ -87,6 +88,8 @@ class BranchPath(Pickled):
         beam, h = self._beam, self._history
         x = beam.node_x[beam.places.support_nodes]
         places = dict(zip(beam.numbers.tolist(), x.tolist(), strict=True))
+        if beam.has_links_along:
+            places |= dict(enumerate(self._support_x))
         happens = zip(h.event_factors.tolist(), h.events.tolist(), strict=True)
         return [Event(factor, support, places[support], EVENTS[what]) for factor, (support, what) in happens]
 
@@ -124,6 +127,31 @@ class BranchPath(Pickled):
     def closed(self, segment: BranchSegment) -> np.ndarray:
         """Give the scheme of a segment, as `Path.closed`."""
         return self._history.closed[segment.number].astype(np.int32)
+
+    def pressed(self, segment: BranchSegment) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
+        """Give what tells whether the beam buckles on a segment, with links along the beam.
+
+        Parameters
+        ----------
+        segment : BranchSegment
+            One of the segments.
+
+        Returns
+        -------
+        closed : numpy.ndarray of int
+            The scheme.
+        breakpoints : numpy.ndarray or None
+            The laws of supports as they have become, if there are any.
+        tensions : numpy.ndarray
+            Axial force of every piece at its start and at its stop.
+        """
+        breakpoints = self._history.breakpoints[segment.number] if self._beam.has_laws else None
+        columns, tensions = self._tensions
+        return self._history.closed[segment.number], breakpoints, tensions[columns[:, segment.number] - 1]
+
+    @cached_property
+    def _tensions(self) -> tuple[np.ndarray, np.ndarray]:
+        return self._followed.tensions(len(self._history.about))
 
     def beam(self, segment: BranchSegment) -> Beam:
         """Give the beam with the laws of its supports as they are on a segment.
@@ -214,7 +242,8 @@ class BranchPath(Pickled):
 
     def _step(self, k: int, factor: float) -> Step:
         if not self._beam.curves:
-            return Step(self._beam_at(k), factor, GIVEN, self._scheme(k))
+            along = OnStretch(self._followed, k) if self._beam.has_links_along else None
+            return Step(self._beam_at(k), factor, GIVEN, self._scheme(k), along=along)
         breakpoints, k, how = self._followed.lines(self._loaded(k), k, factor)
         beam = self._loaded(k).with_breakpoints(breakpoints)
         return Step(beam, factor, GIVEN, self._scheme(k), settled=how != BY_TANGENTS, exact=how != ON_POLYLINES)

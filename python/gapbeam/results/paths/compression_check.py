@@ -71,14 +71,25 @@ def check_compression(result: Result) -> None:
     if result._beam.bars < 0:
         return
     struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
-    on_the_way = chain(result.steps, _begins(result))
-    states = ((f"at load factor {step.factor:.6g} ", compression_of(result, step, struts)) for step in on_the_way)
+    if result._beam.has_links_along:
+        states = _along(result, struts)
+    else:
+        on_the_way = chain(result.steps, _begins(result))
+        states = ((f"at load factor {step.factor:.6g} ", compression_of(result, step, struts)) for step in on_the_way)
     for where, found in chain(states, _with_trains(result, struts)):
         result.compression = larger(result.compression, found)
         if asked and found is not None and found.is_refused:
             raise found.refusal(where)
     if asked and result.compression is not None and result.compression.is_warned:
         result.remarks = [result.compression.remark()]
+
+
+def _along(result: Result, struts: Struts) -> Iterator[tuple[str, Compression | None]]:
+    """Go through both ends of all segments, where the path has the axial forces: no state is solved for them."""
+    for segment in result.path.segments:
+        closed, breakpoints, tensions = result.path.pressed(segment)
+        for factor, tension in zip((segment.start, segment.stop), tensions, strict=True):
+            yield f"at load factor {factor:.6g} ", struts.largest(closed, tension, breakpoints=breakpoints)
 
 
 def _begins(result: Result) -> Iterator[Step]:

@@ -105,11 +105,17 @@ class Struts:
             None where nothing is compressed.
         """
         found, EI = None, self.EI if EI is None else EI
-        for a, b, length in self.stretches(closed, breakpoints):
-            force = -float(tension[a:b].min())
-            if force > 0.0:
-                a, b, length = self._compressed(a, b, length, tension)
-                found = larger(found, self._beside(force, euler(float(EI[a:b].min()), length), self.x[a], self.x[b], length))
+        stretches = self.stretches(closed, breakpoints)
+        first, last, length = (np.array(column) for column in zip(*stretches, strict=True))
+        force = -np.minimum.reduceat(tension, first)
+        with np.errstate(all="ignore"):
+            ratio = np.where(force > 0.0, force / (np.pi / length * np.minimum.reduceat(EI, first) * (np.pi / length)), 0.0)
+        # Of an overhang the length follows from the compression
+        follows = (force > 0.0) & (length != self.x[last] - self.x[first])
+        largest = np.argmax(np.where(follows, 0.0, ratio), keepdims=True)
+        for k in np.union1d(np.flatnonzero(follows), largest[force[largest] > 0.0]).tolist():
+            a, b, one = self._compressed(*stretches[k], tension)
+            found = larger(found, self._beside(float(force[k]), euler(float(EI[a:b].min()), one), self.x[a], self.x[b], one))
         return found
 
     def _compressed(self, a: int, b: int, length: float, tension: np.ndarray) -> tuple[int, int, float]:

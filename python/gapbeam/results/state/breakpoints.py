@@ -11,7 +11,7 @@ from ...engine.beam import Beam
 OF_SUPPORTS = {
     0: ("opens", "lifts off"), 1: ("closes", "comes into contact"), 3: ("turns", "stops the beam, which has turned freely"),
     4: ("yields", "yields"), 5: ("hardens", "hardens"), 6: ("softens", "softens"), 7: ("breaks", "breaks"),
-    8: ("unloads", "unloads"),
+    8: ("unloads", "unloads"), 9: ("slips", "begins to slip"), 10: ("sticks", "no longer slips"),
 }  # fmt: skip
 OF_ZONES = {
     20: ("zone appears", "a contact zone appears"), 21: ("zone vanishes", "a contact zone vanishes"),

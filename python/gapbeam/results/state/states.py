@@ -26,6 +26,7 @@ from .arguments import finite, numbers, whole
 from .fields import Fields, find_places
 from .ground import with_ends_of_zones
 from .motion import SLIDES, describe_motion
+from .schemes import starting_scheme
 from .step import Step, solve_step
 from .steps import LoadSteps, Steps
 from .system import System, system_of
@@ -213,7 +214,10 @@ class States(Pickled):
             return self.path.step(segment, factor)
         if self._beam.depends_on_path:
             raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
-        closed = self.path.at(factor) if self.segments else self.steps.nearest(factor)
+        if not self.segments:
+            closed = self.steps.nearest(factor)
+        else:
+            closed = starting_scheme(self._beam) if self.depends_on_path else self.path.at(factor)
         step = solve_step(self._beam, factor, self._rule, closed)
         if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")

@@ -17,13 +17,17 @@ import numpy as np
 from ...base.records import Pickled, read_only
 from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LINES, Beam
 from ...engine.case_certificates import BOUNDED
-from ...engine.states import Solution
+from ...engine.states import Along, Solution
 from ...engine.units import bound_in_scene, scaled
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
 from .state_extremes import extremes_of_state
 
+SLIDING = {0: "sticks", 1: "right", -1: "left"}
+CONDITIONS = {0: "open", 1: "closed", 2: "bilateral"}
+BRANCH = 10
+"""States of supports, as gapbeam_pieces numbers them; of a law BRANCH plus the number of the piece."""
 PLASTIC = 1
 """Unloading, as in gapbeam_scene."""
 
@@ -53,7 +57,7 @@ class Step(Pickled):
 
     def __init__(
         self, beam: Beam, factor: float, rule: str, start: np.ndarray, known: Known | None = None,
-        settled: bool = False, exact: bool = True, solution: Solution | None = None,
+        settled: bool = False, exact: bool = True, solution: Solution | None = None, along: Along | None = None,
     ):  # fmt: skip
         self.factor = factor
         self.exact = exact
@@ -63,6 +67,7 @@ class Step(Pickled):
         self._rule = rule
         self._start = start
         self._known = known
+        self._along = along
         if solution is not None:
             self._solved = solution, 0.0
 
@@ -80,7 +85,7 @@ class Step(Pickled):
         how = ON_LINES
         if self._beam.curves:
             how = (WITH_LINES if self.exact else ON_POLYLINES) if self._settled else BY_TANGENTS
-        return self._beam.solve(self.factor, self._rule, self._start, how), perf_counter() - begin
+        return self._beam.solve(self.factor, self._rule, self._start, how, self._along), perf_counter() - begin
 
     @property
     def solution(self) -> Solution:
@@ -148,7 +153,7 @@ class Step(Pickled):
         """Permanent set of each support with plastic unloading (length, in the direction in which it gives way), else 0."""
         beam = self._beam
         found = np.zeros(beam.scene_supports)
-        which = np.flatnonzero(beam.columns.support_codes[3, :-1] == PLASTIC)
+        which = np.flatnonzero((beam.columns.support_codes[3, :-1] == PLASTIC) & beam.across)
         if len(which):
             first = np.searchsorted(beam.numbers, which)
             side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
@@ -163,7 +168,32 @@ class Step(Pickled):
     @cached_property
     def state(self) -> tuple[str, ...]:
         """``closed``, ``open`` or ``bilateral``; of a law ``open`` or ``branch 1``, ``branch 2`` and so on."""
-        return name_states(self._beam, self.closed)
+        names, chain = name_states(self._beam, self.closed), self.solution.chain if self._along is not None else None
+        if chain is None:
+            return names
+        # Of links along the beam the engine tells
+        told = [name if across else CONDITIONS.get(code, f"branch {code - BRANCH}") for name, across, code in zip(
+            names, self._beam.across.tolist(), chain.conditions.tolist(), strict=True)]  # fmt: skip
+        return tuple(told)
+
+    @property
+    def friction(self) -> np.ndarray:
+        """Force of friction of each support on the beam, positive to the right; 0 where there is none."""
+        chain = self.solution.chain
+        return read_only(np.zeros(self._beam.scene_supports)) if chain is None else chain.friction
+
+    @property
+    def slip(self) -> np.ndarray:
+        """How far the beam has gone over each support that has friction, positive to the right; else 0."""
+        chain = self.solution.chain
+        return read_only(np.zeros(self._beam.scene_supports)) if chain is None else chain.slip
+
+    @property
+    def sliding(self) -> tuple[str, ...]:
+        """Which way the beam slides over each support that has friction: ``left``, ``right`` or ``sticks``; else empty."""
+        chain, has = self.solution.chain, self._beam.columns.support[-1, :-1] > 0.0
+        slides = np.zeros(len(has), dtype=int) if chain is None else chain.slides
+        return tuple(SLIDING[way] if there else "" for there, way in zip(has.tolist(), slides.tolist(), strict=True))
 
     @cached_property
     def _certified(self) -> tuple[np.ndarray, np.ndarray, bool]:
@@ -258,7 +288,9 @@ class Step(Pickled):
         -------
         Step
         """
-        return Step(self._beam, self.factor, self._rule, self._start, self._known, self._settled, self.exact)
+        return Step(
+            self._beam, self.factor, self._rule, self._start, self._known, self._settled, self.exact, along=self._along
+        )
 
 
 def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:

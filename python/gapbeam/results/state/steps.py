@@ -110,6 +110,9 @@ class Steps(Pickled, Sequence[Step]):
         before: np.ndarray | None = None
         states: tuple[str, ...] = ()
         for k in range(len(self)):
+            if self._beam.has_links_along:
+                yield self.factor(k), self[k].state
+                continue
             closed = self.closed(k)
             if before is None or not np.array_equal(closed, before):
                 before, states = closed, name_states(self._beam, closed)

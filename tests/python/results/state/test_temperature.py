@@ -135,15 +135,8 @@ def test_what_makes_no_sense_is_refused(loads, beam, words):
 
 def test_what_is_not_there_yet_is_refused_by_name():
     one = scene([])
-    one["supports"][1]["friction"] = 0.3
-    with pytest.raises(SceneError, match="friction of supports is not available in this version"):
-        gapbeam.read_scene(one)
-    del one["supports"][1]["friction"]
     with pytest.raises(SceneError, match="ground along the axis is not available in this version"):
         gapbeam.read_scene(one | {"axial_ground": [{"stiffness": 1e5, "limit": 1.5}]})
-    one["supports"].append({"node": 0, "direction": "axial", "side": "left"})
-    with pytest.raises(SceneError, match="pushes one way only is not available in this version"):
-        gapbeam.read_scene(one)
 
 
 def test_pictures_and_pages_take_it(tmp_path):

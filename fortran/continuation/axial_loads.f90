@@ -1,0 +1,163 @@
+!> The chain along the beam of a model: at rest, its loads, and what friction takes of the reactions across the beam.
+module gapbeam_axial_loads
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_polyline_quad, only: node_support_type
+    use gapbeam_scene, only: gapbeam_elastic
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_axial_chain, only: chain_type, new_chain
+    use gapbeam_history_record, only: history_type
+    use gapbeam_path_states, only: solve_on_path
+    implicit none
+    private
+    public :: make_chain, set_loads, set_limits, find_reactions, zeros_between, values_of
+
+contains
+
+    !> The chain at rest
+    subroutine make_chain(assembled, chain, support)
+        !> With links along the beam
+        type(assembled_type), intent(in) :: assembled
+        type(chain_type), intent(out) :: chain
+        !> Support of the model of every link
+        integer, allocatable, intent(out) :: support(:)
+        type(node_support_type), allocatable :: laws(:)
+        logical, allocatable :: rubs(:), keeps(:)
+        integer :: k, l
+
+        associate (axial => assembled%axial, given => assembled%model%supports)
+            allocate (laws(size(axial%laws)), rubs(size(axial%laws)), keeps(size(axial%laws)), support(size(axial%laws)))
+            l = 0
+            do k = 1, size(laws)
+                associate (s => axial%laws(k), its => given(axial%support(k)))
+                    laws(k) = node_support_type(s%node, s%side, real(s%stiffness, qp), real(s%contact, qp), s%breakpoint, s%more, &
+                                                .false., real(s%force, qp), real(s%before, qp))
+                    if (.not. axial%rubs(k)) laws(k)%contact = laws(k)%contact - movement_of(assembled, axial%support(k))
+                    rubs(k) = axial%rubs(k)
+                    keeps(k) = its%unloading /= gapbeam_elastic .and. .not. rubs(k)
+                    if (s%more) cycle
+                    l = l + 1
+                    support(l) = axial%support(k)
+                end associate
+            end do
+            support = support(:l)
+            call new_chain(real(axial%flexibility, qp), laws, rubs, keeps, chain)
+        end associate
+    end subroutine make_chain
+
+    !> How far a support moves itself while the dead loads are put on: its settlement, and lack of fit
+    pure function movement_of(assembled, support) result(movement)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: support
+        real(qp) :: movement
+
+        associate (s => assembled%model%supports(support))
+            movement = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -assembled%axial%units%deflection)
+        end associate
+    end function movement_of
+
+    !> Rates of the loads of a leg
+    subroutine set_loads(assembled, support, leg, way, chain)
+        type(assembled_type), intent(in) :: assembled
+        !> Of every link
+        integer, intent(in) :: support(:)
+        !> 0: dead loads, settlements and lacks of fit
+        integer, intent(in) :: leg
+        !> 1 where the load rises, -1 where it falls
+        real(wp), intent(in) :: way
+        type(chain_type), intent(inout) :: chain
+        integer :: case, l
+
+        case = merge(1, 2, leg == 0)
+        associate (axial => assembled%axial)
+            chain%load_rate(:) = way*axial%force(case, :)
+            chain%elongation_rate(:) = 0.0_qp
+            if (allocated(axial%elongation)) chain%elongation_rate(:) = way*axial%elongation(case, :)
+            chain%own_rate(:) = 0.0_qp
+            do l = 1, size(support)
+                if (chain%rubs(l)) cycle
+                if (leg == 0) then
+                    chain%own_rate(l) = movement_of(assembled, support(l))
+                else if (allocated(assembled%growth)) then
+                    chain%own_rate(l) = way*scale(assembled%growth(support(l)), -axial%units%deflection)
+                end if
+            end do
+            chain%limit_rate(:) = 0.0_qp
+        end associate
+    end subroutine set_loads
+
+    !> Let friction have given limits
+    pure subroutine set_limits(chain, limit)
+        type(chain_type), intent(inout) :: chain
+        real(qp), intent(in) :: limit(:)
+        integer :: l
+
+        do l = 1, size(limit)
+            if (.not. chain%rubs(l)) cycle
+            associate (k => chain%first(l))
+                chain%laws(k)%force = -limit(l)
+                chain%laws(k + 1)%force = limit(l)
+                if (chain%closed(k) .eqv. chain%closed(k + 1)) then
+                    chain%force(l) = merge(limit(l), -limit(l), chain%closed(k))
+                else
+                    chain%force(l) = max(-limit(l), min(limit(l), chain%force(l)))
+                end if
+            end associate
+        end do
+    end subroutine set_limits
+
+    !> Reactions across the beam of the supports that rub, in units of the axial system
+    subroutine find_reactions(beam, history, k, factor, support, rubs, reaction, error)
+        !> With the loads of the leg; the path of bending, a stretch of it, and a load factor there
+        type(assembled_type), intent(in), target :: beam
+        type(history_type), intent(in), target :: history
+        integer, intent(in) :: k
+        real(wp), intent(in) :: factor
+        !> Support of every link, and whether it rubs
+        integer, intent(in) :: support(:)
+        logical, intent(in) :: rubs(:)
+        real(wp), intent(out) :: reaction(:)
+        type(error_type), allocatable, intent(out) :: error
+        type(state_type) :: state
+        integer :: l, j
+
+        reaction(:) = 0.0_wp
+        call new_state(beam, state, error)
+        if (.not. allocated(error)) call solve_on_path(beam, history, k, factor, state, error)
+        if (allocated(error)) return
+        do l = 1, size(reaction)
+            if (.not. rubs(l)) cycle
+            j = beam%beam_support(support(l))
+            if (j == 0) cycle
+            reaction(l) = scale(sum(state%reaction(j:last_breakpoint(beam%beam%supports, j))), &
+                                beam%units%force - beam%axial%units%force)
+        end do
+    end subroutine find_reactions
+
+    !> Load factors between two at which reactions change their sign, in their order
+    pure function zeros_between(from, to, at_from, at_to) result(zeros)
+        real(wp), intent(in) :: from, to, at_from(:), at_to(:)
+        real(qp), allocatable :: zeros(:)
+        real(qp) :: zero
+        integer :: l, place
+
+        allocate (zeros(0))
+        do l = 1, size(at_from)
+            if (.not. (at_from(l) < 0.0_wp .and. at_to(l) > 0.0_wp .or. at_from(l) > 0.0_wp .and. at_to(l) < 0.0_wp)) cycle
+            zero = from + (real(to, qp) - from)*at_from(l)/(real(at_from(l), qp) - at_to(l))
+            place = count(abs(zeros - from) < abs(zero - from))
+            zeros = [zeros(:place), zero, zeros(place + 1:)]
+        end do
+    end function zeros_between
+
+    !> Numbers of the chain: displacements, forces of bars, forces of links on the beam, to the right
+    pure function values_of(chain) result(values)
+        type(chain_type), intent(in) :: chain
+        real(wp), allocatable :: values(:)
+
+        values = [real(chain%displacement, wp), real(chain%tension, wp), -real(chain%force, wp)] + 0.0_wp
+    end function values_of
+
+end module gapbeam_axial_loads

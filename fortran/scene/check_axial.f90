@@ -1,0 +1,99 @@
+!> Refusals of supports along the beam, and of friction, that make no sense or are not there in this version.
+module gapbeam_check_axial
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_words, only: shown
+    use gapbeam_laws, only: is_smooth
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken
+    use gapbeam_input_error, only: refuse, of_supports, bad_law
+    implicit none
+    private
+    public :: check_along, has_links_along
+
+contains
+
+    !> Are there supports that act along the beam otherwise than springs both ways: one way, by a law, or by friction
+    pure function has_links_along(model, with_law) result(it_has)
+        type(model_type), intent(in) :: model
+        !> Which supports have a law
+        logical, intent(in) :: with_law(:)
+        logical :: it_has
+
+        associate (s => model%supports)
+            it_has = any(s%friction > 0.0_wp .or. (s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)))
+        end associate
+    end function has_links_along
+
+    !> Refuse what is not there yet, or makes no sense
+    subroutine check_along(model, law, with_law, error)
+        type(model_type), intent(in) :: model
+        !> Points of all laws
+        type(law_point_type), intent(in) :: law(:)
+        !> Which supports have a law
+        logical, intent(in) :: with_law(:)
+        type(error_type), allocatable, intent(out) :: error
+        character(len=*), parameter :: in_version = " is not available in this version"
+        integer :: k
+
+        do k = 1, size(model%supports)
+            associate (s => model%supports(k))
+                if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
+                    call say("friction", "expected a finite number, 0 or more, got "//trim(shown(s%friction)))
+                else if (s%direction == gapbeam_normal) then
+                    if (s%friction > 0.0_wp) call check_rest("friction", "friction")
+                else if (s%friction > 0.0_wp) then
+                    call say("friction", "a support along the beam has none; give it to one across the beam")
+                else if (with_law(k) .and. is_smooth(s%law)) then
+                    call say("law", "a curve along the beam"//in_version//"; give its points")
+                else if (s%unloading == gapbeam_broken) then
+                    call say("unloading", "that a support along the beam breaks"//in_version//"; give plastic or elastic")
+                else if (with_law(k) .and. falls(k)) then
+                    call say("law", "a force that falls along the beam"//in_version//"; give a law that rises or stays")
+                else if (with_law(k)) then
+                    call check_rest("law", "an axial support with a law")
+                else if (s%side /= gapbeam_both) then
+                    call check_rest("side", "an axial support that pushes one way only")
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> What is wrong
+        subroutine say(key, problem)
+            character(len=*), intent(in) :: key, problem
+
+            call refuse(error, of_supports, k, size(model%supports), bad_law, key, problem)
+        end subroutine say
+
+        !> What else there is in the model
+        subroutine check_rest(key, what)
+            character(len=*), intent(in) :: key, what
+
+            if (size(model%foundations) > 0) then
+                call say(key, what//" beside a foundation"//in_version//"; leave one of them out")
+            else if (any(is_smooth(model%supports%law))) then
+                call say(key, what//" beside a support whose law is a curve"//in_version//"; give the points of the curve")
+            end if
+        end subroutine check_rest
+
+        !> Does the force of a law fall anywhere
+        pure function falls(k)
+            integer, intent(in) :: k
+            logical :: falls
+            real(wp) :: before
+            integer :: i
+
+            falls = .false.
+            before = 0.0_wp
+            do i = 1, size(law)
+                if (law(i)%support /= k) cycle
+                falls = falls .or. law(i)%force < before
+                before = law(i)%force
+            end do
+        end function falls
+
+    end subroutine check_along
+
+end module gapbeam_check_axial
