@@ -15,6 +15,8 @@ module gapbeam_link
     type :: piece_type
         !> Length, 1/EI, 1/GA
         real(wp) :: length, flexibility, shear_flexibility
+        !> Of an elastic hinge at its left end, which is a node: relative rotation by a moment of 1
+        real(wp) :: hinge = 0.0_wp
     end type piece_type
 
     !> Loads on a piece and on the point at its right end
@@ -77,7 +79,7 @@ contains
         real(wp) :: centre, spread, shear_term, local
         integer :: j
 
-        if (size(pieces) == 1) then
+        if (size(pieces) == 1 .and. .not. pieces(1)%hinge > 0.0_wp) then
             link%length = pieces(1)%length
             link%bending = pieces(1)%flexibility*link%length
             centre = 0.5_wp
@@ -86,6 +88,7 @@ contains
         else
             length = sum_type()
             bending = sum_type()
+            if (pieces(1)%hinge > 0.0_wp) call add(bending, pieces(1)%hinge)
             shear = sum_type()
             first = sum_type()
             do j = 1, size(pieces)
@@ -102,6 +105,7 @@ contains
             centre = 0.5_wp
             if (link%bending > 0.0_wp) centre = total(first)/link%bending
             second = sum_type()
+            if (pieces(1)%hinge > 0.0_wp) call add(second, pieces(1)%hinge*centre**2)
             length = sum_type()
             do j = 1, size(pieces)
                 associate (p => pieces(j))
@@ -313,15 +317,18 @@ contains
         !> Fields just right of the left end of every piece, shape (n)
         type(field_type), intent(out) :: starts(:)
         type(sum_type) :: left, position, turning, first, slip
-        real(wp) :: right_end, x0, x1, xi, m1, before
+        real(wp) :: right_end, x0, x1, xi, m1, before, beside
         integer :: j, n
 
         n = size(pieces)
+        ! Right of an elastic hinge
+        beside = psi_a
+        if (pieces(1)%hinge > 0.0_wp) beside = psi_a - pieces(1)%hinge*moment_a
         if (n == 1) then
             ! Nothing to be summed; no zero is to be negative
             associate (q => loads(1), l => pieces(1)%length)
                 starts(1)%deflection = w_a + 0.0_wp
-                starts(1)%rotation = psi_a
+                starts(1)%rotation = beside
                 starts(1)%moment = moment_a + 0.0_wp
                 starts(1)%shear = shear + (0.0_wp + load_moment(0.0_wp, l, q%qb, q%qa))/length
             end associate
@@ -341,7 +348,7 @@ contains
                 xi = x0/length
                 starts(j)%moment = (1 - xi)*(moment_a + total(left)) + xi*(moment_b + before)
                 starts(j)%shear = shear + (before - total(left))/length
-                starts(j)%rotation = psi_a - total(turning)
+                starts(j)%rotation = beside - total(turning)
                 starts(j)%deflection = total(slip)
                 call add(left, load_moment(x0, p%length, q%qa, q%qb))
                 call add(position, p%length)

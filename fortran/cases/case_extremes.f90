@@ -37,7 +37,8 @@ contains
         logical :: yes
 
         associate (beam => assembled%beam, units => assembled%units)
-            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point)) &
+            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point) &
+                        .or. any(assembled%pieces%hinge > 0.0_wp)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
                           abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_unit_power
         end associate

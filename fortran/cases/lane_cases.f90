@@ -46,6 +46,7 @@ contains
             fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
+                .and. .not. any(assembled%pieces%hinge > 0.0_wp) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power
         end associate

@@ -48,6 +48,7 @@ contains
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
+                .and. .not. any(assembled%pieces%hinge > 0.0_wp) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
         end associate
     end function fits_segments

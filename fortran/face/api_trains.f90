@@ -67,6 +67,10 @@ contains
 
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) then
+            if (any(beam%lowered%pieces%hinge > 0.0_wp)) call bad_argument(error, "beam", "a hinge with a stiffness under a "// &
+                "train is not available in this version")
+        end if
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)
         if (allocated(error)) return
         call hold_environment(environment)

@@ -13,8 +13,8 @@ contains
     subroutine model_from_arrays(span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, model, error)
         !> Length, EI, GA, EA
         real(wp), intent(in) :: span(:, :)
-        !> Places
-        real(wp), intent(in) :: hinge(:)
+        !> Places, and couple per relative rotation if there is a second row
+        real(wp), intent(in) :: hinge(:, :)
         !> From, to, EI, GA, EA
         real(wp), intent(in) :: sect(:, :)
         !> Side, direction, node, and unloading if there is a fourth row, law by name if there is a fifth; x, stiffness, gap,
@@ -32,7 +32,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: i, stat
 
-        allocate (model%spans(size(span, 2)), model%hinges(size(hinge)), model%sections(size(sect, 2)), &
+        allocate (model%spans(size(span, 2)), model%hinges(size(hinge, 2)), &
+                  model%hinge_stiffness(size(hinge, 2)), model%sections(size(sect, 2)), &
                   model%supports(size(sup, 2)), model%law(size(ilaw)), model%foundations(0), model%ground(0), &
                   model%ground_law(0), stat=stat)
         if (stat /= 0) then
@@ -47,7 +48,9 @@ contains
                 s%EA = span(4, i)
             end associate
         end do
-        model%hinges(:) = hinge
+        model%hinges(:) = hinge(1, :)
+        model%hinge_stiffness(:) = 0.0_wp
+        if (size(hinge, 1) > 1) model%hinge_stiffness(:) = hinge(2, :)
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
                 s%from = sect(1, i)

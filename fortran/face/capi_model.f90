@@ -40,6 +40,7 @@ module gapbeam_capi_model
         integer(c_int) :: table_points = 0
         type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
+        type(c_ptr) :: hinge_stiffness = c_null_ptr
     end type c_model
 
 contains
@@ -128,6 +129,10 @@ contains
             if (has_reals(c%EA, n, reals)) s%EA = reals
         end associate
         if (has_reals(c%hinge_x, c%hinges, reals)) model%hinges(:) = reals
+        if (with_all) then
+            allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
+            if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
+        end if
         associate (s => model%supports, n => c%supports)
             if (has_reals(c%support_x, n, reals)) s%x = reals
             if (has_integers(c%support_node, n, integers)) s%node = integers

@@ -72,7 +72,8 @@ contains
             points(3, :nprof) = gapbeam_table_of_gap
             points(:2, nprof + 1:) = atab(:, 1:ntab)
             points(3, nprof + 1:) = itab(2, 1:ntab)
-            call model_from_arrays(span(:, 1:nspan), hinge(1:nhinge), reshape([real(wp) ::], [5, 0]), isup(:, 1:nsup), &
+            call model_from_arrays(span(:, 1:nspan), reshape(hinge(1:nhinge), [1, nhinge]), &
+                                   reshape([real(wp) ::], [5, 0]), isup(:, 1:nsup), &
                                    sup(:, 1:nsup), ilaw(1:nlaw), alaw(:, 1:nlaw), iload(:, 1:nload), aload(:, 1:nload), model, &
                                    error)
         end if

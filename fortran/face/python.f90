@@ -36,7 +36,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(mhinge), sect(5, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
+    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(5, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
@@ -60,7 +60,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     entry = 0
     partner = 0
     key = " "
-    call model_from_arrays(span(:, :mspan - 1), hinge(:mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
+    call model_from_arrays(span(:, :mspan - 1), hinge(:, :mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
                            ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), aload(:, :mload - 1), model, error)
     if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
                                                              aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &

@@ -69,6 +69,7 @@ contains
             associate (kept => handle%beam%lowered%model)
                 call move_alloc(model%spans, kept%spans)
                 call move_alloc(model%hinges, kept%hinges)
+                call move_alloc(model%hinge_stiffness, kept%hinge_stiffness)
                 call move_alloc(model%sections, kept%sections)
                 call move_alloc(model%supports, kept%supports)
                 call move_alloc(model%law, kept%law)

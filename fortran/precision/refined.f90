@@ -121,7 +121,8 @@ contains
         type(piece_type), intent(in) :: piece
         type(fine_piece_type) :: fine
 
-        fine = fine_piece_type(real(piece%length, qp), fine_reciprocal(piece%flexibility), fine_reciprocal(piece%shear_flexibility))
+        fine = fine_piece_type(real(piece%length, qp), fine_reciprocal(piece%flexibility), &
+                               fine_reciprocal(piece%shear_flexibility), fine_reciprocal(piece%hinge))
     end function fine_piece
 
     !> A reciprocal in quadruple precision: of the stiffness that the user gave, which two roundings give back, mostly exactly

@@ -168,7 +168,8 @@ contains
             call merge_stations(assembled%ends, places%span, places%offset, at, order, chosen, point, number)
         end associate
         allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
-                  assembled%pieces(number - 1), assembled%dead(number - 1), assembled%live(number - 1), stat=stat)
+                  assembled%joint(0:number - 1), assembled%pieces(number - 1), assembled%dead(number - 1), &
+                  assembled%live(number - 1), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -282,7 +283,8 @@ contains
             assembled%end_point(0:) = point(1:at)
             assembled%support_point(:) = point(at + 1:at + size(model%supports))
             at = at + size(model%supports)
-            call find_hinges(point(at + 1:at + size(model%hinges)), assembled%hinged, error)
+            call find_hinges(point(at + 1:at + size(model%hinges)), model%hinge_stiffness, assembled%hinged, assembled%joint, &
+                             error)
             if (allocated(error)) return
             at = at + size(model%hinges)
             call take_stretches(point(at + 1:), of_sections, assembled%section_from, assembled%section_to, error)
@@ -294,7 +296,7 @@ contains
                 ! One without length acts on nothing
                 if (is_stretch(model%loads(i)) .and. assembled%load_from(i) > assembled%load_to(i)) then
                     call refuse_empty(of_loads, i, size(model%loads), error)
-                else if (model%loads(i)%kind == gapbeam_couple .and. assembled%hinged(assembled%load_from(i))) then
+                else if (model%loads(i)%kind == gapbeam_couple .and. is_hinge(assembled%load_from(i))) then
                     call refuse(error, of_loads, i, size(model%loads), at_hinge, "", &
                                 "the couple acts exactly at a hinge, so it is unclear which side takes it; put it on one side "// &
                                 "of the hinge")
@@ -307,6 +309,17 @@ contains
             at = at + 2*size(model%foundations)
             where (assembled%ground_point == 0) assembled%ground_point = point(at + 1:at + size(assembled%ground_point))
         end associate
+
+    contains
+
+        !> Is there a hinge, elastic or not
+        pure function is_hinge(point)
+            integer, intent(in) :: point
+            logical :: is_hinge
+
+            is_hinge = assembled%hinged(point) .or. assembled%joint(point) > 0.0_wp
+        end function is_hinge
+
     end subroutine take_points
 
     !> Points at the ends of stretches that have a length
@@ -337,23 +350,28 @@ contains
     end subroutine refuse_empty
 
     !> Mark the hinges
-    subroutine find_hinges(points, hinged, error)
+    subroutine find_hinges(points, stiffness, hinged, joint, error)
         integer, intent(in) :: points(:)
+        !> Couple per relative rotation of each, 0: none
+        real(wp), intent(in) :: stiffness(:)
         !> Of all points, from 0
         logical, intent(out) :: hinged(0:)
+        real(wp), intent(out) :: joint(0:)
         !> Two at one point
         type(error_type), allocatable, intent(out) :: error
         integer :: k, other
 
         hinged(:) = .false.
+        joint(:) = 0.0_wp
         do k = 1, size(points)
-            if (hinged(points(k))) then
+            if (hinged(points(k)) .or. joint(points(k)) > 0.0_wp) then
                 other = findloc(points, points(k), 1)
                 call refuse(error, of_hinges, k, size(points), twice, "", &
                             "there is a hinge at this place already; remove one of them", other)
                 return
             end if
-            hinged(points(k)) = .true.
+            hinged(points(k)) = .not. stiffness(k) > 0.0_wp
+            joint(points(k)) = stiffness(k)
         end do
     end subroutine find_hinges
 

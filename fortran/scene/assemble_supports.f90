@@ -76,7 +76,7 @@ contains
         do k = 1, m
             point = assembled%support_point(k)
             associate (s => assembled%model%supports(k))
-                if (s%rotation > 0.0_wp .and. assembled%hinged(point)) then
+                if (s%rotation > 0.0_wp .and. (assembled%hinged(point) .or. assembled%joint(point) > 0.0_wp)) then
                     call refuse(error, of_supports, k, m, at_hinge, "rotation", &
                                 "there is a hinge here, so it is unclear which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
@@ -157,8 +157,8 @@ contains
         level = support%settlement + support%side*support%gap
     end function contact_level
 
-    !> Beam ends, hinges and supports across the beam are nodes, and on overhangs the places of loads: the moments there
-    !> follow from the loads farther out alone. With foundations all points are: every piece is a link on ground of its own
+    !> Beam ends, hinges (elastic ones too) and supports across the beam are nodes, and on overhangs the places of loads: moments
+    !> there follow from the loads farther out alone. With foundations all points are: every piece is a link on ground of its own
     subroutine choose_nodes(assembled, error)
         type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
@@ -171,7 +171,7 @@ contains
             return
         end if
         associate (node => assembled%node_of_point)
-            node(:) = merge(0, -1, assembled%hinged)
+            node(:) = merge(0, -1, assembled%hinged .or. assembled%joint > 0.0_wp)
             node(0) = 0
             node(n) = 0
             if (size(assembled%model%foundations) > 0) node(:) = 0

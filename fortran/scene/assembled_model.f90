@@ -69,8 +69,9 @@ module gapbeam_assembled_model
         !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
         !> not allocated without sections
         integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
-        !> Is there a hinge at a point, shape (0:npiece)
+        !> Is there a hinge at a point; couple per relative rotation of an elastic one, 0: none; shape (0:npiece)
         logical, allocatable :: hinged(:)
+        real(wp), allocatable :: joint(:)
         !> Pieces and their loads in the engine's units, shape (npiece)
         type(piece_type), allocatable :: pieces(:)
         type(piece_load_type), allocatable :: dead(:), live(:)
@@ -241,11 +242,14 @@ contains
         if (allocated(source%ground)) ground = size(source%ground)
         if (allocated(source%ground_law)) ground_law = size(source%ground_law)
         if (allocated(source%loads)) loads = size(source%loads)
-        allocate (copy%spans(spans), copy%hinges(hinges), copy%sections(sections), copy%supports(supports), copy%law(points), &
+        allocate (copy%spans(spans), copy%hinges(hinges), copy%hinge_stiffness(hinges), copy%sections(sections), &
+                  copy%supports(supports), copy%law(points), &
                   copy%foundations(foundations), copy%ground(ground), copy%ground_law(ground_law), copy%loads(loads), stat=stat)
         if (stat /= 0) return
         if (spans > 0) copy%spans(:) = source%spans
         if (hinges > 0) copy%hinges(:) = source%hinges
+        copy%hinge_stiffness(:) = 0.0_wp
+        if (allocated(source%hinge_stiffness)) copy%hinge_stiffness(:) = source%hinge_stiffness
         if (sections > 0) copy%sections(:) = source%sections
         if (supports > 0) copy%supports(:) = source%supports
         if (points > 0) copy%law(:) = source%law
@@ -270,6 +274,7 @@ contains
             end associate
         end do
         call mix(all_bits, model%hinges)
+        if (any(model%hinge_stiffness > 0.0_wp)) call mix(all_bits, model%hinge_stiffness)
         if (allocated(model%sections)) then
             do i = 1, size(model%sections)
                 associate (s => model%sections(i))

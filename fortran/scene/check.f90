@@ -78,7 +78,8 @@ contains
             return
         end do
         do i = 1, size(model%hinges)
-            call check_hinge(model%hinges(i), entry_type(of_hinges, i, size(model%hinges)), ends(n), error)
+            call check_hinge(model%hinges(i), model%hinge_stiffness(i), entry_type(of_hinges, i, size(model%hinges)), ends(n), &
+                             error)
             if (allocated(error)) return
         end do
         do i = 1, size(model%sections)
@@ -93,14 +94,17 @@ contains
     end subroutine check_rest
 
     !> One hinge
-    pure subroutine check_hinge(x, here, end, error)
-        real(wp), intent(in) :: x
+    pure subroutine check_hinge(x, stiffness, here, end, error)
+        real(wp), intent(in) :: x, stiffness
         type(entry_type), intent(in) :: here
         !> The beam's right end
         real(wp), intent(in) :: end
         type(error_type), allocatable, intent(out) :: error
 
         call check_inside(x, "x", here, end, error)
+        if (.not. (allocated(error) .or. (stiffness >= 0.0_wp .and. stiffness <= huge(x)))) then
+            call refuse_number(error, here, "stiffness", stiffness, "a finite number, 0 or more")
+        end if
         if (allocated(error) .or. (x > position_tolerance*end .and. x < end - position_tolerance*end)) return
         call refuse_entry(error, here, "", at_end, &
                     "it is at an end of the beam, where no hinge can be; remove it")

@@ -174,8 +174,8 @@ module gapbeam_scene
     !> A beam with all that is on it; what is not allocated is not there
     type :: model_type
         type(span_type), allocatable :: spans(:)
-        !> Places of moment hinges
-        real(wp), allocatable :: hinges(:)
+        !> Places of moment hinges, and couple per relative rotation of each (force*length); not allocated: none
+        real(wp), allocatable :: hinges(:), hinge_stiffness(:)
         type(section_type), allocatable :: sections(:)
         type(support_type), allocatable :: supports(:)
         !> Points of the laws of those that have one

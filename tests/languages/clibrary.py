@@ -76,6 +76,7 @@ class Model(c.Structure):
         ("support_law", INTEGER),
         ("support_parameter", REAL),
         ("support_friction", REAL),
+        ("hinge_stiffness", REAL),
     )
 
 
@@ -175,7 +176,10 @@ def columns(scene):
     return {
         "length": np.array(spans, dtype=float),
         **{key: spread(key) for key in ("EI", "GA", "EA")},
-        "hinge_x": np.array(scene["beam"].get("hinges", []), dtype=float),
+        "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
+        "hinge_stiffness": np.array(
+            [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
+        ),
         "support_x": real(supports, "x", 0.0),
         "support_node": real(supports, "node", -1).astype(np.int32),
         "support_side": np.array([SIDES[s.get("side", "both")] for s in supports], dtype=np.int32),

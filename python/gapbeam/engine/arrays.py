@@ -23,7 +23,7 @@ class Columns(Record):
     span : numpy.ndarray
         Length, EI, GA, EA of the spans, 4 rows.
     hinge : numpy.ndarray
-        Places of the hinges.
+        Place of every hinge, and couple per relative rotation, 2 rows.
     section : numpy.ndarray
         Left and right end, EI, GA, EA of the sections, 5 rows.
     support_codes, support : numpy.ndarray

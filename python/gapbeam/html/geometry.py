@@ -65,7 +65,7 @@ def beam_data(result: Result) -> dict[str, Any]:
         "dead": places.dead[:, :3].tolist(),
         "live": places.live[:, :3].tolist(),
         "forces": forces.tolist(),
-        "hinges": [float(x) for x in result.scene.beam.hinges],
+        "hinges": [*map(float, result.scene.beam.hinges), *result.scene.positions(result.scene.hinges).tolist()],
     }
     if result._beam.ground_layers:
         piece, distance = places_on_ground(result)

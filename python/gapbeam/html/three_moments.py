@@ -132,6 +132,7 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
     for k, at in enumerate(scene.positions(scene.supports).tolist()):
         point = int(np.argmin(np.abs(x - at)))
         inner = 0 < point < len(x) - 1 and scene.supports[k].direction != "axial" and step.state[k] != "open"
-        if inner and np.isfinite(pieces[point - 1 : point + 1, 1]).all() and not np.isclose(x[point], scene.beam.hinges).any():
+        hinges = [*scene.beam.hinges, *scene.positions(scene.hinges)]
+        if inner and np.isfinite(pieces[point - 1 : point + 1, 1]).all() and not np.isclose(x[point], hinges).any():
             found.append((-abs(float(result.at_state(step, x[point]).moment)), k, point))
     return min(found)[1:] if found else None

@@ -131,6 +131,9 @@ def draw_beam(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lane
     if scene.beam.hinges:
         axes.scatter(scene.beam.hinges, [0.0] * len(scene.beam.hinges), s=22, c="white", edgecolors="black",
                      linewidths=1.0, zorder=6, label="hinges")  # fmt: skip
+    if scene.hinges:
+        axes.scatter(scene.positions(scene.hinges), [0.0] * len(scene.hinges), s=26, c="0.8", edgecolors="black",
+                     linewidths=1.0, zorder=6, marker="D", label="elastic hinges")  # fmt: skip
     if lanes.rows:
         _ticks(axes, scene, states, lanes)
     else:

@@ -60,8 +60,8 @@ def _beam(scene: Scene) -> str:
     words.append("EI " + f"{values} {fmt.unit(scene, 'EI')}".rstrip())
     if scene.sections:
         words.append(fmt.count(len(scene.sections), "section"))
-    if beam.hinges:
-        words.append(fmt.count(len(beam.hinges), "hinge"))
+    if count := len(beam.hinges) + len(scene.hinges):
+        words.append(fmt.count(count, "hinge"))
     return ", ".join(words)
 
 

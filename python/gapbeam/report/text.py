@@ -64,6 +64,7 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         if not result.stands:
             at += ", the last state that stands"
         _supports(say, result, at)
+        _hinges(say, result, at)
         write_foundations(say, result, at)
         write_contact(say, result, at)
         _extremes(say, result, at)
@@ -217,6 +218,21 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         more = f" and {len(slides) - 10} more" if len(slides) > 10 else ""
         say.line(f"The beam slides over support {', '.join(slides[:10])}{more}. Friction and slip: positive to the right.", "dim")
     _restraints_of_open_supports(say, result)
+
+
+def _hinges(say: "Writer", result: "Result", at: str) -> None:
+    """Write moments and relative rotations of hinges with a stiffness."""
+    scene, hinges = result.scene, result.steps[-1].hinges
+    if not hinges:
+        return
+    say.heading(f"Hinges with a stiffness {at}")
+    rows = [
+        [fmt.number(one.x, fmt.DIGITS), fmt.shown(scene, "moment", one.moment), fmt.shown(scene, "rotation", one.rotation)]
+        for one in hinges[:LONGEST]
+    ]
+    say.table([fmt.with_unit(scene, "x"), fmt.shown_heading(scene, "moment"), fmt.shown_heading(scene, "rotation")], rows)
+    more = f" {len(hinges) - LONGEST:,} more are in the output of --json." if len(hinges) > LONGEST else ""
+    say.line(f"Rotation left of the hinge less that right of it.{more}", "dim")
 
 
 def _side(support: "Support") -> str:

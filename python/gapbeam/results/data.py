@@ -278,6 +278,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             "solves": step.solves,
             "seconds": step.seconds,
             "supports": support_data(result, step, x),
+            **({"hinges": [one._asdict() for one in step.hinges]} if result.scene.hinges else {}),
             **ground_data(result, step),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,

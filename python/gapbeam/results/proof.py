@@ -157,6 +157,8 @@ def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
             tables = [table for table in data[key] if name in table]
             for table, x in zip(tables, _snapped([table[name] for table in tables], beam).tolist(), strict=True):
                 table[name] = x
+    if scene.hinges:
+        data["hinges"] = list(map(msgspec.to_builtins, scene.hinges))
     for table, support in zip(data["supports"], scene.supports, strict=True):
         if not support.friction:
             del table["friction"]

@@ -39,6 +39,7 @@ STATE = {
     "solves?": ("integer", "Linear systems solved."),
     "seconds?": ("number", "Time taken (s)."),
     "supports?": ("[SupportState]", "Supports."),
+    "hinges?": ("[HingeState]", "Hinges with a stiffness."),
     "contact?": ("[ContactZone]", "Zones of contact with the ground; only with foundations."),
     "free_spans?": ("[FreeSpan]", "Spans without contact; only with foundations."),
     "undecided?": ("[integer]", "Supports whose state the last digits of the data decide, by number."),
@@ -85,6 +86,11 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "force": ("number", "Force on the beam (force), positive to the right."),
         "slip": ("number", "How far the beam has gone over the support (length), positive to the right."),
         "slides": ("string", "Which way it slides, left or right; empty where it sticks."),
+    }),
+    "HingeState": ("A hinge with a stiffness in one state.", {
+        "x": ("number", "Position (length, from the left end of the beam)."),
+        "moment": ("number", "Moment there (force*length), sagging."),
+        "rotation": ("number", "Rotation left of it less that right of it (rad): moment over stiffness."),
     }),
     "ContactZone": ("A length of the beam in contact with the ground.", {
         "foundation": ("integer", "Number of the foundation, from 0."),

@@ -18,10 +18,10 @@ from .loads import (
 from .places import same_place
 from .reading import read_scene
 from .schema import scene_schema
-from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Hinge, Scene, Section, Support, Train, Units
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "TemperatureLoad",
+    "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "TemperatureLoad",
     "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
 ]  # fmt: skip

@@ -85,9 +85,16 @@ def columns(scene: Scene) -> Columns:
             raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
         span[row, :spans] = values if spans else np.inf
     check_beam(beam)
-    hinge = np.empty(len(beam.hinges) + 1)
-    hinge[:-1] = beam.hinges
-    hinge[-1] = 0.0
+    hinge = _empty(2, len(beam.hinges) + len(scene.hinges))
+    free = len(beam.hinges)
+    hinge[0, :free], hinge[1, :free] = beam.hinges, 0.0
+    if scene.hinges:
+        count = len(scene.hinges)
+        nodes, places = (np.broadcast_to(one, count) for one in _places("hinges", scene.hinges, range(count)))
+        ends = np.append(scene.span_ends(), np.inf)  # no node is there beyond the last one, nor before the first
+        by_node = ends[np.where(nodes < 0, len(ends) - 1, np.minimum(nodes, len(ends) - 1))]
+        hinge[0, free:-1] = np.where(nodes == BY_X, places, by_node)
+        hinge[1, free:-1] = [one.stiffness for one in scene.hinges]
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
     load_codes, load_values = _loads(scene)

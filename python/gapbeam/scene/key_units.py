@@ -10,8 +10,8 @@ from ..base.characters import visible
 from .schema import scene_schema
 from .structs import Scene
 
-TABLES = {"beam": "Beam", "sections": "Section", "supports": "Support", "foundation": "Foundation", "trains": "Train",
-          "combinations": "Combination"}  # fmt: skip
+TABLES = {"beam": "Beam", "sections": "Section", "hinges": "Hinge", "supports": "Support", "foundation": "Foundation",
+          "trains": "Train", "combinations": "Combination"}  # fmt: skip
 """Tables of a scene by the key under which they are."""
 ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|rad|\([^)]*\)))*"
 UNIT = re.compile(rf"\(({ONE}(?:, {ONE})*)(?:, from the left end(?: of the beam)?)?\)")

@@ -51,7 +51,10 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     """
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)
-    i, items = entry - 1, scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
+    i = entry - 1
+    if table == HINGES and i >= len(scene.beam.hinges):
+        return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
+    items = scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
     item, path = items[i], f"{NAMES[table]}[{i}]"
     end = scene.span_ends()[-1]
     if reason == BAD_LAW:
@@ -83,6 +86,27 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         "which side takes it; put it on one side of the hinge",
     }
     return SceneError(path, words[reason]())
+
+
+def _hinge_refusal(scene: Scene, reason: int, i: int, key: str, message: str) -> SceneError:
+    """Word a refusal of a hinge with a table of its own."""
+    item, path = scene.hinges[i], f"hinges[{i}]"
+    ends = scene.span_ends()
+    if item.node is not None and not 0 <= item.node < len(ends):
+        nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
+        return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
+    if item.node is None and item.x is None:
+        return SceneError(path, "its position is missing; give node or x")
+    x, end = float(scene.positions([item])[0]), ends[-1]
+    if reason == BAD_LAW:
+        return SceneError(f"{path}.stiffness", message.partition(": ")[2].removeprefix("stiffness: "))
+    if reason == NOT_EXPECTED and key == "stiffness":
+        return SceneError(f"{path}.stiffness", f"expected a finite number, 0 or more, got {shown(item.stiffness)}")
+    if reason == AT_END:
+        return SceneError(path, f"x = {number(x)} is an end of the beam, where no hinge can be; remove it")
+    if reason == TWICE:
+        return SceneError(path, f"at x = {number(x)} there is a hinge already; remove one of them")
+    return SceneError(f"{path}.x", f"{number(item.x)} is outside the beam, which runs from x = 0 to x = {number(end)}")
 
 
 def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneError:

@@ -14,7 +14,7 @@ from .ground_laws import GroundLawTable, LawAt
 from .laws import LawTable
 from .limits import Limits
 from .loads import Load
-from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Hinge, Scene, Section, Support, Train, Units
 
 
 def scene_schema() -> dict[str, Any]:
@@ -31,7 +31,7 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = set too high; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    tables = (Units, Beam, Section, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
+    tables = (Units, Beam, Section, Hinge, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
     for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]

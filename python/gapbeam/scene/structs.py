@@ -115,6 +115,19 @@ class Section(Stretch, kw_only=True, gc=False):
     EA: Positive | None = None
 
 
+class Hinge(Point, kw_only=True, gc=False):
+    """A hinge inside the beam that turns against a couple; one without stiffness is as those of ``beam.hinges``.
+
+    Parameters
+    ----------
+    stiffness : float
+        Couple per relative rotation (force*length/rad); default 0. It is the rotation left of the hinge less that right of it,
+        positive with a sagging moment. Not under trains, beside foundations and beside rigid stretches of the beam.
+    """
+
+    stiffness: NotNegative = 0.0
+
+
 class Support(Point, kw_only=True, gc=False):
     """A support, at a node or anywhere along the beam.
 
@@ -284,6 +297,8 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Spans and stiffnesses.
     sections : list of Section
         Stretches of other stiffness; later ones win.
+    hinges : list of Hinge
+        Hinges with a stiffness.
     supports : list of Support
         Supports; results list them in the same order.
     foundation : list of Foundation
@@ -304,6 +319,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     units: Units = field(default_factory=Units)
     beam: Beam
     sections: list[Section] = []
+    hinges: list[Hinge] = []
     supports: list[Support] = []
     foundation: list[Foundation] = []
     loads: list[Load] = []

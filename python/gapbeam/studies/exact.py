@@ -19,6 +19,7 @@ from math import inf, isinf
 
 import numpy as np
 
+from ..base.errors import SceneError
 from ..scene.columns import SIDES
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
@@ -55,6 +56,8 @@ class Reference:
     """
 
     def __init__(self, scene: Scene):
+        if any(one.stiffness for one in scene.hinges):
+            raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
         scene = as_curvatures(scene)
         ends = scene.span_ends()
         exact_ends = [Fraction(0)]
@@ -77,7 +80,8 @@ class Reference:
         stretches = [load for load in scene.loads if not isinstance(load, ForceLoad | MomentLoad)]
         sections = [(0, 0, None)] + [(*where, s) for where, s in zip(along(scene.sections), scene.sections, strict=True)]
         loads = [(*where, load) for where, load in zip(along(stretches), stretches, strict=True)]
-        hinges, held, loaded = places(scene.beam.hinges), at(scene.supports), at(points)
+        hinges = [*places(scene.beam.hinges), *at(scene.hinges)]
+        held, loaded = at(scene.supports), at(points)
         marks = [x for a, b, _ in (*sections, *loads) for x in (a, b)]
         middles = places(ends[:-1] + np.array(scene.beam.spans) / 2)
         where = sorted({*exact_ends, *hinges, *held, *loaded, *marks, *middles})

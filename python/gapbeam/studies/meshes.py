@@ -203,7 +203,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     at_ends = np.isin(arrays.node_points, ends)
     places = arrays.node_points[arrays.support_nodes]
     for wrong, what in (
-        (np.any(arrays.kinds == HINGE), "hinges"),
+        (np.any(arrays.kinds == HINGE) or any(one.stiffness for one in scene.hinges), "hinges"),
         (len(scene.foundation) > 0, "foundations"),
         (np.any(clamps & ~at_ends) or np.isfinite(arrays.turning[clamps]).any(), "a rotational support that is no clamp at an end"),
         (np.isfinite(arrays.pieces[:, 2]).any(), "shear flexibility"),

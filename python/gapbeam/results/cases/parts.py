@@ -63,6 +63,9 @@ class Parts:
         self.case, self._rule, self._one = case, rule, replace(one, trains=[])
         self._lanes = [load for load in one.loads if load.case == case]
         self._others = [load for load in one.loads if load.case != case]
+        if any(hinge.stiffness for hinge in scene.hinges):
+            what = "loads on parts of spans beside hinges with a stiffness are not available in this version"
+            raise SceneError(f"combinations[{i}].expand", f"{what}; give them as loads of cases of their own")
         self._beam = self._made([])
         self._end = self._beam.places.end
         self.with_trains = bool(one.trains)

@@ -49,6 +49,8 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         follow_scene(result, closed)
         check_compression(result)
         return
+    if any(hinge.stiffness for hinge in scene.hinges):
+        raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
     if beam.depends_on_path:
         refuse_movements(scene, "a support cannot be moved by a load under trains")
         what = "supports whose state depends on the loading history cannot be combined with trains"

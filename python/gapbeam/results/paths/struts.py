@@ -51,6 +51,9 @@ class Struts:
         self._support_points = places.node_points[places.support_nodes]
         self._carries = beam.columns.support[1, beam.numbers] > 0.0
         self._hinges = set(places.node_points[places.kinds == 1].tolist())
+        # An elastic one counts as one that turns freely: on the safe side
+        elastic = beam.columns.hinge[0, :-1][beam.columns.hinge[1, :-1] > 0.0]
+        self._hinges |= {int(np.abs(places.point_x - x).argmin()) for x in elastic.tolist()}
         self._known: dict[tuple[bytes, ...], list[tuple[int, int, float]]] = {}
 
     def acting(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> np.ndarray:

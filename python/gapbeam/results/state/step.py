@@ -17,6 +17,7 @@ import numpy as np
 from ...base.records import Pickled, read_only
 from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LINES, Beam
 from ...engine.case_certificates import BOUNDED
+from ...engine.quantities import FIELDS
 from ...engine.states import Along, Solution
 from ...engine.units import bound_in_scene, scaled
 from ..views.extreme import Extremes, Source
@@ -38,6 +39,24 @@ class Known(NamedTuple):
     closed: np.ndarray
     solves: int
     seconds: float
+
+
+class HingeState(NamedTuple):
+    """A hinge with a stiffness in one state.
+
+    Attributes
+    ----------
+    x : float
+        Its place.
+    moment : float
+        Moment there, sagging.
+    rotation : float
+        Rotation left of it less that right of it: moment over stiffness.
+    """
+
+    x: float
+    moment: float
+    rotation: float
 
 
 class Step(Pickled):
@@ -175,6 +194,16 @@ class Step(Pickled):
         told = [name if across else CONDITIONS.get(code, f"branch {code - BRANCH}") for name, across, code in zip(
             names, self._beam.across.tolist(), chain.conditions.tolist(), strict=True)]  # fmt: skip
         return tuple(told)
+
+    @cached_property
+    def hinges(self) -> tuple[HingeState, ...]:
+        """What the hinges with a stiffness do, from left to right."""
+        x, stiffness = self._beam.columns.hinge[:, :-1]
+        which = np.flatnonzero(stiffness > 0.0)
+        which = which[np.argsort(x[which])]
+        moment = self.values(*self._beam.find(x[which], left=False))[FIELDS.index("moment")]
+        turned = moment / stiffness[which]
+        return tuple(map(HingeState._make, zip(x[which].tolist(), moment.tolist(), turned.tolist(), strict=True)))
 
     @property
     def friction(self) -> np.ndarray:
