@@ -141,10 +141,10 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     codes, found = _empty(5, len(items), np.int32), _empty(6 + PARAMETERS, len(items))
-    codes[0, :-1] = _words(items, "side", SIDES)
+    sides = _column(items, "side")
+    codes[0, :-1] = _coded(sides, SIDES)
     codes[1, :-1] = _words(items, "direction", DIRECTIONS)
-    if codes[0].any():
-        _refuse_sides(items, codes)
+    _refuse_sides(sides, codes)
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
@@ -163,10 +163,12 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     return codes, found
 
 
-def _refuse_sides(items: Sequence[Any], codes: np.ndarray) -> None:
+def _refuse_sides(sides: Any, codes: np.ndarray) -> None:
     """Refuse an axial support that is below or above, and one across the beam that pushes to the left or right."""
-    sides = _column(items, "side")
-    axial, along = codes[1, :-1] == DIRECTIONS["axial"], np.isin(sides, ("left", "right"))
+    axial = codes[1, :-1] == DIRECTIONS["axial"]
+    if not axial.any() and "left" not in sides and "right" not in sides:
+        return
+    along = np.isin(sides, ("left", "right"))
     wrong = np.flatnonzero((codes[0, :-1] != 0) & (along != axial))
     if not len(wrong):
         return
@@ -301,7 +303,10 @@ def _numbers(items: Sequence[Any], key: str) -> np.ndarray:
 
 
 def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:
-    values = _column(items, key)
+    return _coded(_column(items, key), codes)
+
+
+def _coded(values: Any, codes: dict[str, int]) -> Any:
     if isinstance(values, str):
         return codes[values]
     if isinstance(values, np.ndarray):
