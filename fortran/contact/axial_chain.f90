@@ -117,7 +117,7 @@ contains
         real(qp), intent(out) :: way
         !> Links that come to such an end first, and the piece to which each goes: 1 on, -1 back
         integer, allocatable, intent(out) :: links(:), steps(:)
-        real(qp) :: ways(size(chain%first)), slope, gap, rate, forces, places, least_rate, deflection, velocity, share
+        real(qp) :: ways(size(chain%first)), slope, gap, rate, forces, places, least_rate, deflection, velocity, share, limits
         integer :: to(size(chain%first)), l, n, j
 
         ways(:) = huge(way)
@@ -130,20 +130,26 @@ contains
                 if (chain%laws(k)%side == 0) cycle
                 call find_piece(chain, l, slope, n)
                 deflection = chain%displacement(node) - chain%moved(l)
-                velocity = chain%displacement_rate(node) - share*chain%own_rate(l)
+                velocity = chain%displacement_rate(node)
+                limits = 0.0_qp
+                if (.not. at_once) then
+                    velocity = velocity - chain%own_rate(l)
+                    limits = chain%limit_rate(l)
+                end if
                 do j = 0, 1
                     ! On to the next breakpoint, or back to the last one
                     if (n + 1 - j < 1 .or. n + 1 - j > chain%last(l) - k + 1) cycle
                     associate (s => chain%laws(k + n - j))
                         if (abs(slope) > huge(slope)) then
-                            gap = s%force - s%side*chain%force(l)
-                            rate = s%side*chain%force_rate(l)
-                            if (chain%rubs(l)) rate = rate - share*merge(1, -1, j == 0)*chain%limit_rate(l)
+                            gap = s%force - merge(chain%force(l), -chain%force(l), s%side > 0)
+                            rate = merge(chain%force_rate(l), -chain%force_rate(l), s%side > 0)
+                            if (chain%rubs(l)) rate = rate + merge(-limits, limits, j == 0)
                             least_rate = no_rate*forces
                             if (abs(gap) <= no_way*abs(s%force)) gap = 0.0_qp
                         else
-                            gap = s%side*(s%contact - deflection)
-                            rate = s%side*velocity
+                            gap = s%contact - deflection
+                            if (s%side < 0) gap = -gap
+                            rate = merge(velocity, -velocity, s%side > 0)
                             least_rate = no_rate*places
                             if (abs(gap) <= no_way*max(abs(s%contact), abs(deflection))) gap = 0.0_qp
                             ! What slides has its breakpoint with it

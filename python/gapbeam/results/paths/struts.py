@@ -55,6 +55,7 @@ class Struts:
         elastic = beam.columns.hinge[0, :-1][beam.columns.hinge[1, :-1] > 0.0]
         self._hinges |= {int(np.abs(places.point_x - x).argmin()) for x in elastic.tolist()}
         self._known: dict[tuple[bytes, ...], list[tuple[int, int, float]]] = {}
+        self._columns: dict[int, tuple[np.ndarray, ...]] = {}
 
     def acting(self, closed: np.ndarray, breakpoints: np.ndarray | None = None) -> np.ndarray:
         """Tell which supports of the engine belong to one of the scene that resists: what yields or is broken does not."""
@@ -109,7 +110,9 @@ class Struts:
         """
         found, EI = None, self.EI if EI is None else EI
         stretches = self.stretches(closed, breakpoints)
-        first, last, length = (np.array(column) for column in zip(*stretches, strict=True))
+        if id(stretches) not in self._columns:  # kept as long as the stretches are
+            self._columns[id(stretches)] = tuple(np.array(column) for column in zip(*stretches, strict=True))
+        first, last, length = self._columns[id(stretches)]
         force = -np.minimum.reduceat(tension, first)
         with np.errstate(all="ignore"):
             ratio = np.where(force > 0.0, force / (np.pi / length * np.minimum.reduceat(EI, first) * (np.pi / length)), 0.0)
