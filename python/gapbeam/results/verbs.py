@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..scene.names import labels
 from .envelopes.tables import event_columns
+from .paths.loop import Loop, loop_of
 from .state.fields import Fields
 from .state.states import States
 from .views.columns import Columns, one_of
@@ -123,6 +124,27 @@ class Verbs(Shown, States):
         if factor is None or step is not None:
             raise ValueError("leg: give the load factor on it too, as factor = 1.0, and no step")
         return self.at_state(self.state(factor, leg), x, side)
+
+    def loop(self, support: int | str | None = None, *, friction: bool = False) -> Loop:
+        """Give reaction and movement of a support along the loading history, with the energy that it takes up in every cycle.
+
+        Parameters
+        ----------
+        support : int or str, optional
+            Number or name; default the one that takes up most energy.
+        friction : bool
+            True: what friction does along the beam, instead of the reaction.
+
+        Returns
+        -------
+        Loop
+
+        Raises
+        ------
+        ValueError
+            No state stands, there is no such support, or it has no friction.
+        """
+        return loop_of(self, support, friction)
 
     def _train(self, name: str | None) -> TrainResult:
         trains = self.trains

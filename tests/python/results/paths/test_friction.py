@@ -98,6 +98,25 @@ def test_a_support_along_the_beam_yields_and_keeps_a_set():
     assert result.state(0.0, leg=1).reaction[3] == pytest.approx(3.0, rel=1e-14)
 
 
+def test_loops_have_the_energy_that_is_taken_up(tmp_path):
+    """Of friction: its limit times all that slid. Of the link along the beam that yields: its limit times what it yielded."""
+    supports = [at(0), at(1, friction=0.3), along(0)]
+    result = solve({"spans": [4.0]}, supports, [own_weight(), warm(50.0)], [1.0, 0.0])
+    loop, limit = result.loop(1, friction=True), 0.3 * 16.0
+    hot, cold = 4.0 * (ALPHA * 50.0 - limit / EA), 4.0 * limit / EA
+    assert loop.energy == pytest.approx(limit * (hot + hot - cold), rel=1e-13)
+    assert loop.movement.max() == pytest.approx(hot, rel=1e-13)
+    assert result.loop(friction=True) == loop
+    link = along(1, side="both", law=[[0.02, 3.0], [1.0, 3.0]], unloading="plastic", name="damper")
+    result = solve({"spans": [4.0]}, [at(0), at(1), along(0), link], [warm(50.0)], [1.0, 0.0, 1.0, 0.0])
+    loop = result.loop("damper")
+    second, most, least = loop.cycles[1], loop.movement.max(), loop.movement[loop.cycles[1].points].min()
+    assert second.energy == pytest.approx(2 * 3.0 * (most - least - 2 * 0.02), rel=1e-12)
+    result.plot("hysteresis", support="damper", path=tmp_path / "loop.svg")
+    with pytest.raises(ValueError, match="has no friction"):
+        result.loop(0, friction=True)
+
+
 def test_a_stop_that_is_jacked():
     """A movement of an axial support grows with the factor, and pushes the beam from its gap on."""
     supports = [at(0), at(1), along(0), along(1, side="left", gap=0.01, stiffness=500.0)]
