@@ -42,6 +42,8 @@ contains
         integer :: stat, n
 
         associate (model => assembled%model)
+            ! Left out: no hinge is elastic
+            if (.not. allocated(model%hinge_stiffness)) allocate (model%hinge_stiffness(size(model%hinges)), source=0.0_wp)
             call check_spans(model%spans, error)
             if (allocated(error)) return
             n = size(model%spans)

@@ -381,6 +381,13 @@ class CBeam:
         assert self.c.gapbeam_get_supports(self.handle, self.state, *map(pointer, values)) == 0
         return values
 
+    def friction(self):
+        """Force, slip and way of sliding of friction at every support."""
+        count = self.c.gapbeam_count_supports(self.handle)
+        values = [np.empty(count), np.empty(count), np.empty(count, np.int32)]
+        assert self.c.gapbeam_get_friction(self.handle, self.state, *map(pointer, values)) == 0
+        return values
+
     def fields(self, x, left=False, expect=0):
         """Fields at places, 6 by places; the status must be as expected."""
         x = np.array(x, dtype=float)
@@ -621,6 +628,12 @@ class F77Beam:
         values, state = np.empty((self.supports, 4)), np.empty(self.supports, np.int32)
         assert self.call("ghsupp", *self.both, values, state) == 0
         return [*values.T, state]
+
+    def friction(self):
+        """As CBeam.friction."""
+        values, slides = np.empty((self.supports, 2)), np.empty(self.supports, np.int32)
+        assert self.call("ghfric", *self.both, values, slides) == 0
+        return [*values.T, slides]
 
     def fields(self, x, left=False, expect=0):
         """As CBeam.fields."""

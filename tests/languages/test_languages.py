@@ -7,6 +7,7 @@ import itertools
 import math
 import random
 import re
+import tomllib
 
 import gapbeam
 import numpy as np
@@ -526,6 +527,31 @@ def soft_scene(seed):
         ],
         "analysis": {"follow": "events", "at_limit": ("stop", "jump", "follow")[seed % 3], "history": history},
     }  # fmt: skip
+
+
+def test_friction_agrees(library):
+    """Links along the beam: events, states of supports, forces and slips of friction have the digits of Python."""
+    scene = tomllib.loads((TOP / "examples" / "pipe_rack_hot.toml").read_text())
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert f77.info_ == 0
+    history = scene["analysis"]["history"]
+    status, message, found = beam.follow_history(history, "stop")
+    info, found_f77 = f77.follow_history(history, "stop")
+    assert (status, message, info) == (0, "", 0)
+    assert_same_history(found, result.path)
+    assert_same_history(found_f77, result.path)
+    for step, number in zip(result.steps, numbers_of(result.path), strict=True):
+        assert beam.solve_on_path(number, step.factor) == (0, "")
+        assert f77.solve_on_path(number, step.factor) == 0
+        ways = [{"left": -1, "right": 1}.get(way, 0) for way in step.sliding]
+        for one in (beam, f77):
+            np.testing.assert_array_equal(one.at_supports()[0], step.reaction)
+            for values, expected in zip(one.friction(), (step.friction, step.slip, ways), strict=True):
+                np.testing.assert_array_equal(values, expected)
+    assert result.steps[-1].friction.any()
 
 
 def test_histories_on_curves_agree(library):

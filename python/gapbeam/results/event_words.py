@@ -128,7 +128,10 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
         name = f"ground {label(scene.foundation, event.foundation)}: " if known else "ground: "
         return f"{name}{EVENT_WORDS[event.event]}{of} at x = {x}"
     force = f" ({fmt.value(scene, 'reaction', abs(reaction))})" if reaction else ""
-    return f"{fmt.support(scene, event.support)} (x = {x}) {EVENT_WORDS[event.event]}{force}"
+    words = EVENT_WORDS[event.event]
+    if event.event == "opens" and scene.supports[event.support].direction == "axial":
+        words = "lets go"
+    return f"{fmt.support(scene, event.support)} (x = {x}) {words}{force}"
 
 
 def limits_of_load_in_words(result: Result, envelope: PathEnvelope | None, most: int) -> list[str]:

@@ -296,7 +296,7 @@ def result_schema() -> dict[str, Any]:
     Examples
     --------
     >>> result_schema()["$defs"]["SupportState"]["properties"]["reaction"]["description"]
-    'Force of the support on the beam (force), positive upward.'
+    'Force of the support on the beam (force), positive upward; of an axial one to the right.'
     """
     tables = {
         name: {

@@ -13,7 +13,8 @@ program test_scene
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_input_error, only: named, of_spans, of_hinges, of_supports, of_loads, of_sections, no_span, not_expected, &
         too_long, &
-        lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, not_held, twice, no_room, at_hinge, idle
+        lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, not_held, twice, no_room, at_hinge, idle, &
+        bad_law
     use gapbeam_check, only: check_spans
     use gapbeam_assembled_model, only: assembled_type, copy_model, fingerprint, point_x, piece_length, stiffness_of, &
         in_bending, in_shear, along_axis
@@ -168,7 +169,11 @@ contains
         model%supports(3)%x = 3.0_wp
         call expect(model, of_supports, 3, no_gap, "gap", "a gap of a support that holds both ways")
         model%supports(3)%direction = gapbeam_axial
-        call expect(model, of_supports, 3, not_axial, "gap", "a gap along the beam")
+        call expect(model, of_supports, 3, no_gap, "gap", "a gap along the beam of a support that holds both ways")
+        model%supports(3) = support_type(x=3.0_wp, direction=gapbeam_axial, rotation=1.0_wp)
+        call expect(model, of_supports, 3, not_axial, "rotation", "a rotation held along the beam")
+        model%supports(3) = support_type(x=3.0_wp, direction=gapbeam_axial, friction=0.1_wp)
+        call expect(model, of_supports, 3, bad_law, "friction", "friction of a support along the beam")
         model%supports(3) = support_type(node=3)
         call expect(model, of_supports, 3, no_node, "node", "there is no such node")
         model%supports(3) = support_type(node=2)

@@ -343,6 +343,9 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
     refuse_movements(scene, "in prepared cases supports are not moved by loads")
+    if beam.has_links_along:
+        what = "friction, or axial supports that push one way or have a law"
+        raise SceneError("supports", f"cases cannot be prepared beside {what}; use gapbeam.solve for each case")
     if beam.beyond_one_search is not None:
         what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")

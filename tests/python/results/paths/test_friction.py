@@ -157,6 +157,33 @@ def test_free_elongation_beside_a_spring_stands_the_audit():
     assert result.steps[-1].reaction[4] == pytest.approx(0.0, abs=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"foundation": [{"k": 10.0}]}, "friction beside a foundation is not available in this version"),
+        ({"trains": [{"axles": [[0.0, 5.0]]}]}, "cannot be combined with trains in this version; leave one of them out"),
+        ({"supports": [at(0, friction=0.1), at(1), at(1, law={"type": "tanh", "stiffness": 1.0, "limit": 2.0})]}, "is a curve"),
+    ],
+)
+def test_what_is_not_there_yet_is_refused_by_name(keys, message):
+    one = {"beam": {"spans": [4.0], "EI": 1e3, "EA": EA, "alpha": ALPHA}, "supports": [at(0, friction=0.1), at(1)]}
+    with pytest.raises(gapbeam.SceneError, match=message):
+        gapbeam.solve(one | {"loads": [own_weight(), warm(5.0)]} | keys)
+
+
+def test_cases_are_not_prepared_and_combinations_start_anew():
+    """Each combination puts the dead loads on, then goes once to its factors."""
+    supports = [at(0), at(1, friction=0.3), along(0)]
+    one = {"beam": {"spans": [4.0], "EI": 1e3, "EA": EA, "alpha": ALPHA}, "supports": supports}
+    loads = [own_weight(), warm(50.0, case="heat")]
+    with pytest.raises(gapbeam.SceneError, match="cases cannot be prepared beside friction"):
+        gapbeam.prepare(one | {"loads": loads})
+    factors = {"hot": {"dead": 1.0, "heat": 1.0}, "cool": {"dead": 1.35, "heat": -0.5}}
+    found = gapbeam.solve(one | {"loads": loads, "combinations": [{"name": n, "factors": f} for n, f in factors.items()]})
+    assert found.combinations["hot"].steps[-1].friction[1] == pytest.approx(-4.8, rel=1e-14)
+    assert found.combinations["cool"].steps[-1].friction[1] == pytest.approx(1.35 * 4.8, rel=1e-14)
+
+
 def test_report_json_and_picture(tmp_path):
     supports = [at(0), at(1, friction=0.3), along(0), along(1, side="left", gap=0.15)]
     result = solve({"spans": [4.0]}, supports, [own_weight(), warm(50.0)], [1.0])
