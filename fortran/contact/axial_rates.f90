@@ -95,7 +95,8 @@ contains
 
     contains
 
-        !> Which of the rigid links of a node takes its force: friction that is stuck takes none beside another one that stays
+        !> Which of the rigid links of a node takes its force: friction that is stuck takes none beside another one that stays, and
+        !> of several that are stuck the first
         subroutine choose_holder(node, l, place)
             integer, intent(in) :: node, l
             integer, intent(out) :: place
@@ -105,7 +106,9 @@ contains
             other = holder(node)
             if (other == 0) then
                 holder(node) = l
-            else if (chain%rubs(l) .eqv. chain%rubs(other)) then
+            else if (chain%rubs(l) .and. chain%rubs(other)) then
+                return
+            else if (.not. (chain%rubs(l) .or. chain%rubs(other))) then
                 place = l
             else if (chain%rubs(l)) then
                 call drag(chain, l, other, dragged)

@@ -63,6 +63,19 @@ def test_friction_holds_up_to_its_limit_then_slips_and_remembers():
     assert cold.reaction[2] == pytest.approx(-limit, rel=1e-15)
 
 
+def test_two_that_rub_at_one_place_hold_together():
+    """What each of them takes is told by statics at their limits alone; together they hold up to the sum of these."""
+    springs = [at(1, stiffness=1e4, friction=mu) for mu in (0.2, 0.4)]
+    result = solve({"spans": [4.0]}, [at(0), *springs, along(0)], [own_weight(), warm(50.0)], [1.0, 0.0, 1.0])
+    limit, full = (0.2 + 0.4) * 8.0, EA * ALPHA * 50.0
+    slips = [event.factor for event in result.path.events if event.event == "slips"]
+    assert max(slips[:2]) == pytest.approx(limit / full, rel=1e-14)
+    for leg, (factor, way) in enumerate([(1.0, -1.0), (0.0, 1.0), (1.0, -1.0)]):
+        step = result.state(factor, leg=leg)
+        assert step.friction.sum() == pytest.approx(way * limit, rel=1e-14)
+    assert result.state(0.0, leg=1).slip[1] == pytest.approx(4.0 * limit / EA, rel=1e-13)
+
+
 def test_many_supports_slip_from_the_ends_in():
     """Between equal supports in the middle of a long beam the force is that without any slip."""
     count = 60
