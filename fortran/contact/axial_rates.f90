@@ -38,7 +38,7 @@ contains
             call find_piece(chain, l, slope(l), pieces(l))
             node = chain%laws(chain%first(l))%node
             if (abs(slope(l)) > huge(total)) then
-                call choose_holder(node, l, place)
+                call choose_holder(chain, l, holder(node), dragged, place)
                 if (place > 0) then
                     outcome = not_told
                     return
@@ -93,32 +93,37 @@ contains
         end if
         call share_reactions(chain, slope, pieces, holder, reaction)
 
-    contains
-
-        !> Which of the rigid links of a node takes its force: friction that is stuck takes none beside another one that stays, and
-        !> of several that are stuck the first
-        subroutine choose_holder(node, l, place)
-            integer, intent(in) :: node, l
-            integer, intent(out) :: place
-            integer :: other
-
-            place = 0
-            other = holder(node)
-            if (other == 0) then
-                holder(node) = l
-            else if (chain%rubs(l) .and. chain%rubs(other)) then
-                return
-            else if (.not. (chain%rubs(l) .or. chain%rubs(other))) then
-                place = l
-            else if (chain%rubs(l)) then
-                call drag(chain, l, other, dragged)
-            else
-                call drag(chain, other, l, dragged)
-                holder(node) = l
-            end if
-        end subroutine choose_holder
-
     end subroutine find_rates
+
+    !> Which of the rigid links of a node takes its force: friction that is stuck takes none beside another one that stays, and
+    !> of several that are stuck the first
+    subroutine choose_holder(chain, l, holder, dragged, place)
+        type(chain_type), intent(inout) :: chain
+        !> A link on a vertical piece
+        integer, intent(in) :: l
+        !> Of its point so far, 0: none
+        integer, intent(inout) :: holder
+        !> As for drag
+        logical, intent(inout) :: dragged
+        !> The link where it cannot be told, 0: it can
+        integer, intent(out) :: place
+        integer :: other
+
+        place = 0
+        other = holder
+        if (other == 0) then
+            holder = l
+        else if (chain%rubs(l) .and. chain%rubs(other)) then
+            return
+        else if (.not. (chain%rubs(l) .or. chain%rubs(other))) then
+            place = l
+        else if (chain%rubs(l)) then
+            call drag(chain, l, other, dragged)
+        else
+            call drag(chain, other, l, dragged)
+            holder = l
+        end if
+    end subroutine choose_holder
 
     !> Rates of the forces of the links from those of the points
     pure subroutine share_reactions(chain, slope, pieces, holder, reaction)

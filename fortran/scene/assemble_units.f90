@@ -11,7 +11,8 @@ module gapbeam_assemble_units
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_foundations, only: note_foundations, scale_foundations, greatest_values
     use gapbeam_words, only: shown
-    use gapbeam_input_error, only: refuse, refuse_range, named, of_hinges, of_supports, of_foundations, bad_law
+    use gapbeam_assemble_hinges, only: assemble_hinges
+    use gapbeam_input_error, only: refuse_range, named, of_supports, of_foundations
     use gapbeam_scene, only: gapbeam_table_of_k
     implicit none
     private
@@ -33,6 +34,7 @@ contains
         call choose_units(assembled)
         call change_laws(assembled, -1)
         call cut_pieces(assembled, error)
+        if (.not. allocated(error)) call assemble_hinges(assembled, error)
         if (.not. allocated(error)) call scale_supports(assembled, error)
         if (.not. allocated(error)) call scale_foundations(assembled, assembled%units, error)
         if (.not. allocated(error)) call scale_loads(assembled, error)
@@ -146,8 +148,6 @@ contains
                 p%length = scale(piece_length(assembled, j), -units%length)
                 p%flexibility = 1/scale(EI, -turning_unit(units) - units%length)
                 p%shear_flexibility = 1/scale(GA, rotation_unit(units) - units%force)
-                p%hinge = 0.0_wp
-                if (assembled%joint(j - 1) > 0.0_wp) p%hinge = 1/scale(assembled%joint(j - 1), -turning_unit(units))
                 if (is_lost(p%length)) then
                     call refuse_range(error, "the stretch "//trim(from_to(assembled, j - 1, j))//", "// &
                                       trim(shown(piece_length(assembled, j)))//" long, is too far from the other lengths of "// &
@@ -156,31 +156,12 @@ contains
                     call refuse_stiffness("EI", EI)
                 else if (is_lost(p%shear_flexibility) .and. GA <= huge(GA)) then
                     call refuse_stiffness("GA", GA)
-                else if (assembled%joint(j - 1) > 0.0_wp) then
-                    call check_joint()
                 end if
             end associate
             if (allocated(error)) return
         end do
 
     contains
-
-        !> An elastic hinge needs a beam that bends on both sides, and ground knows none
-        subroutine check_joint()
-            character(len=:), allocatable :: problem
-
-            if (is_lost(assembled%pieces(j)%hinge)) then
-                problem = "it is too far from the other stiffnesses of the beam; bring them nearer together"
-            else if (.not. min(assembled%pieces(j - 1)%flexibility, assembled%pieces(j)%flexibility) > 0.0_wp) then
-                problem = "the beam is rigid beside it (infinite EI), which is not available with a stiffness in this version"
-            else if (size(assembled%model%foundations) > 0) then
-                problem = "a hinge with a stiffness beside a foundation is not available in this version; leave one of them out"
-            else
-                return
-            end if
-            call refuse(error, of_hinges, findloc(assembled%model%hinge_stiffness, assembled%joint(j - 1), 1), &
-                        size(assembled%model%hinges), bad_law, "stiffness", problem)
-        end subroutine check_joint
 
         !> A stiffness is out of range
         subroutine refuse_stiffness(name, value)

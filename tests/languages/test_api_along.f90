@@ -140,7 +140,7 @@ contains
         type(prepared_type) :: beam
         type(result_type) :: result
         type(error_type), allocatable :: error
-        real(wp), parameter :: stiffness(4) = [1e-20_wp, 1.0_wp, 600.0_wp, 1e20_wp]
+        real(wp), parameter :: stiffness(4) = [1e-7_wp, 1.0_wp, 600.0_wp, 1e20_wp]
         real(wp) :: left(6, 1), right(6, 1), expected
         integer :: k
 
@@ -160,6 +160,9 @@ contains
             call check(abs(right(3, 1) - expected) <= 1e-13_wp*2, "hinge: its moment")
             call check(near(left(2, 1) - right(2, 1), expected/stiffness(k)), "hinge: its rotation")
         end do
+        model%hinge_stiffness = [1e-9_wp]
+        call prepare_model(model, beam, error)
+        call check(has_code(error, gapbeam_bad_input), "hinge: so soft that it is free")
         model%hinge_stiffness = [-1.0_wp]
         call prepare_model(model, beam, error)
         call check(has_code(error, gapbeam_bad_input), "hinge: a stiffness below zero")

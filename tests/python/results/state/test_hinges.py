@@ -133,14 +133,14 @@ def test_semi_rigid_ends():
     assert middle.steps[-1].hinges[0].moment == pytest.approx(q * span**2 / 24 / (1 + EI / (c * span)), rel=1e-13)
 
 
-@pytest.mark.parametrize(("stiffness", "like"), [(0.0, "free"), (1e-30, "free"), (1e30, "none")])
+@pytest.mark.parametrize(("stiffness", "like"), [(0.0, "free"), (2e-9, "free"), (1e30, "none")])
 def test_between_a_free_hinge_and_none(stiffness, like):
     supports, loads = [at(0), at(1), at(2, rotation="fixed")], [{"type": "uniform", "q": 2.0}, force(1.0, 5.0)]
     made = gapbeam.solve(scene([3.0, 2.0], [{"x": 4.0, "stiffness": stiffness}], supports, loads))
     beside = scene([3.0, 2.0], [], supports, loads)
     if like == "free":
         beside["beam"]["hinges"] = [4.0]
-    assert made.steps[-1].reaction == pytest.approx(gapbeam.solve(beside).steps[-1].reaction, rel=1e-13)
+    assert made.steps[-1].reaction == pytest.approx(gapbeam.solve(beside).steps[-1].reaction, rel=1e-9)
 
 
 def test_events_and_combinations_know_them():
@@ -166,6 +166,7 @@ def test_events_and_combinations_know_them():
         ({"node": 7, "stiffness": 1.0}, {}, r"hinges\[0\].node: there is no node 7; the nodes of the beam are 0 to 2"),
         ({"node": -1, "stiffness": 1.0}, {}, r"hinges\[0\].node: there is no node -1"),
         ({"stiffness": 1.0}, {}, r"hinges\[0\]: its position is missing; give node or x"),
+        ({"x": 1.0, "stiffness": 1e-10}, {}, r"hinges\[0\].stiffness: it is so far below EI/length of the beam that it is a free"),
         ({"x": 9.0, "stiffness": 1.0}, {}, r"hinges\[0\].x: 9 is outside the beam"),
         ({"x": 1.0, "stiffness": 1.0}, {"foundation": [{"k": 10.0}]}, "beside a foundation is not available"),
         ({"x": 1.0, "stiffness": 1.0}, {"EI": float("inf")}, "the beam is rigid beside it"),
