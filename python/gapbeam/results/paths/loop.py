@@ -34,9 +34,10 @@ class Cycle(NamedTuple):
     legs : tuple of int
         Which factors of the history are gone to.
     energy : float
-        What the support takes up: its reaction times its movement, summed up (force times length).
+        What the support takes up: its reaction times its movement, summed up (force times length). Where the load does not come
+        back, part of it is kept and not dissipated.
     closed : bool
-        Whether the load comes back.
+        Whether the load comes back to where the cycle began.
     """
 
     points: slice
@@ -120,12 +121,12 @@ def loop_of(result: Result, support: int | str | None = None, friction: bool = F
         chosen = _number(result, support)
         if friction and not supports[chosen].friction:
             raise ValueError(f"support: {labels(supports)[chosen]} has no friction")
-    cycles = _cycles(taken[:, chosen], movement[:, chosen], legs)
     factors = np.array([state.factor for state in states])
+    cycles = _cycles(taken[:, chosen], movement[:, chosen], factors, legs)
     return Loop(chosen, factors, legs, movement[:, chosen], force[:, chosen], cycles)
 
 
-def _cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> list[Cycle]:
+def _cycles(force: np.ndarray, movement: np.ndarray, factors: np.ndarray, legs: np.ndarray) -> list[Cycle]:
     """Cut the loading history into cycles: two factors of its history each."""
     there = np.unique(legs).tolist()
     found = []
@@ -134,7 +135,8 @@ def _cycles(force: np.ndarray, movement: np.ndarray, legs: np.ndarray) -> list[C
         which = np.flatnonzero(np.isin(legs, pair))
         begin = max(int(which[0]) - 1, 0)  # from where the one before ended
         points = slice(begin, int(which[-1]) + 1)
-        found.append(Cycle(points, pair, _energy(force[points], movement[points]), len(pair) == 2))
+        back = len(pair) == 2 and bool(factors[points][0] == factors[points][-1])
+        found.append(Cycle(points, pair, _energy(force[points], movement[points]), back))
     return found
 
 

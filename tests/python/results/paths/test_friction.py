@@ -123,6 +123,8 @@ def test_loops_have_the_energy_that_is_taken_up(tmp_path):
     link = along(1, side="both", law=[[0.02, 3.0], [1.0, 3.0]], unloading="plastic", name="damper")
     result = solve({"spans": [4.0]}, [at(0), at(1), along(0), link], [warm(50.0)], [1.0, 0.0, 1.0, 0.0])
     loop = result.loop("damper")
+    assert [cycle.closed for cycle in loop.cycles] == [True, True]
+    assert not solve({"spans": [4.0]}, [at(0), at(1), along(0), link], [warm(50.0)], [1.0, -1.0]).loop("damper").cycles[0].closed
     second, most, least = loop.cycles[1], loop.movement.max(), loop.movement[loop.cycles[1].points].min()
     assert second.energy == pytest.approx(2 * 3.0 * (most - least - 2 * 0.02), rel=1e-12)
     result.plot("hysteresis", support="damper", path=tmp_path / "loop.svg")
