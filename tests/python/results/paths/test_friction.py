@@ -142,6 +142,15 @@ def test_a_stop_that_is_jacked():
     assert result.steps[-1].reaction[3] == pytest.approx(-0.02 / (1.0 / 500.0 + 4.0 / EA), rel=1e-14)
 
 
+def test_a_stop_that_is_jacked_drags_the_beam_over_its_support():
+    """Friction is at its limit at once, and the stop takes it beside what the bar gives."""
+    supports = [at(0), at(1, friction=0.3), along(0), along(1, side="left")]
+    result = solve({"spans": [4.0]}, supports, [own_weight(), {"type": "movement", "support": 3, "value": -0.02}], [1.0])
+    step = result.steps[-1]
+    assert step.friction[1] == pytest.approx(0.3 * 16.0, rel=1e-14)
+    assert step.reaction[3] == pytest.approx(-EA * 0.02 / 4.0 - 0.3 * 16.0, rel=1e-14)
+
+
 def test_what_nothing_holds_slides_at_its_limit():
     supports = [at(0, friction=0.5), at(1)]
     result = solve({"spans": [4.0]}, supports, [own_weight(), {"type": "axial", "x": 4.0, "F": 10.0}], [1.0])
@@ -344,7 +353,18 @@ class Beside:
 @pytest.mark.parametrize("seed", sorted(set(range(120)) - {89}))
 def test_beside_a_chain_in_rationals(seed):
     """Forces and displacements at the end of every leg; a limit where the chain in rationals finds one."""
-    beam, supports, loads, history = random_scene(random.Random(seed))
+    compare(*random_scene(random.Random(seed)))
+
+
+def test_two_reactions_that_change_their_sign_between_two_events():
+    """Limits of friction go through zero one after the other, from the right to the left."""
+    supports = [at(i, friction=0.3) for i in range(4)]
+    loads = [own_weight(15.0), force(2.1, -90.0), force(4.1, -300.0), warm(20.0), {"type": "axial", "x": 6.0, "F": 1.0}]
+    compare({"spans": [2.0, 2.0, 2.0], "EA": 1000.0, "alpha": 1e-3}, supports, loads, [1.0, 0.0, 1.0])
+
+
+def compare(beam, supports, loads, history):
+    """Compare a scene with its chain in rationals."""
     if len(supports) == len(beam["spans"]) + 1 and not any(one["friction"] for one in supports):
         pytest.skip("nothing is along the beam")
     beside = Beside(beam, supports, loads)
