@@ -5,7 +5,7 @@ module gapbeam_polynomial
     private
     public :: roots_between, value, highest_degree
 
-    !> Deflection under linear load is of degree 5; its slope of degree 4
+    !> Of fields: deflection under linear load is of degree 5, its slope of degree 4
     integer, parameter :: highest_degree = 4
 
 contains
@@ -13,15 +13,15 @@ contains
     !> Points in (0, length) where a polynomial changes sign, by the roots of its derivatives one after the other:
     !> between two roots of the derivative a polynomial is monotone and has one root at most
     pure subroutine roots_between(coefficients, length, roots, number)
-        !> Coefficients of s**0, s**1, ..., shape (0:degree), degree at most highest_degree
+        !> Coefficients of s**0, s**1, ..., shape (0:degree)
         real(wp), intent(in) :: coefficients(0:)
         !> The interval is 0..length
         real(wp), intent(in) :: length
-        !> The roots in rising order, shape (highest_degree)
+        !> The roots in rising order, shape (at least degree)
         real(wp), intent(out) :: roots(:)
         !> How many there are
         integer, intent(out) :: number
-        real(wp) :: derivative(0:highest_degree), marks(0:highest_degree + 1), low, high
+        real(wp) :: derivative(0:ubound(coefficients, 1)), marks(0:ubound(coefficients, 1) + 1), low, high
         integer :: degree, order, found, k, j
 
         number = 0
@@ -61,7 +61,7 @@ contains
         real(wp), intent(in) :: coefficients(0:)
         real(wp), intent(in) :: length
         logical :: keeps
-        real(wp) :: b(0:highest_degree), weight, power
+        real(wp) :: b(0:ubound(coefficients, 1)), weight, power
         integer :: n, i, k
 
         n = ubound(coefficients, 1)

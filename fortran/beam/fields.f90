@@ -4,11 +4,14 @@ module gapbeam_fields
     use gapbeam_tolerances, only: extreme_margin
     use gapbeam_element, only: field_type, fields_at
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
-    use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, terms_of_derived, with_derived
+    use gapbeam_piece, only: is_tapered
+    use gapbeam_taper, only: fields_in_taper, softness_at
+    use gapbeam_taper_extremes, only: find_turning_places, most_places
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, bending, shares_of, terms_of_derived, with_derived
     use gapbeam_polynomial, only: roots_between, highest_degree
     implicit none
     private
-    public :: values_at, find_extremes, bending_values, softness_of
+    public :: values_at, find_extremes, bending_values, softness_of, fields_of_piece
 
     !> Degrees of the derivatives of deflection, rotation, moment, shear along a piece
     integer, parameter :: degree_of_state(state_count) = [4, 3, 2, 1]
@@ -27,15 +30,37 @@ contains
     end function softness_of
 
     !> The quantities of bending (gapbeam_quantities) of a section
-    pure function bending_values(field, piece, kappa) result(values)
+    pure function bending_values(field, piece, kappa, distance) result(values)
         type(field_type), intent(in) :: field
         !> Its piece, and the curvature imposed on that
         type(piece_type), intent(in) :: piece
         real(wp), intent(in) :: kappa
+        !> From its left end, where it may be tapered
+        real(wp), intent(in), optional :: distance
         real(wp) :: values(bending_count)
+        real(wp) :: softness(2)
 
-        values(:) = with_derived([field%deflection, field%rotation, field%moment, field%shear], softness_of(piece), kappa)
+        softness(:) = softness_of(piece)
+        if (present(distance)) softness(:) = softness_at(piece, distance)
+        values(:) = with_derived([field%deflection, field%rotation, field%moment, field%shear], softness, kappa)
     end function bending_values
+
+    !> Fields inside a piece, tapered or not, from those at its left end
+    pure function fields_of_piece(start, s, piece, load) result(fields)
+        !> Fields just right of its left end
+        type(field_type), intent(in) :: start
+        !> Distance from there, 0..length
+        real(wp), intent(in) :: s
+        type(piece_type), intent(in) :: piece
+        type(piece_load_type), intent(in) :: load
+        type(field_type) :: fields
+
+        if (is_tapered(piece)) then
+            fields = fields_in_taper(start, s, piece, load)
+        else
+            fields = fields_at(start, s, piece%length, piece%flexibility, piece%shear_flexibility, load%qa, load%qb, load%kappa)
+        end if
+    end function fields_of_piece
 
     !> Fields at given places
     pure subroutine values_at(pieces, dead, live, factor, starts, piece, distance, fields)
@@ -55,13 +80,12 @@ contains
         do i = 1, size(piece)
             j = piece(i)
             load = combine_loads(dead(j), live(j), factor)
-            fields(i) = fields_at(starts(j), distance(i), pieces(j)%length, pieces(j)%flexibility, &
-                                  pieces(j)%shear_flexibility, load%qa, load%qb, load%kappa)
+            fields(i) = fields_of_piece(starts(j), distance(i), pieces(j), load)
         end do
     end subroutine values_at
 
     !> Largest and smallest value of every field, with their places: at the ends of the pieces and where the
-    !> derivative of the field, a polynomial of degree 4 at most, changes sign
+    !> derivative of the field changes sign: a polynomial of degree 4 at most, unless the piece is tapered
     pure subroutine find_extremes(pieces, dead, live, factor, starts, values, piece, distance)
         !> As for values_at
         type(piece_type), intent(in) :: pieces(:)
@@ -74,9 +98,9 @@ contains
         integer, intent(out) :: piece(:, :)
         real(wp), intent(out) :: distance(:, :)
         type(piece_load_type) :: q
-        real(wp) :: c(0:highest_degree, bending_count), roots(highest_degree), left(bending_count), right(bending_count)
+        real(wp) :: c(0:highest_degree, bending_count), roots(most_places), left(bending_count), right(bending_count)
         real(wp) :: share(state_count + 1, derived_count)
-        logical :: near(bending_count)
+        logical :: near(bending_count), tapered
         integer :: degree(bending_count), j, k, i, number
 
         values(1, :) = -huge(1.0_wp)
@@ -86,7 +110,7 @@ contains
         ! Ends of all pieces first, so that little is left to look for inside
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
-            left = values_of(starts(j))
+            left = values_of(starts(j), 0.0_wp)
             right = fields_here(pieces(j)%length)
             do k = 1, bending_count
                 ! Not of numbers that are none
@@ -100,8 +124,9 @@ contains
         degree(state_count + 1:) = maxval(spread(degree_of_state, 2, derived_count), 1, terms_of_derived())
         do j = 1, size(pieces)
             q = combine_loads(dead(j), live(j), factor)
-            left = values_of(starts(j))
-            near = .not. far_from(pieces(j), q, left, fields_here(pieces(j)%length), values)
+            left = values_of(starts(j), 0.0_wp)
+            tapered = is_tapered(pieces(j))
+            near = tapered .or. .not. far_from(pieces(j), q, left, fields_here(pieces(j)%length), values)
             if (.not. any(near)) cycle
             ! Derivatives of the fields as polynomials in the distance from the left end
             associate (f => pieces(j)%flexibility, g => pieces(j)%shear_flexibility, a => starts(j))
@@ -117,8 +142,12 @@ contains
             c(:, state_count + 1:) = matmul(c(:, 1:state_count), share(1:state_count, :))
             do k = 1, bending_count
                 if (.not. near(k)) cycle
-                if (stays_between(c(0:degree(k), k), pieces(j)%length, left(k), values(:, k))) cycle
-                call roots_between(c(0:degree(k), k), pieces(j)%length, roots, number)
+                if (tapered) then
+                    call find_turning_places(pieces(j), q, starts(j), bending(k), roots, number)
+                else
+                    if (stays_between(c(0:degree(k), k), pieces(j)%length, left(k), values(:, k))) cycle
+                    call roots_between(c(0:degree(k), k), pieces(j)%length, roots, number)
+                end if
                 do i = 1, number
                     right = fields_here(roots(i))
                     call consider(j, roots(i), right(k), values(:, k), piece(:, k), distance(:, k))
@@ -133,16 +162,16 @@ contains
             real(wp), intent(in) :: s
             real(wp) :: found(bending_count)
 
-            found = values_of(fields_at(starts(j), s, pieces(j)%length, pieces(j)%flexibility, pieces(j)%shear_flexibility, &
-                                        q%qa, q%qb, q%kappa))
+            found = values_of(fields_of_piece(starts(j), s, pieces(j), q), s)
         end function fields_here
 
         !> The quantities of a section of the piece at hand
-        pure function values_of(field) result(values)
+        pure function values_of(field, s) result(values)
             type(field_type), intent(in) :: field
+            real(wp), intent(in) :: s
             real(wp) :: values(bending_count)
 
-            values = bending_values(field, pieces(j), q%kappa)
+            values = bending_values(field, pieces(j), q%kappa, s)
         end function values_of
 
     end subroutine find_extremes

@@ -6,27 +6,12 @@
 module gapbeam_link
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: sum_type, add, total, load_moment, moment_integrals, field_type
+    use gapbeam_piece, only: piece_type, piece_load_type, no_load, is_tapered
+    use gapbeam_taper, only: find_softness, turn_ends
     implicit none
     private
     public :: link_type, piece_type, piece_load_type, condense_link, condense_loads, recover_link, combine_loads
     public :: along_type, next_piece, moments_about_right_end, no_load
-
-    !> A prismatic piece
-    type :: piece_type
-        !> Length, 1/EI, 1/GA
-        real(wp) :: length, flexibility, shear_flexibility
-        !> Of an elastic hinge at its left end, which is a node: relative rotation by a moment of 1
-        real(wp) :: hinge = 0.0_wp
-    end type piece_type
-
-    !> Loads on a piece and on the point at its right end
-    type :: piece_load_type
-        !> Load per length at the left and right end, imposed curvature
-        real(wp) :: qa, qb, kappa
-        !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
-        real(wp) :: force, couple
-    end type piece_load_type
-    type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
     !> A condensed link; index 1 dead, 2 live
     type :: link_type
@@ -76,10 +61,10 @@ contains
         type(piece_type), intent(in) :: pieces(:)
         type(link_type), intent(inout) :: link
         type(sum_type) :: length, bending, first, second, shear
-        real(wp) :: centre, spread, shear_term, local
+        real(wp) :: centre, spread, shear_term, local, own_centre, own_spread, slip
         integer :: j
 
-        if (size(pieces) == 1 .and. .not. pieces(1)%hinge > 0.0_wp) then
+        if (size(pieces) == 1 .and. .not. (pieces(1)%hinge > 0.0_wp .or. is_tapered(pieces(1)))) then
             link%length = pieces(1)%length
             link%bending = pieces(1)%flexibility*link%length
             centre = 0.5_wp
@@ -94,9 +79,12 @@ contains
             do j = 1, size(pieces)
                 associate (p => pieces(j))
                     local = p%flexibility*p%length
+                    own_centre = p%length/2
+                    slip = p%shear_flexibility*p%length
+                    if (p%power + p%shear_power > 0) call find_softness(p, local, own_centre, own_spread, slip)
                     call add(bending, local)
-                    call add(first, local*(total(length) + p%length/2))
-                    call add(shear, p%shear_flexibility*p%length)
+                    call add(first, local*(total(length) + own_centre))
+                    call add(shear, slip)
                     call add(length, p%length)
                 end associate
             end do
@@ -109,8 +97,11 @@ contains
             length = sum_type()
             do j = 1, size(pieces)
                 associate (p => pieces(j))
-                    call add(second, p%flexibility*p%length*((total(length) + p%length/2 - centre)**2 &
-                        + p%length**2/12))
+                    local = p%flexibility*p%length
+                    own_centre = p%length/2
+                    own_spread = p%length**2/12
+                    if (p%power + p%shear_power > 0) call find_softness(p, local, own_centre, own_spread, slip)
+                    call add(second, local*((total(length) + own_centre - centre)**2 + own_spread))
                     call add(length, p%length)
                 end associate
             end do
@@ -133,7 +124,7 @@ contains
         real(wp), intent(inout) :: work(:)
         type(along_type) :: at
         type(sum_type) :: turn_a, turn_b, slip
-        real(wp) :: right_end, turning, softer, slips
+        real(wp) :: right_end, turning, softer, slips, left_part, right_part, slipping
         integer :: j, n
 
         n = size(pieces)
@@ -144,7 +135,7 @@ contains
         link%load_sum(k) = 0.0_wp
         link%turn_sum(k) = 0.0_wp
         if (.not. any_load(loads)) return
-        if (n == 1) then
+        if (n == 1 .and. .not. is_tapered(pieces(1))) then
             call condense_load(pieces(1), loads(1), link, k)
             return
         end if
@@ -158,16 +149,24 @@ contains
             call next_piece(pieces(j)%length, loads(j), link%length, merge(right_end, work(max(1, j - 1)), j == 1), work(j), &
                             j == n, at)
             associate (p => pieces(j), q => loads(j))
-                turning = p%flexibility*at%left - q%kappa*p%length/2
+                left_part = p%flexibility*at%left
+                right_part = p%flexibility*at%right
+                if (p%power + p%shear_power > 0) call turn_ends(p, at%m0, at%m1, q%qa, q%qb, left_part, right_part, slipping)
+                turning = left_part - q%kappa*p%length/2
                 call add(turn_a, (1 - at%x0/link%length)*turning)
                 call add(turn_b, (at%x0/link%length)*turning)
-                turning = p%flexibility*at%right - q%kappa*p%length/2
+                turning = right_part - q%kappa*p%length/2
                 call add(turn_a, (1 - at%x1/link%length)*turning)
                 call add(turn_b, (at%x1/link%length)*turning)
                 ! What GA has in common along the link slips under couples only, for the moment is zero at both ends
                 softer = p%shear_flexibility - pieces(1)%shear_flexibility
                 call add(slip, softer*(at%m1 - at%m0))
                 slips = slips + abs(softer)*(abs(at%m0) + abs(at%m1))
+                if (p%shear_power > 0) then
+                    call add(slip, slipping - p%shear_flexibility*(at%m1 - at%m0))
+                    slips = slips + max(p%shear_flexibility, p%shear_flexibility_to)*(abs(at%m0) + abs(at%m1) &
+                        + (abs(q%qa) + abs(q%qb))*p%length**2)
+                end if
                 link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
                 link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length
                 if (j < n) then
@@ -317,7 +316,7 @@ contains
         !> Fields just right of the left end of every piece, shape (n)
         type(field_type), intent(out) :: starts(:)
         type(sum_type) :: left, position, turning, first, slip
-        real(wp) :: right_end, x0, x1, xi, m1, before, beside
+        real(wp) :: right_end, x0, x1, xi, m1, before, beside, slipping
         integer :: j, n
 
         n = size(pieces)
@@ -358,9 +357,13 @@ contains
                 m1 = (1 - xi)*(moment_a + total(left)) &
                     + xi*(moment_b + before_point(work(j, 1), q, length - x1, j == n))
                 call moment_integrals(p%length, starts(j)%moment, m1, q%qa, q%qb, work(j, 2), work(j, 3))
-                work(j, 2:3) = p%flexibility*work(j, 2:3) - q%kappa*p%length/2
+                work(j, 2:3) = p%flexibility*work(j, 2:3)
+                slipping = p%shear_flexibility*(m1 - starts(j)%moment)
+                if (p%power + p%shear_power > 0) call turn_ends(p, starts(j)%moment, m1, q%qa, q%qb, work(j, 2), work(j, 3), &
+                                                                slipping)
+                work(j, 2:3) = work(j, 2:3) - q%kappa*p%length/2
                 call add(turning, work(j, 2) + work(j, 3))
-                call add(slip, p%shear_flexibility*(m1 - starts(j)%moment))
+                call add(slip, slipping)
                 before = work(j, 1)
                 if (j < n) then
                     call add(left, q%force*x1)

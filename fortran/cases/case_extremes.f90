@@ -3,6 +3,7 @@
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_piece, only: is_prismatic
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
@@ -38,7 +39,7 @@ contains
 
         associate (beam => assembled%beam, units => assembled%units)
             yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point) &
-                        .or. any(assembled%pieces%hinge > 0.0_wp)) &
+                        .or. .not. all(is_prismatic(assembled%pieces))) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
                           abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_unit_power
         end associate

@@ -58,6 +58,13 @@ contains
                 s%EI = sect(3, i)
                 s%GA = sect(4, i)
                 s%EA = sect(5, i)
+                if (size(sect, 1) == 5) cycle
+                s%EI_to = sect(6, i)
+                s%GA_to = sect(7, i)
+                s%EA_to = sect(8, i)
+                s%EI_power = nint(sect(9, i))
+                s%GA_power = nint(sect(10, i))
+                s%EA_power = nint(sect(11, i))
             end associate
         end do
         do i = 1, size(model%supports)

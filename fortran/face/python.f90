@@ -36,7 +36,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(5, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
+    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(11, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
@@ -186,7 +186,8 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
                   snode, level)
     use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_units, only: rotation_unit, moment_unit
-    use gapbeam_assembled_model, only: point_x, piece_length, stiffness_of, in_bending, in_shear
+    use gapbeam_assembled_model, only: point_x, piece_length, in_bending, in_shear
+    use gapbeam_piece_stiffness, only: least_stiffness_of
     use gapbeam_assemble_supports, only: contact_level
     implicit none
     integer(8), intent(in) :: beam
@@ -216,7 +217,8 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
         end do
         ispan = lowered%point_span(:np - 1)
         do j = 1, np
-            piece(:, j) = [piece_length(lowered, j), stiffness_of(lowered, j, in_bending), stiffness_of(lowered, j, in_shear)]
+            piece(:, j) = [piece_length(lowered, j), least_stiffness_of(lowered, j, in_bending), &
+                           least_stiffness_of(lowered, j, in_shear)]
             associate (a => lowered%dead(j), b => lowered%live(j), q => units%force - units%length, &
                        bent => rotation_unit(units) - units%length)
                 dead(:, j) = scale([a%qa, a%qb, a%kappa, a%force, a%couple], [q, q, bent, units%force, moment_unit(units)])

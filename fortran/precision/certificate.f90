@@ -11,6 +11,7 @@ module gapbeam_certificate
     use gapbeam_error, only: error_type, gapbeam_solved
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_piece, only: greatest_softness
     use gapbeam_law, only: has_laws
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: plain_workspace_type => workspace_type, new_plain_workspace => new_workspace, &
@@ -319,14 +320,15 @@ contains
         type(field_type), intent(in) :: start, change
         type(certificate_type), intent(inout) :: certificate
         type(field_type) :: error
-        real(wp) :: q, kappa
+        real(wp) :: q, kappa, softest(2)
 
         q = max(abs(dead%qa) + factor*abs(live%qa), abs(dead%qb) + factor*abs(live%qb))
         kappa = abs(dead%kappa) + factor*abs(live%kappa)
         ! Each error, and what rounds: the absolute values of the fields
         error = field_type(change%deflection + unit*abs(start%deflection), change%rotation + unit*abs(start%rotation), &
                            change%moment + unit*abs(start%moment), change%shear + unit*abs(start%shear))
-        associate (l => piece%length, f => piece%flexibility, g => piece%shear_flexibility)
+        softest = greatest_softness(piece)
+        associate (l => piece%length, f => softest(1), g => softest(2))
             certificate%shear = max(certificate%shear, error%shear + unit*l*q)
             certificate%moment = max(certificate%moment, error%moment + l*(error%shear + unit*l*q/2))
             certificate%rotation = max(certificate%rotation, error%rotation &

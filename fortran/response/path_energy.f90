@@ -5,7 +5,9 @@
 !> their chords: for the supports with these hand over the difference (Betti).
 module gapbeam_path_energy
     use gapbeam_kinds, only: wp
-    use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
+    use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of
+    use gapbeam_piece, only: is_tapered
+    use gapbeam_taper, only: intervals_in, points_in, most_places => number_of_points
     use gapbeam_element, only: sum_type, add, total, field_type
     use gapbeam_fields, only: values_at
     use gapbeam_laws, only: law_energy
@@ -42,19 +44,28 @@ contains
         type(sum_type) :: parts
         type(panels_type) :: panels
         type(field_type) :: there
-        real(wp) :: points(most_points), weights(most_points), growth(size(assembled%normal))
-        integer :: i, j, number
+        real(wp) :: points(most_places), weights(most_places), growth(size(assembled%normal))
+        integer :: i, j, k, number, intervals
 
         ! A load that is linear times a deflection of degree 5
         call cut_into_panels([0.0_wp], [0.0_wp], panels)
-        call points_of(panels, 1, number, points, weights)
         do j = 1, size(assembled%pieces)
             associate (live => assembled%live(j), length => assembled%pieces(j)%length)
                 if (max(abs(live%qa), abs(live%qb), abs(live%kappa)) > 0.0_wp) then
-                    do i = 1, number
-                        there = field_at(j, length*points(i))
-                        call add(parts, length*weights(i)*((live%qa + (live%qb - live%qa)*points(i))*there%deflection &
-                                                           - live%kappa*there%moment))
+                    intervals = 1
+                    if (is_tapered(assembled%pieces(j))) intervals = intervals_in(assembled%pieces(j))
+                    do k = 1, intervals
+                        if (is_tapered(assembled%pieces(j))) then
+                            number = most_places
+                            call points_in(assembled%pieces(j), k, points, weights)
+                        else
+                            call points_of(panels, 1, number, points, weights)
+                        end if
+                        do i = 1, number
+                            there = field_at(j, length*points(i))
+                            call add(parts, length*weights(i)*((live%qa + (live%qb - live%qa)*points(i))*there%deflection &
+                                                               - live%kappa*there%moment))
+                        end do
                     end do
                 end if
                 if (.not. max(abs(live%force), abs(live%couple)) > 0.0_wp) cycle

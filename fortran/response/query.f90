@@ -9,7 +9,9 @@ module gapbeam_query
     use gapbeam_quantities, only: quantity_count, bending_count, bending, of_axial_force, of_axial_displacement, &
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
+    use gapbeam_piece_stiffness, only: stiffness_along
+    use gapbeam_taper, only: mean_softness
     use gapbeam_ordered, only: last_not_above
     use gapbeam_stations, only: locate
     use gapbeam_assemble_axial, only: axial_node
@@ -163,7 +165,8 @@ contains
         all_of_them(:) = 0.0_wp
         do i = 1, size(piece)
             load = combine_loads(assembled%dead(piece(i)), assembled%live(piece(i)), factor)
-            all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa)
+            all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa, &
+                                                  scale(distance(i), -assembled%units%length))
             call axial_fields(assembled, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement))
             found(:, i) = all_of_them(quantities)
@@ -255,19 +258,25 @@ contains
         integer, intent(in) :: piece
         real(wp), intent(in) :: distance
         real(wp), intent(out) :: tension, displacement
-        real(wp) :: way
-        integer :: bar
+        real(wp) :: way, share, EA, EA_to
+        integer :: bar, power
 
         tension = 0.0_wp
         displacement = 0.0_wp
         if (.not. allocated(assembled%axial%point)) return
         bar = axial_node(assembled%axial%point, piece)
-        way = assembled%axial%before(piece) + assembled%axial%softness(piece)*(distance/piece_length(assembled, piece))
+        share = distance/piece_length(assembled, piece)
+        way = share
+        call stiffness_along(assembled, piece, along_axis, EA, EA_to, power)
+        if (power > 0 .and. share > 0.0_wp) way = share*mean_softness(1.0_wp, EA/EA_to, power, share) &
+            /mean_softness(1.0_wp, EA/EA_to, power, 1.0_wp)
         tension = tensions(bar)
-        displacement = displacements(bar - 1) + tension*way
         if (allocated(assembled%axial%elongation)) then
-            displacement = displacements(bar - 1) &
-                + (displacements(bar) - displacements(bar - 1))*(distance/piece_length(assembled, piece))
+            ! Every piece is a bar: what is not elastic is the same all along
+            displacement = displacements(bar - 1) + (displacements(bar) - displacements(bar - 1))*share &
+                + tension*assembled%axial%softness(piece)*(way - share)
+        else
+            displacement = displacements(bar - 1) + tension*(assembled%axial%before(piece) + assembled%axial%softness(piece)*way)
         end if
     end subroutine axial_fields
 

@@ -17,7 +17,8 @@ module gapbeam_assemble
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
-    use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge
+    use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge, &
+        bad_law
     use gapbeam_assemble_supports, only: assemble_supports
     use gapbeam_assemble_loads, only: assemble_loads
     implicit none
@@ -133,6 +134,12 @@ contains
         assembled%section_of(:, :) = 0
         do i = 1, size(assembled%model%sections)
             associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
+                if (max(s%EI_to, s%GA_to) > gapbeam_unchanged .and. size(assembled%model%foundations) > 0) then
+                    call refuse(error, of_sections, i, size(assembled%model%sections), bad_law, &
+                                merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside a foundation is "// &
+                                "not available in this version; give short sections, each of one stiffness")
+                    return
+                end if
                 if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
                 if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
                 if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i

@@ -3,9 +3,11 @@ module gapbeam_assemble_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
+    use gapbeam_taper, only: mean_softness
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_temperature, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, along_axis
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
+    use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_supports
     use gapbeam_check_axial, only: has_links_along
@@ -23,8 +25,8 @@ contains
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
         type(exponents_type) :: lengths, soft, stiff, forces, ways
-        real(wp) :: length, EA
-        integer :: i, j, k, stiffness, unit
+        real(wp) :: length, EA, EA_to
+        integer :: i, j, k, stiffness, unit, power
 
         if (.not. allocated(assembled%axial%point)) return
         associate (axial => assembled%axial, model => assembled%model)
@@ -52,8 +54,9 @@ contains
             axial%flexibility(:) = 0.0_wp
             i = 1
             do j = 1, size(assembled%pieces)
-                EA = stiffness_of(assembled, j, along_axis)
+                call stiffness_along(assembled, j, along_axis, EA, EA_to, power)
                 axial%softness(j) = scale(piece_length(assembled, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
+                if (power > 0) axial%softness(j) = axial%softness(j)*mean_softness(1.0_wp, EA/EA_to, power, 1.0_wp)
                 if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
                     call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(assembled, j - 1)))// &
                                       " to x = "//trim(shown(point_x(assembled, j)))//" is too far from the other axial "// &

@@ -7,7 +7,8 @@ module gapbeam_assemble_units
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, stiffness_of, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, in_bending, in_shear
+    use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_foundations, only: note_foundations, scale_foundations, greatest_values
     use gapbeam_words, only: shown
@@ -138,16 +139,18 @@ contains
     subroutine cut_pieces(assembled, error)
         type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: EI, GA
+        real(wp) :: EI, GA, EI_to, GA_to
         integer :: j
 
         do j = 1, size(assembled%pieces)
-            EI = stiffness_of(assembled, j, in_bending)
-            GA = stiffness_of(assembled, j, in_shear)
+            call stiffness_along(assembled, j, in_bending, EI, EI_to, assembled%pieces(j)%power)
+            call stiffness_along(assembled, j, in_shear, GA, GA_to, assembled%pieces(j)%shear_power)
             associate (units => assembled%units, p => assembled%pieces(j))
                 p%length = scale(piece_length(assembled, j), -units%length)
                 p%flexibility = 1/scale(EI, -turning_unit(units) - units%length)
                 p%shear_flexibility = 1/scale(GA, rotation_unit(units) - units%force)
+                p%flexibility_to = 1/scale(EI_to, -turning_unit(units) - units%length)
+                p%shear_flexibility_to = 1/scale(GA_to, rotation_unit(units) - units%force)
                 if (is_lost(p%length)) then
                     call refuse_range(error, "the stretch "//trim(from_to(assembled, j - 1, j))//", "// &
                                       trim(shown(piece_length(assembled, j)))//" long, is too far from the other lengths of "// &
@@ -156,6 +159,10 @@ contains
                     call refuse_stiffness("EI", EI)
                 else if (is_lost(p%shear_flexibility) .and. GA <= huge(GA)) then
                     call refuse_stiffness("GA", GA)
+                else if (is_lost(p%flexibility_to) .and. EI_to <= huge(EI)) then
+                    call refuse_stiffness("EI", EI_to)
+                else if (is_lost(p%shear_flexibility_to) .and. GA_to <= huge(GA)) then
+                    call refuse_stiffness("GA", GA_to)
                 end if
             end associate
             if (allocated(error)) return

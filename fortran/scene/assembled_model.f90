@@ -3,15 +3,16 @@ module gapbeam_assembled_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type
+    use gapbeam_piece, only: greatest_softness
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
-    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
+    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, gapbeam_unchanged, &
         gapbeam_temperature
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
     private
-    public :: stiffness_of, in_bending, in_shear, along_axis
+    public :: in_bending, in_shear, along_axis
     public :: assembled_type, axial_type, growth_of, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
@@ -165,7 +166,7 @@ contains
             do j = assembled%node_point(i - 1) + 1, assembled%node_point(i)
                 shift = shift_of(j - 1) + shift_of(j)
                 associate (piece => assembled%pieces(j), dead => assembled%dead(j), live => assembled%live(j))
-                    each = [piece%flexibility, piece%shear_flexibility, &
+                    each = [greatest_softness(piece), &
                             max(abs(dead%qa), abs(dead%qb)) + max(abs(live%qa), abs(live%qb))]
                 end associate
                 shifted(:) = shifted + shift*each
@@ -193,26 +194,6 @@ contains
         end function shift_of
 
     end subroutine find_length_errors
-
-    !> Stiffness of a piece in the user's units
-    pure function stiffness_of(assembled, piece, kind) result(stiffness)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: piece
-        !> in_bending, in_shear or along_axis
-        integer, intent(in) :: kind
-        real(wp) :: stiffness, all_three(3)
-
-        associate (s => assembled%model%spans(assembled%point_span(piece - 1) + 1))
-            all_three = [s%EI, s%GA, s%EA]
-        end associate
-        stiffness = all_three(kind)
-        if (.not. allocated(assembled%section_of)) return
-        if (assembled%section_of(kind, piece) == 0) return
-        associate (s => assembled%model%sections(assembled%section_of(kind, piece)))
-            all_three = [s%EI, s%GA, s%EA]
-        end associate
-        stiffness = all_three(kind)
-    end function stiffness_of
 
     !> Copy a model, what is missing as arrays of size 0
     pure subroutine copy_model(source, copy, stat)
@@ -279,6 +260,9 @@ contains
             do i = 1, size(model%sections)
                 associate (s => model%sections(i))
                     call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA])
+                    if (max(s%EI_to, s%GA_to, s%EA_to) > gapbeam_unchanged) then
+                        call mix(all_bits, [s%EI_to, s%GA_to, s%EA_to, real([s%EI_power, s%GA_power, s%EA_power], wp)])
+                    end if
                 end associate
             end do
         end if

@@ -9,7 +9,8 @@ module gapbeam_check
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_live, gapbeam_dead
-    use gapbeam_tolerances, only: position_tolerance, end_tolerance
+    use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
+    use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
         not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
         bad_movement
@@ -128,7 +129,34 @@ contains
         else if (not_given(s%EI) .and. not_given(s%GA) .and. not_given(s%EA)) then
             call refuse_entry(error, here, "", idle, "it changes nothing; give EI, GA or EA")
         end if
+        if (.not. allocated(error)) call check_taper("EI", s%EI, s%EI_to, s%EI_power, here, error)
+        if (.not. allocated(error)) call check_taper("GA", s%GA, s%GA_to, s%GA_power, here, error)
+        if (.not. allocated(error)) call check_taper("EA", s%EA, s%EA_to, s%EA_power, here, error)
     end subroutine check_section
+
+    !> A stiffness that changes along a section
+    pure subroutine check_taper(name, from, to, power, here, error)
+        character(len=*), intent(in) :: name
+        !> At both ends, and its power of the depth
+        real(wp), intent(in) :: from, to
+        integer, intent(in) :: power
+        type(entry_type), intent(in) :: here
+        type(error_type), allocatable, intent(inout) :: error
+
+        if (not_given(to)) return
+        if (not_given(from)) then
+            call refuse_entry(error, here, name, not_expected, "it is given at the right end of the section alone; give both")
+        else if (.not. (from <= huge(from))) then
+            call refuse_number(error, here, name, from, "a finite number, for it changes along the section")
+        else if (.not. (to > 0.0_wp .and. to <= huge(to))) then
+            call refuse_number(error, here, name, to, "a finite number above 0")
+        else if (power < 1 .or. power > most_power) then
+            call refuse_number(error, here, name, real(power, wp), "a power of the depth of 1 to "//trim(whole(most_power)))
+        else if (max(from, to)/steepest_taper > min(from, to)) then
+            call refuse_number(error, here, name, to, "at most "//trim(shown(steepest_taper))// &
+                               " times what it is at the other end, and no less than the reciprocal of that")
+        end if
+    end subroutine check_taper
 
     !> Is a number not given
     elemental function not_given(value) result(missing)

@@ -67,6 +67,9 @@ module gapbeam_scene
         real(wp) :: from = 0.0_wp, to = gapbeam_right_end
         !> Stiffnesses there, above 0, as in span_type
         real(wp) :: EI = gapbeam_unchanged, GA = gapbeam_unchanged, EA = gapbeam_unchanged
+        !> The same at its right end, where they change along it, and the powers of a linear depth that they are, 1 to most_power
+        real(wp) :: EI_to = gapbeam_unchanged, GA_to = gapbeam_unchanged, EA_to = gapbeam_unchanged
+        integer :: EI_power = 1, GA_power = 1, EA_power = 1
     end type section_type
 
     !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above)

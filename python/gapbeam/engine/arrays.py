@@ -25,7 +25,7 @@ class Columns(Record):
     hinge : numpy.ndarray
         Place of every hinge, and couple per relative rotation, 2 rows.
     section : numpy.ndarray
-        Left and right end, EI, GA, EA of the sections, 5 rows.
+        Left and right end; EI, GA, EA of the sections, at their right ends where they change, and their powers of a depth, 11 rows.
     support_codes, support : numpy.ndarray
         Side, direction, node, way of unloading and law by its code of the supports, 5 rows of int; x, stiffness, gap, settlement,
         rotation, parameters of the law, 8 rows.

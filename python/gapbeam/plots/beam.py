@@ -15,6 +15,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.path import Path
 
 from ..results.formatting import stretch
+from ..scene.tapers import ends_of, is_tapered
 from .reactions import arrow_lane, draw_reactions
 from .sheet import is_upright
 from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, area, mirrored, plain_kinds
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 #: Half the depth of the beam, points
 HALF = 2.5
+#: Pieces of a section that tapers, each of one thickness
+CUTS = 24
 #: How far the symbol of a support with a gap stands off, points
 OFF = 4.0
 #: With more places than this, rows of ticks replace the symbols
@@ -211,14 +214,19 @@ def _group(support: "Support", state: str) -> str:
 def _girder(axes: Axes | Turned, scene: "Scene") -> None:
     """Draw the beam, the thicker the stiffer."""
     ends = scene.span_ends()
-    cuts = np.unique([*ends, *(x for section in scene.sections for x in stretch(scene, section))])
+    tapered = [np.linspace(*stretch(scene, section), CUTS + 1) for section in scene.sections if is_tapered(section)]
+    cuts = np.unique([*ends, *(x for section in scene.sections for x in stretch(scene, section)), *np.ravel(tapered)])
     middle = (cuts[1:] + cuts[:-1]) / 2
     spans = np.clip(np.searchsorted(ends, middle) - 1, 0, len(ends) - 2)
     stiffness = np.broadcast_to(np.asarray(scene.beam.EI, float), len(ends) - 1)[spans].copy()
     for section in scene.sections:
         if section.EI is not None:
             start, stop = stretch(scene, section)
-            stiffness[(middle > start) & (middle < stop)] = section.EI
+            there = (middle > start) & (middle < stop)
+            left, right, power = ends_of(section.EI)
+            share = (middle[there] - start) / (stop - start)
+            depth = np.power([left, right], 1 / power)
+            stiffness[there] = left if left == right else (depth[0] * (1 - share) + depth[1] * share) ** power
     finite = stiffness[np.isfinite(stiffness)]
     share = np.cbrt(np.minimum(stiffness / (finite.max() if len(finite) else 1.0), 1.0))
     widths = np.where(np.isfinite(stiffness), 1.2 + 2.3 * share, 2 * HALF)

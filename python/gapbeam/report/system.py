@@ -10,6 +10,7 @@ from ..base.characters import visible
 from ..results import formatting as fmt
 from ..scene.names import DEAD, cases_of
 from ..scene.structs import Scene
+from ..scene.tapers import ends_of, is_tapered
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -53,13 +54,14 @@ def _beam(scene: Scene) -> str:
     """Tell spans, length and stiffness in one line."""
     beam = scene.beam
     stiffness = [beam.EI] if isinstance(beam.EI, int | float) else list(beam.EI)
-    stiffness += [section.EI for section in scene.sections if section.EI is not None]
+    stiffness += [end for section in scene.sections if section.EI is not None for end in ends_of(section.EI)[:2]]
     low, high = min(stiffness), max(stiffness)
     values = fmt.number(low) if low == high else f"{fmt.number(low)} to {fmt.number(high)}"
     words = [fmt.count(len(beam.spans), "span"), _labelled(float(scene.span_ends()[-1]), fmt.unit(scene, "x"))]
     words.append("EI " + f"{values} {fmt.unit(scene, 'EI')}".rstrip())
     if scene.sections:
-        words.append(fmt.count(len(scene.sections), "section"))
+        tapered = sum(map(is_tapered, scene.sections))
+        words.append(fmt.count(len(scene.sections), "section") + (f" ({tapered} tapered)" if tapered else ""))
     if count := len(beam.hinges) + len(scene.hinges):
         words.append(fmt.count(count, "hinge"))
     return ", ".join(words)

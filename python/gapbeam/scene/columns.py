@@ -30,6 +30,7 @@ from .names import find
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
+from .tapers import Taper, ends_of
 from .temperature import check_beam, effect_of
 from .wording import number, shown
 
@@ -132,10 +133,19 @@ def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
 
 
 def _sections(items: Sequence[Any]) -> np.ndarray:
-    found = _empty(5, len(items))
-    found[0, :-1] = _numbers(items, "from_")
-    for row, key in enumerate(("to", "EI", "GA", "EA"), 1):
-        found[row, :-1] = _optional(items, key)
+    found = _empty(11, len(items))
+    found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
+    found[5:8], found[8:] = NOT_GIVEN, 1.0
+    for row, key in enumerate(("EI", "GA", "EA"), 2):
+        values = _column(items, key)
+        if isinstance(values, list) and any(isinstance(one, tuple | Taper) for one in values):
+            given = [(i, *ends_of(one)) for i, one in enumerate(values) if isinstance(one, tuple | Taper)]
+            for i, *ends in given:
+                found[[row + 3, row + 6], i] = ends[1:]
+            lefts = [one if one is None else ends_of(one)[0] for one in values]
+            found[row, :-1] = [NOT_GIVEN if one is None else one for one in lefts]
+        else:
+            found[row, :-1] = _optional(items, key)
     return found
 
 

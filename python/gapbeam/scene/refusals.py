@@ -57,6 +57,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     items = scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
     item, path = items[i], f"{NAMES[table]}[{i}]"
     end = scene.span_ends()[-1]
+    if table == SECTIONS and key and (reason == BAD_LAW or not isinstance(getattr(item, key, 0.0), float | int | None)):
+        return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
     if reason == BAD_LAW:
         return _bad_law(item, path, key, partner, message)
     if reason == BAD_MOVEMENT:

@@ -41,6 +41,7 @@ from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
 from .table import NotNegative, Point, Positive, Side, Spans, Stretch, SupportSide, Table
+from .tapers import Stiffness
 
 inf = math.inf
 
@@ -102,17 +103,18 @@ class Section(Stretch, kw_only=True, gc=False):
 
     Parameters
     ----------
-    EI : float, optional
-        Bending stiffness (force*length^2) here; inf = rigid. Left out: as it was.
-    GA : float, optional
-        Shear stiffness kappa*G*A (force) here. Left out: as it was.
-    EA : float, optional
-        Axial stiffness (force) here. Left out: as it was.
+    EI : float, (float, float) or table, optional
+        Bending stiffness (force*length^2) here; inf = rigid. Or (at from, at to), linear in between; or a table with from, to and
+        power, the power of a linear depth that it is (`Taper`). Left out: as it was.
+    GA : float, (float, float) or table, optional
+        Shear stiffness kappa*G*A (force) here, likewise. Left out: as it was.
+    EA : float, (float, float) or table, optional
+        Axial stiffness (force) here, likewise. Left out: as it was.
     """
 
-    EI: Positive | None = None
-    GA: Positive | None = None
-    EA: Positive | None = None
+    EI: Stiffness | None = None
+    GA: Stiffness | None = None
+    EA: Stiffness | None = None
 
 
 class Hinge(Point, kw_only=True, gc=False):

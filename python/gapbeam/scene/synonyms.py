@@ -106,7 +106,7 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
     if place.rpartition("[")[0].endswith(".axles"):
         return "; an axle is [distance behind the first axle, force]"
     if TAPERED.fullmatch(place) and isinstance(value, list | tuple | Mapping) and len(value) > 1:
-        return "; stiffness that changes along a stretch is not available: short sections, each of one number, come close"
+        return "; give a stiffness that changes along the beam in [[sections]]: EI = [at from, at to]" if place[0] == "b" else ""
     if not isinstance(value, str | bool):
         return ""
     if key == "law" and place.startswith("foundation"):

@@ -24,6 +24,7 @@ from ..scene.columns import SIDES
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
 from ..scene.structs import Scene
+from ..scene.tapers import is_tapered
 from ..scene.temperature import as_curvatures
 
 DIGITS = 200
@@ -56,6 +57,8 @@ class Reference:
     """
 
     def __init__(self, scene: Scene):
+        if any(map(is_tapered, scene.sections)):
+            raise SceneError("sections", "the exact solution of the study does not know sections that taper; leave them out")
         if any(one.stiffness for one in scene.hinges):
             raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
         scene = as_curvatures(scene)

@@ -16,6 +16,7 @@ from ..results.formatting import title
 from ..scene.loads import CurvatureLoad, LinearLoad, MomentLoad, TemperatureLoad
 from ..scene.reading import read_beam
 from ..scene.structs import Scene
+from ..scene.tapers import is_tapered
 
 SEED = 2021
 """Of all families with random numbers."""
@@ -204,6 +205,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     places = arrays.node_points[arrays.support_nodes]
     for wrong, what in (
         (np.any(arrays.kinds == HINGE) or any(one.stiffness for one in scene.hinges), "hinges"),
+        (any(map(is_tapered, scene.sections)), "sections that taper"),
         (len(scene.foundation) > 0, "foundations"),
         (np.any(clamps & ~at_ends) or np.isfinite(arrays.turning[clamps]).any(), "a rotational support that is no clamp at an end"),
         (np.isfinite(arrays.pieces[:, 2]).any(), "shear flexibility"),

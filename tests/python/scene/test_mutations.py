@@ -35,8 +35,8 @@ def test_mutated_scenes(block):
                 if result.steps:
                     to_csv(result).encode()
         except gapbeam.EngineError as error:
-            # States along a path are solved, and so audited, where they are looked at
-            if "does not stand its own audit" not in str(error):
+            # States along a path are solved, and so audited, where they are looked at; so are fields of loads of 1e308
+            if not any(words in str(error) for words in ("does not stand its own audit", "left the range of double precision")):
                 raise
             late += 1
             continue

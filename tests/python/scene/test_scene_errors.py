@@ -93,16 +93,13 @@ beam = {spans = 6.0, EI = 1e4} -> beam.spans: expected a list of numbers, got 6.
 beam = {spans = [6.0, "x"], EI = 1e4} -> beam.spans[1]: expected a number, got "x"
 beam = {spans = [6.0, 6.0, 6.0], EI = 1e4, hinges = 3} -> beam.hinges: expected a list of numbers, got 3
 sections = [{EI = 1.0, from_ = 2}] -> sections[0].from_: unknown key; did you mean "from"?
-sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, got [1.0]
-sections = [{EI = [1.0, 2.0]}] ->
-    sections[0].EI: expected a number, got [1.0, 2.0]; stiffness that changes along a stretch
-    is not available: short sections, each of one number, come close
-sections = [{EI = {from = 1.0, to = 2.0, power = 3}}] ->
-    sections[0].EI: expected a number, got a table; stiffness that changes along a stretch
-    is not available: short sections, each of one number, come close
+sections = [{EI = [1.0]}] -> sections[0].EI: expected a number, a pair of numbers or a table, got [1.0]
+sections = [{EI = {form = 1.0, to = 2.0}}] -> sections[0].EI.form: unknown key; did you mean "from"?
+sections = [{EI = {from = 1.0, to = 2.0, power = "3"}}] ->
+    sections[0].EI.power: expected a whole number, got "3"; write 3 without quotes
 beam = {spans = [6.0], EI = [[1.0, 2.0]]} ->
-    beam.EI[0]: expected a number, got [1.0, 2.0]; stiffness that changes along a stretch
-    is not available: short sections, each of one number, come close
+    beam.EI[0]: expected a number, got [1.0, 2.0]; give a stiffness that changes along the beam in [[sections]]:
+    EI = [at from, at to]
 foundation = [{}] -> foundation[0].k: this key is missing; give a number
 foundation = [{k = "soft"}] -> foundation[0].k: expected a number, a pair of numbers or a list of pairs of numbers, got "soft"
 analysis = {steps = 2.5} -> analysis.steps: expected a whole number, got 2.5

@@ -22,6 +22,7 @@ from ...scene.loads import UniformLoad
 from ...scene.names import labels
 from ...scene.reading import beam_of
 from ...scene.structs import Scene
+from ...scene.tapers import is_tapered
 from ...scene.wording import key_of, number, shown
 from ..state.schemes import starting_scheme
 from ..state.step import Step
@@ -63,6 +64,9 @@ class Parts:
         self.case, self._rule, self._one = case, rule, replace(one, trains=[])
         self._lanes = [load for load in one.loads if load.case == case]
         self._others = [load for load in one.loads if load.case != case]
+        if any(map(is_tapered, scene.sections)):
+            what = "loads on parts of spans beside sections that taper are not available in this version"
+            raise SceneError("sections", what)
         if any(hinge.stiffness for hinge in scene.hinges):
             what = "loads on parts of spans beside hinges with a stiffness are not available in this version"
             raise SceneError(f"combinations[{i}].expand", f"{what}; give them as loads of cases of their own")

@@ -14,6 +14,7 @@ from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.combinations import refuse_movements
 from ...scene.structs import Scene
+from ...scene.tapers import is_tapered
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
 from ..state.steps import LoadSteps, PathSteps
@@ -49,6 +50,9 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         follow_scene(result, closed)
         check_compression(result)
         return
+    if any(map(is_tapered, scene.sections)):
+        what = "a section that tapers under trains is not available in this version; give short sections, each of one stiffness"
+        raise SceneError("sections", what)
     if any(hinge.stiffness for hinge in scene.hinges):
         raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
     if beam.depends_on_path:

@@ -1,0 +1,103 @@
+!> Stiffness of the pieces of a beam in the user's units: that of their span, or of the last section that gives it.
+module gapbeam_piece_stiffness
+    use gapbeam_kinds, only: wp
+    use gapbeam_scene, only: gapbeam_unchanged
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    implicit none
+    private
+    public :: stiffness_of, stiffness_along, least_stiffness_of
+
+contains
+
+    !> Stiffness of a piece in the user's units
+    pure function stiffness_of(assembled, piece, kind) result(stiffness)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        !> in_bending, in_shear or along_axis
+        integer, intent(in) :: kind
+        real(wp) :: stiffness, all_three(3)
+
+        associate (s => assembled%model%spans(assembled%point_span(piece - 1) + 1))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
+        if (.not. allocated(assembled%section_of)) return
+        if (assembled%section_of(kind, piece) == 0) return
+        associate (s => assembled%model%sections(assembled%section_of(kind, piece)))
+            all_three = [s%EI, s%GA, s%EA]
+        end associate
+        stiffness = all_three(kind)
+    end function stiffness_of
+
+    !> Stiffness at both ends of a piece in the user's units, and its power of a depth that is linear between them
+    pure subroutine stiffness_along(assembled, piece, kind, from, to, power)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        !> in_bending, in_shear or along_axis
+        integer, intent(in) :: kind
+        real(wp), intent(out) :: from, to
+        !> 0: it is the same all along
+        integer, intent(out) :: power
+        real(wp) :: ends(2, 3), ratio
+        integer :: powers(3)
+
+        from = stiffness_of(assembled, piece, kind)
+        to = from
+        power = 0
+        if (.not. allocated(assembled%section_of)) return
+        associate (section => assembled%section_of(kind, piece))
+            if (section == 0) return
+            associate (s => assembled%model%sections(section), first => assembled%section_from(section), &
+                       last => assembled%section_to(section))
+                ends(1, :) = [s%EI, s%GA, s%EA]
+                ends(2, :) = [s%EI_to, s%GA_to, s%EA_to]
+                powers(:) = [s%EI_power, s%GA_power, s%EA_power]
+                ! As given where both ends are alike
+                if (.not. ends(2, kind) > gapbeam_unchanged .or. .not. abs(ends(2, kind) - ends(1, kind)) > 0.0_wp) return
+                power = powers(kind)
+                ratio = (ends(2, kind)/ends(1, kind))**(1/real(power, wp))
+                if (piece - 1 > first) from = at_share(way(piece - 1)/way(last))
+                to = ends(2, kind)
+                if (piece < last) to = at_share(way(piece)/way(last))
+            end associate
+        end associate
+
+    contains
+
+        !> Stiffness at a share of the section
+        pure function at_share(t) result(stiffness)
+            real(wp), intent(in) :: t
+            real(wp) :: stiffness
+
+            stiffness = ends(1, kind)*((1 - t) + ratio*t)**power
+        end function at_share
+
+        !> Distance of a point from the left end of the section; within a span free of where that is
+        pure function way(point) result(distance)
+            integer, intent(in) :: point
+            real(wp) :: distance
+
+            associate (start => assembled%section_from(assembled%section_of(kind, piece)))
+                distance = point_x(assembled, point) - point_x(assembled, start)
+                if (assembled%point_span(point) == assembled%point_span(start)) then
+                    distance = assembled%point_offset(point) - assembled%point_offset(start)
+                end if
+            end associate
+        end function way
+
+    end subroutine stiffness_along
+
+    !> The smaller one of those at both ends of a piece
+    pure function least_stiffness_of(assembled, piece, kind) result(least)
+        type(assembled_type), intent(in) :: assembled
+        !> As for stiffness_of
+        integer, intent(in) :: piece, kind
+        real(wp) :: least
+        real(wp) :: from, to
+        integer :: power
+
+        call stiffness_along(assembled, piece, kind, from, to, power)
+        least = min(from, to)
+    end function least_stiffness_of
+
+end module gapbeam_piece_stiffness
