@@ -168,7 +168,7 @@ contains
                         + (abs(q%qa) + abs(q%qb))*p%length**2)
                 end if
                 link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
-                link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length
+                link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length + abs(q%kink_a) + abs(q%kink_b)
                 if (j < n) then
                     call add(slip, -pieces(1)%shear_flexibility*q%couple)
                     slips = slips + pieces(1)%shear_flexibility*abs(q%couple)
@@ -181,8 +181,8 @@ contains
         slips = slips/link%length
         if (link%determinant > 0.0_wp) slips = min(slips, slips*link%bending*(link%bending/link%determinant))
         link%turn_sum(k) = link%turn_sum(k) + link%bending*at%peaks + slips
-        link%turn_a(k) = total(turn_a) - total(slip)/link%length
-        link%turn_b(k) = total(turn_b) + total(slip)/link%length
+        link%turn_a(k) = total(turn_a) - total(slip)/link%length - loads(1)%kink_a
+        link%turn_b(k) = total(turn_b) + total(slip)/link%length - loads(n)%kink_b
         link%shear_a(k) = right_end/link%length
         link%shear_b(k) = -total(at%moment)/link%length
     end subroutine condense_loads
@@ -225,12 +225,12 @@ contains
 
         associate (l => piece%length, q => load)
             call moment_integrals(l, 0.0_wp, 0.0_wp, q%qa, q%qb, left_part, right_part)
-            link%turn_a(k) = 0.0_wp + (piece%flexibility*left_part - q%kappa*l/2)
-            link%turn_b(k) = 0.0_wp + (piece%flexibility*right_part - q%kappa*l/2)
+            link%turn_a(k) = 0.0_wp + (piece%flexibility*left_part - (q%kappa*l/2 + q%kink_a))
+            link%turn_b(k) = 0.0_wp + (piece%flexibility*right_part - (q%kappa*l/2 + q%kink_b))
             link%shear_a(k) = (0.0_wp + load_moment(0.0_wp, l, q%qb, q%qa))/l
             link%shear_b(k) = -(0.0_wp + load_moment(0.0_wp, l, q%qa, q%qb))/l
             link%load_sum(k) = (abs(q%qa) + abs(q%qb))*l/2
-            link%turn_sum(k) = abs(q%kappa)*l + link%bending*((abs(q%qa) + abs(q%qb))*l*(l*l/l))
+            link%turn_sum(k) = abs(q%kink_a) + abs(q%kink_b) + abs(q%kappa)*l + link%bending*((abs(q%qa) + abs(q%qb))*l*(l*l/l))
         end associate
     end subroutine condense_load
 
@@ -243,7 +243,7 @@ contains
         found = .true.
         do j = 1, size(loads)
             associate (q => loads(j))
-                if (max(abs(q%qa), abs(q%qb), abs(q%kappa)) > 0) return
+                if (max(abs(q%qa), abs(q%qb), abs(q%kappa), abs(q%kink_a), abs(q%kink_b)) > 0) return
                 if (j < size(loads) .and. max(abs(q%force), abs(q%couple)) > 0) return
             end associate
         end do
@@ -299,6 +299,8 @@ contains
         loads%kappa = dead%kappa + factor*live%kappa
         loads%force = dead%force + factor*live%force
         loads%couple = dead%couple + factor*live%couple
+        loads%kink_a = dead%kink_a + factor*live%kink_a
+        loads%kink_b = dead%kink_b + factor*live%kink_b
     end function combine_loads
 
     !> Fields at the left end of every piece of a link, from the fields at its nodes.
@@ -320,9 +322,8 @@ contains
         integer :: j, n
 
         n = size(pieces)
-        ! Right of an elastic hinge
-        beside = psi_a
-        if (pieces(1)%hinge > 0.0_wp) beside = psi_a - pieces(1)%hinge*moment_a
+        beside = psi_a + loads(1)%kink_a
+        if (pieces(1)%hinge > 0.0_wp) beside = beside - pieces(1)%hinge*moment_a
         if (n == 1) then
             ! Nothing to be summed; no zero is to be negative
             associate (q => loads(1), l => pieces(1)%length)

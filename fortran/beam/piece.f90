@@ -22,6 +22,9 @@ module gapbeam_piece
         real(wp) :: qa, qb, kappa
         !> Force (down) and couple (clockwise) at the right end; those on a node are the node's, not the link's
         real(wp) :: force, couple
+        !> Rotations imposed at its ends, as a curvature there would: of the node at its left end that rotation, of the one at its
+        !> right end minus that
+        real(wp) :: kink_a = 0.0_wp, kink_b = 0.0_wp
     end type piece_load_type
     type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 

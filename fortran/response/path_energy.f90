@@ -68,6 +68,11 @@ contains
                         end do
                     end do
                 end if
+                if (abs(live%kink_a) > 0.0_wp) call add(parts, -live%kink_a*starts(j)%moment)
+                if (abs(live%kink_b) > 0.0_wp) then
+                    there = field_at(j, length)
+                    call add(parts, -live%kink_b*there%moment)
+                end if
                 if (.not. max(abs(live%force), abs(live%couple)) > 0.0_wp) cycle
                 there = field_at(j, length)
                 call add(parts, live%force*there%deflection + live%couple*there%rotation)

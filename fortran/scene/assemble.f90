@@ -10,7 +10,7 @@ module gapbeam_assemble
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_movement, gapbeam_dead, gapbeam_right_end, &
         gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, is_stretch, in_bending, in_shear, along_axis
+    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_of_support, in_bending, in_shear, along_axis
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
     use gapbeam_support_laws, only: gather_points
@@ -212,7 +212,7 @@ contains
                 call add(ends, right_end(ends, model%sections(i)%to), gapbeam_by_x, places)
             end do
             do i = 1, size(model%loads)
-                if (model%loads(i)%kind == gapbeam_movement) then
+                if (is_of_support(model%loads(i))) then
                     associate (s => model%supports(model%loads(i)%node))
                         call add(ends, s%x, s%node, places)
                         call add(ends, s%x, s%node, places)

@@ -5,12 +5,13 @@ module gapbeam_assemble_loads
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
-        gapbeam_movement, gapbeam_temperature, gapbeam_dead
+        gapbeam_movement, gapbeam_temperature, gapbeam_rotation, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
     use gapbeam_assemble_units, only: change_units, load_in_units, refuse_link
+    use gapbeam_input_error, only: refuse, of_loads, bad_movement
     implicit none
     private
     public :: assemble_loads, find_loaded, put_load
@@ -32,6 +33,8 @@ contains
             return
         end if
         assembled%fingerprint = fingerprint(assembled%model)
+        call check_turned(assembled, error)
+        if (allocated(error)) return
         call sum_loads(assembled)
         call assemble_foundations(assembled, error)
         if (allocated(error)) return
@@ -53,6 +56,23 @@ contains
         if (.not. allocated(error)) assembled%depends_on_path = depends_on_path(assembled)
     end subroutine assemble_loads
 
+    !> Refuse to turn a support where another one holds the rotation as well
+    subroutine check_turned(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+
+        do k = 1, size(assembled%model%loads)
+            associate (load => assembled%model%loads(k), point => assembled%support_point)
+                if (load%kind /= gapbeam_rotation) cycle
+                if (count(point == point(load%node) .and. assembled%model%supports%rotation > 0.0_wp) < 2) cycle
+                call refuse(error, of_loads, k, size(assembled%model%loads), bad_movement, "support", "another support at its "// &
+                            "place holds the rotation of the beam, too; leave one of them out")
+                return
+            end associate
+        end do
+    end subroutine check_turned
+
     !> Sums of the loads on all pieces and nodes in the user's units
     pure subroutine sum_loads(assembled)
         type(assembled_type), intent(inout) :: assembled
@@ -67,6 +87,10 @@ contains
                 k = merge(1, 2, load%case == gapbeam_dead)
                 if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) then
                     cycle
+                else if (load%kind == gapbeam_rotation .and. k == 1) then
+                    call turn_ends(load, a, assembled%dead)
+                else if (load%kind == gapbeam_rotation) then
+                    call turn_ends(load, a, assembled%live)
                 else if (.not. is_stretch(load)) then
                     call add_at_point(assembled, load, a, k)
                 else if (k == 1) then
@@ -109,6 +133,17 @@ contains
         end if
     end subroutine add_to_piece
 
+    !> What a support turns the ends of the pieces beside it against the beam
+    pure subroutine turn_ends(load, point, piece_loads)
+        type(load_type), intent(in) :: load
+        integer, intent(in) :: point
+        !> Of all pieces
+        type(piece_load_type), intent(inout) :: piece_loads(:)
+
+        if (point > 0) piece_loads(point)%kink_b = piece_loads(point)%kink_b - load%value
+        if (point < size(piece_loads)) piece_loads(point + 1)%kink_a = piece_loads(point + 1)%kink_a + load%value
+    end subroutine turn_ends
+
     !> Where a load acts across the beam
     pure subroutine find_loaded(assembled, k, first, last, node)
         type(assembled_type), intent(in) :: assembled
@@ -123,6 +158,11 @@ contains
             node = -1
             if (is_stretch(load)) return
             last = a
+            if (load%kind == gapbeam_rotation) then
+                first = max(1, a)
+                last = min(size(assembled%pieces), a + 1)
+                return
+            end if
             if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) return
             node = assembled%node_of_point(a)
             if (node < 0) first = a
@@ -142,6 +182,8 @@ contains
         associate (load => assembled%model%loads(k))
             if (is_stretch(load)) then
                 call spread_load(assembled, load, first - 1, last, on_pieces)
+            else if (load%kind == gapbeam_rotation) then
+                call turn_ends(load, assembled%load_from(k), on_pieces)
             else if (first == last) then
                 call add_to_piece(on_pieces(first), load)
             end if

@@ -82,7 +82,7 @@ contains
     pure subroutine choose_units(assembled)
         type(assembled_type), intent(inout) :: assembled
         type(exponents_type) :: lengths, stiff(4), forces, ways
-        real(wp) :: most(4)
+        real(wp) :: most(5)
         integer :: length, j, k, stiffness
 
         do j = 1, size(assembled%pieces)
@@ -122,12 +122,14 @@ contains
                 most(2) = max(most(2), abs(a%force), abs(b%force))
                 most(3) = max(most(3), abs(a%couple), abs(b%couple))
                 most(4) = max(most(4), abs(a%kappa), abs(b%kappa))
+                most(5) = max(most(5), abs(a%kink_a), abs(b%kink_a), abs(a%kink_b), abs(b%kink_b))
             end associate
         end do
         call forces%note(most(1), length)
         call forces%note(most(2), 0)
         call forces%note(most(3), -length)
         call ways%note(most(4), 2*length)
+        call ways%note(most(5), length)
         stiffness = no_exponent
         do k = size(stiff), 1, -1
             if (middle(stiff(k)) /= no_exponent) stiffness = middle(stiff(k))
@@ -359,7 +361,8 @@ contains
         logical :: finite
 
         finite = abs(load%qa) <= huge(1.0_wp) .and. abs(load%qb) <= huge(1.0_wp) .and. abs(load%kappa) <= huge(1.0_wp) &
-            .and. abs(load%force) <= huge(1.0_wp) .and. abs(load%couple) <= huge(1.0_wp)
+            .and. abs(load%force) <= huge(1.0_wp) .and. abs(load%couple) <= huge(1.0_wp) &
+            .and. abs(load%kink_a) <= huge(1.0_wp) .and. abs(load%kink_b) <= huge(1.0_wp)
     end function is_finite
 
     !> The load of a piece in other units
@@ -370,6 +373,8 @@ contains
         load%qa = scale(load%qa, units%length - units%force)
         load%qb = scale(load%qb, units%length - units%force)
         load%kappa = scale(load%kappa, units%length - rotation_unit(units))
+        load%kink_a = scale(load%kink_a, -rotation_unit(units))
+        load%kink_b = scale(load%kink_b, -rotation_unit(units))
         load%force = scale(load%force, -units%force)
         load%couple = scale(load%couple, -moment_unit(units))
     end subroutine load_in_units

@@ -7,13 +7,14 @@ module gapbeam_assembled_model
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, gapbeam_unchanged, &
-        gapbeam_temperature
+        gapbeam_temperature, gapbeam_movement, gapbeam_rotation
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
     private
     public :: in_bending, in_shear, along_axis
-    public :: assembled_type, axial_type, growth_of, copy_model, fingerprint, is_stretch, point_x, piece_length, find_length_errors
+    public :: assembled_type, axial_type, growth_of, copy_model, fingerprint, is_stretch, is_of_support, point_x, piece_length, &
+        find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -122,6 +123,14 @@ contains
 
         yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature])
     end function is_stretch
+
+    !> Is a load a movement or a rotation of a support, whose number it has instead of a node
+    elemental function is_of_support(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = any(load%kind == [gapbeam_movement, gapbeam_rotation])
+    end function is_of_support
 
     !> x of a point
     pure function point_x(assembled, point) result(x)

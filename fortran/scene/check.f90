@@ -8,7 +8,8 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_live, gapbeam_dead
+        gapbeam_temperature, gapbeam_rotation, gapbeam_live, gapbeam_dead
+    use gapbeam_assembled_model, only: is_of_support
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
@@ -216,7 +217,7 @@ contains
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
                 call check_load(load, here, ends, held, error)
-                if (.not. allocated(error) .and. load%kind == gapbeam_movement) call check_movement(model, load, here, error)
+                if (.not. allocated(error) .and. is_of_support(load)) call check_movement(model, load, here, error)
             end associate
             if (allocated(error)) return
         end do
@@ -233,13 +234,13 @@ contains
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force)
             call check_place(load%x, load%node, here, ends, error)
-        case (gapbeam_movement)
+        case (gapbeam_movement, gapbeam_rotation)
         case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
-                              "6 (movement) or 7 (temperature), got "//trim(whole(load%kind)))
+                              "6 (movement), 7 (temperature) or 8 (rotation), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
@@ -264,6 +265,8 @@ contains
 
         if (load%node < 1 .or. load%node > size(model%supports)) then
             call refuse_entry(error, here, "support", bad_movement, "there is no such support")
+        else if (load%kind == gapbeam_rotation) then
+            call check_rotation(model, load, here, error)
         else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
             return
         else if (is_smooth(model%supports(load%node)%law)) then
@@ -274,6 +277,23 @@ contains
                               "in this version")
         end if
     end subroutine check_movement
+
+    !> A rotation of a support
+    pure subroutine check_rotation(model, load, here, error)
+        type(model_type), intent(in) :: model
+        type(load_type), intent(in) :: load
+        type(entry_type), intent(in) :: here
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (s => model%supports(load%node))
+            if (.not. s%rotation > 0.0_wp) then
+                call refuse_entry(error, here, "support", bad_movement, "it leaves the rotation of the beam free, so it cannot "// &
+                                  "turn it; make its rotation fixed, or give it a stiffness")
+            else if (size(model%foundations) > 0) then
+                call refuse_entry(error, here, "rotation", bad_movement, "beside a foundation no support is turned in this version")
+            end if
+        end associate
+    end subroutine check_rotation
 
     !> Refuse an entry
     pure subroutine refuse_entry(error, here, key, reason, problem)

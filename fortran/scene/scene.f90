@@ -13,11 +13,11 @@ module gapbeam_scene
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
-              temperature_load
+              temperature_load, support_rotation
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-              gapbeam_movement, gapbeam_temperature
+              gapbeam_movement, gapbeam_temperature, gapbeam_rotation
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -36,7 +36,7 @@ module gapbeam_scene
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
-                          gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7
+                          gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_rotation = 8
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -157,18 +157,19 @@ module gapbeam_scene
 
     !> A load; the functions below make one of each kind
     type :: load_type
-        !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement or
-        !> gapbeam_temperature
+        !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
+        !> gapbeam_temperature or gapbeam_rotation
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
         !> Place, or left end of the stretch
         real(wp) :: x = nowhere
-        !> Or place by node, of forces and couples; gapbeam_by_x: x counts. Of a movement the number of its support, from 1
+        !> Or place by node, of forces and couples; gapbeam_by_x: x counts. Of a movement or a rotation the number of its support,
+        !> from 1
         integer :: node = gapbeam_by_x
         !> Right end of the stretch, of distributed loads and curvatures; default that of the beam
         real(wp) :: to = gapbeam_right_end
-        !> Force, couple, curvature, movement, or force per length at the left end of the stretch
+        !> Force, couple, curvature, movement, rotation, or force per length at the left end of the stretch
         real(wp) :: value = 0.0_wp
         !> Force per length at its right end; of a temperature the strain, where value is the curvature
         real(wp) :: value_to = 0.0_wp
@@ -242,6 +243,19 @@ contains
 
         load = point_load(gapbeam_movement, value, node=support, case=case)
     end function support_movement
+
+    !> A rotation of a support that holds that of the beam, rigidly or by a spring
+    elemental function support_rotation(value, support, case) result(load)
+        !> Rotation, positive clockwise
+        real(wp), intent(in) :: value
+        !> Number of the support, from 1
+        integer, intent(in) :: support
+        !> gapbeam_live (default: it grows with the load factor) or gapbeam_dead
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = point_load(gapbeam_rotation, value, node=support, case=case)
+    end function support_rotation
 
     !> A constant load over a stretch
     elemental function uniform_load(value, from, to, case) result(load)

@@ -8,6 +8,7 @@ import numpy as np
 
 SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
+"""Of a movement with rotation it is 8."""
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
     "plastic": (1, ("stiffness", "limit")),
@@ -164,7 +165,7 @@ def columns(scene):
         if load["type"] == "temperature":  # of one beam.alpha and depth
             alpha, depth = scene["beam"]["alpha"], scene["beam"].get("depth", 1.0)
             return [-alpha * load.get("gradient", 0.0) / depth, alpha * load.get("dT", 0.0)]
-        value = next(load[key] for key in ("F", "M", "q", "kappa", "value") if key in load)
+        value = next(load[key] for key in ("F", "M", "q", "kappa", "value", "rotation") if key in load)
         return value if isinstance(value, list) else [value, value]
 
     laws = [support.get("law") or () for support in supports]
@@ -188,7 +189,7 @@ def columns(scene):
         "support_settlement": real(supports, "settlement", 0.0),
         "support_rotation": np.array([turns.get(s.get("rotation", "free"), s.get("rotation")) for s in supports], dtype=float),
         "support_direction": np.array([s.get("direction") == "axial" for s in supports], dtype=np.int32),
-        "load_kind": np.array([KINDS[load["type"]] for load in loads], dtype=np.int32),
+        "load_kind": np.array([8 if "rotation" in load else KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
         "load_node": np.array([number_of(load) for load in loads], dtype=np.int32),
@@ -528,7 +529,7 @@ class F77Beam:
         """NLOAD, ILOAD, ALOAD."""
         aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
         iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
-        iload[:, 2] += iload[:, 0] == KINDS["movement"]
+        iload[:, 2] += np.isin(iload[:, 0], (KINDS["movement"], 8))
         return len(aload), iload, aload
 
     def call(self, name, *arguments):

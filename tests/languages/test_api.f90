@@ -4,7 +4,7 @@ program test_api
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
-        axial_force, support_movement, temperature_load, prepare_model, replace_loads, solve_beam, &
+        axial_force, support_movement, support_rotation, temperature_load, prepare_model, replace_loads, solve_beam, &
         follow_load, get_supports, get_fields, get_extremes, &
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
@@ -29,6 +29,7 @@ program test_api
     call smooth_law()
     call plastic_law()
     call mechanism_at_limit()
+    call turned()
     call jacked_up()
     call warm()
     call combinations()
@@ -593,6 +594,28 @@ contains
         call replace_loads(beam, [support_movement(1.0_wp, 4)], error)
         call check(error%code == gapbeam_bad_input .and. index(error%message, "no such support") > 0, "refused")
     end subroutine jacked_up
+
+    !> A clamped end of two equal spans that turns: 24/7 EI/L theta
+    subroutine turned()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        integer :: condition(3)
+
+        call two_spans(model)
+        model%supports(2)%side = gapbeam_both
+        model%supports(2)%gap = 0.0_wp
+        model%loads = [support_rotation(0.01_wp, 1)]
+        call prepare_model(model, beam, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "free") > 0, "a free rotation turns nothing")
+        model%supports(1)%rotation = gapbeam_infinity
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 2.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(couple(1), 24*100/(7*2.0_wp)*0.02_wp, "couple that turns it")
+    end subroutine turned
 
     !> A beam between axial supports that is warmed: EA alpha dT; warmer below, it sags between its ends
     subroutine warm()

@@ -9,6 +9,7 @@ import numpy as np
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.formatting import stretch
+from ..scene.loads import MovementLoad
 from ..scene.tapers import is_tapered
 from .hand_check import DIGITS, leaves
 from .states import ROW
@@ -130,6 +131,7 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
     """Choose the inner support with the largest moment, about which both pieces can bend: its number, and that of its point."""
     beam, scene = step._beam, result.scene
     x, pieces = beam.places.point_x, beam.places.pieces
+    turned = {load.support for load in scene.loads if isinstance(load, MovementLoad) and load.rotation is not None}
     tapered = [stretch(scene, section) for section in scene.sections if is_tapered(section)]
     found = []
     for k, at in enumerate(scene.positions(scene.supports).tolist()):
@@ -137,6 +139,7 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
         inner = 0 < point < len(x) - 1 and scene.supports[k].direction != "axial" and step.state[k] != "open"
         hinges = [*scene.beam.hinges, *scene.positions(scene.hinges)]
         tapers = any(a <= x[point + 1] and b >= x[point - 1] for a, b in tapered) if inner else False
-        if inner and not tapers and np.isfinite(pieces[point - 1 : point + 1, 1]).all() and not np.isclose(x[point], hinges).any():
+        bends = inner and not (tapers or turned) and np.isfinite(pieces[point - 1 : point + 1, 1]).all()
+        if bends and not np.isclose(x[point], hinges).any():
             found.append((-abs(float(result.at_state(step, x[point]).moment)), k, point))
     return min(found)[1:] if found else None

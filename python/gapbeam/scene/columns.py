@@ -44,7 +44,7 @@ UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE = 1, 2, 3, 4, 5, 6, 7
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = 1, 2, 3, 4, 5, 6, 7, 8
 KINDS = {
     ForceLoad: (FORCE, "F"),
     MomentLoad: (COUPLE, "M"),
@@ -272,17 +272,30 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
             nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
             left[some] = right[some] = 0.0
+            numbers = np.arange(len(items))[some].tolist()
+            turned = [_is_rotation(load, f"loads[{k}]") for k, load in zip(numbers, group, strict=True)]
+            kinds[some] = np.where(turned, ROTATION_OF_SUPPORT, MOVEMENT)
         elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
-        if kind == TEMPERATURE:
+        if kind == MOVEMENT:
+            given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
+        elif kind == TEMPERATURE:
             given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
         else:
             given = _numbers(group, key)
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
+
+
+def _is_rotation(load: MovementLoad, place: str) -> bool:
+    """Whether a support is turned, not moved."""
+    if (load.value is None) == (load.rotation is None):
+        both = "and rotation are both given; make two loads"
+        raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
+    return load.rotation is not None
 
 
 def _groups(items: Sequence[Any]) -> dict[type, Any]:

@@ -24,7 +24,7 @@ from .wording import choice, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
-VALUES = ("F", "M", "q", "kappa", "value", "gradient", "dT")
+VALUES = ("F", "M", "q", "kappa", "value", "rotation", "gradient", "dT")
 """Attributes of loads that are multiplied by factors."""
 
 
@@ -126,14 +126,14 @@ def settle_movements(scene: Scene) -> Scene:
     """
     moves, loads = np.zeros(len(scene.supports)), []
     for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad):
+        if isinstance(load, MovementLoad) and load.value is not None:
             moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
         else:
             loads.append(load)
     return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads) if moves.any() else scene
 
 
-def refuse_movements(scene: Scene, problem: str) -> None:
+def refuse_movements(scene: Scene, problem: str, and_rotations: bool = True) -> None:
     """Refuse loads that move supports.
 
     Parameters
@@ -142,6 +142,8 @@ def refuse_movements(scene: Scene, problem: str) -> None:
         The scene.
     problem : str
         What cannot be had with them.
+    and_rotations : bool
+        Whether those that turn them are refused as well.
 
     Raises
     ------
@@ -149,8 +151,10 @@ def refuse_movements(scene: Scene, problem: str) -> None:
         There is one.
     """
     for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad):
+        if isinstance(load, MovementLoad) and load.value is not None:
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
+        if isinstance(load, MovementLoad) and and_rotations:
+            raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
 
 
 def times(load: Any, factor: float) -> Any:
@@ -163,7 +167,7 @@ def times(load: Any, factor: float) -> Any:
     factor : float
         By what.
     """
-    given = {key: getattr(load, key) for key in VALUES if hasattr(load, key)}
+    given = {key: value for key in VALUES if (value := getattr(load, key, None)) is not None}
     made = {
         key: tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value for key, value in given.items()
     }

@@ -124,15 +124,18 @@ class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
 
 
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
-    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat.
+    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat. Or its rotation.
 
     Parameters
     ----------
     support : int or str
         Number, from 0, or name of the support.
-    value : float
+    value : float, optional
         Movement (length), positive downward, of an axial support to the right. It moves the place at which the support begins
         to act.
+    rotation : float, optional
+        Instead of value: rotation (no unit), in rad, positive clockwise, of a support that holds the rotation of the beam, rigidly
+        or by a stiffness.
     name : str, optional
         Its name, unique among loads; shown instead of its number.
     case : str
@@ -141,7 +144,8 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
     """
 
     support: int | str
-    value: float
+    value: float | None = None
+    rotation: float | None = None
     name: str | None = None
     case: str = "live"
 

@@ -152,8 +152,10 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
         return SceneError(path, "expected a number, got nan")
     if table == LOADS and key in ("value", "value_to"):
         key = KINDS[kind_of(item)][1]
+        if getattr(item, key) is None:
+            key = "rotation"
     value = getattr(item, "from_" if key == "from" else key)
-    expected = EXPECTED.get(key, "a finite number")
+    expected = EXPECTED.get(key, "a finite number") if table != LOADS else "a finite number"
     if table == SECTIONS:
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):

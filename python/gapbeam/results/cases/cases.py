@@ -342,7 +342,7 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if scene.trains:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
-    refuse_movements(scene, "in prepared cases supports are not moved by loads")
+    refuse_movements(scene, "in prepared cases supports are not moved by loads", and_rotations=False)
     if beam.has_links_along:
         what = "friction, or axial supports that push one way or have a law"
         raise SceneError("supports", f"cases cannot be prepared beside {what}; use gapbeam.solve for each case")
