@@ -2,15 +2,16 @@
 !>
 !> In first order bending does not feel the axial force, so the chain is a system of its own. While all links stay on their piece,
 !> displacements and forces are linear in the load factor: only their rates are solved for, in quadruple precision, and added up.
+!> A change is felt no farther than the nearest rigid links beside it: between them alone rates are found anew (find_reach), and all
+!> else goes on by the rates it has (gapbeam_axial_progress).
 !> A friction support is a slider whose limit is its coefficient times the reaction across the beam, which is linear in the factor
 !> between the events of bending (Moreau's sweeping process): stuck it is rigid where it is, sliding it has the force of its limit.
 module gapbeam_axial_chain
-    use gapbeam_kinds, only: qp
+    use gapbeam_kinds, only: wp, qp
     use gapbeam_polyline_quad, only: node_support_type, last_breakpoint
-    use gapbeam_unloading_quad, only: rewrite_laws
     implicit none
     private
-    public :: chain_type, new_chain, find_piece, next_change, advance, change_pieces, sticks, no_rate
+    public :: chain_type, new_chain, find_piece, find_reach, next_change, sticks, no_rate
 
     !> Closed breakpoints of a friction support that sticks; one fewer where it slides to the left, one more to the right
     integer, parameter :: sticks = 1
@@ -37,6 +38,19 @@ module gapbeam_axial_chain
         real(qp), allocatable :: load_rate(:), elongation_rate(:), own_rate(:), limit_rate(:)
         !> Rates of displacements, forces of the bars and of the links
         real(qp), allocatable :: displacement_rate(:), tension_rate(:), force_rate(:)
+        !> How far the load has come, and had when points, bars and links were added up last; how far it will be when the piece of
+        !> each link ends, and where that goes: 1 on, -1 back
+        real(qp) :: clock = 0.0_qp
+        real(qp), allocatable :: since_point(:), since_bar(:), since_link(:), due(:)
+        integer, allocatable :: goes(:)
+        !> Largest rates of forces and of displacements, as far as they were found
+        real(qp) :: force_scale = 0.0_qp, place_scale = 0.0_qp
+        !> Links in the order of their points, and the first in it of every point, shape (0:n + 1)
+        integer, allocatable :: in_order(:), first_at(:)
+        !> Rigid link that takes the force of each point, 0: none, shape (0:n)
+        integer, allocatable :: holder(:)
+        !> In double precision what values_of tells: values, rates, and the load at which they were so
+        real(wp), allocatable :: value(:), rate(:), since(:)
         !> Does nothing hold the chain, nor push it
         logical :: loose = .false.
         !> Linear solves
@@ -88,7 +102,61 @@ contains
             chain%closed(k:k + count - 1) = .true.
             k = chain%last(l) + 1
         end do
+        allocate (chain%since_point(0:n), chain%since_bar(n), chain%since_link(l - 1), chain%due(l - 1), source=0.0_qp)
+        allocate (chain%goes(l - 1), chain%in_order(l - 1), chain%holder(0:n), source=0)
+        allocate (chain%value(2*n + l), chain%rate(2*n + l), chain%since(2*n + l), source=0.0_wp)
+        call order_links(chain)
     end subroutine new_chain
+
+    !> Links in the order of their points, those of one point in the order that they have
+    pure subroutine order_links(chain)
+        type(chain_type), intent(inout) :: chain
+        integer :: l, node
+
+        allocate (chain%first_at(0:size(chain%flexibility) + 1), source=0)
+        do l = 1, size(chain%first)
+            node = chain%laws(chain%first(l))%node
+            chain%first_at(node + 1) = chain%first_at(node + 1) + 1
+        end do
+        do node = 1, ubound(chain%first_at, 1)
+            chain%first_at(node) = chain%first_at(node) + chain%first_at(node - 1)
+        end do
+        do l = 1, size(chain%first)
+            node = chain%laws(chain%first(l))%node
+            chain%first_at(node) = chain%first_at(node) + 1
+            chain%in_order(chain%first_at(node)) = l
+        end do
+        ! They count the links up to their points now: one point on
+        chain%first_at(1:) = chain%first_at(:ubound(chain%first_at, 1) - 1) + 1
+        chain%first_at(0) = 1
+    end subroutine order_links
+
+    !> Points between which the rates change with the pieces of some links: as far as the nearest rigid links that stay
+    pure function find_reach(chain, links) result(reach)
+        type(chain_type), intent(in) :: chain
+        integer, intent(in) :: links(:)
+        integer :: reach(2)
+        integer :: l
+
+        ! Laws that keep a set follow the beam wherever it goes, and what moves by itself takes friction along
+        reach = [0, size(chain%flexibility)]
+        if (chain%loose .or. any(chain%keeps_set) .or. any(abs(chain%own_rate) > 0.0_qp)) return
+        reach = reach([2, 1])
+        do l = 1, size(links)
+            associate (node => chain%laws(chain%first(links(l)))%node)
+                reach = [min(reach(1), node), max(reach(2), node)]
+            end associate
+        end do
+        reach = [max(0, reach(1) - 1), min(size(chain%flexibility), reach(2) + 1)]
+        do while (reach(1) > 0)
+            if (chain%holder(reach(1)) > 0) exit
+            reach(1) = reach(1) - 1
+        end do
+        do while (reach(2) < size(chain%flexibility))
+            if (chain%holder(reach(2)) > 0) exit
+            reach(2) = reach(2) + 1
+        end do
+    end function find_reach
 
     !> Slope of the piece on which a link is, and how many of its breakpoints are closed
     pure subroutine find_piece(chain, l, slope, count_closed)
@@ -109,132 +177,101 @@ contains
     end subroutine find_piece
 
     !> How far the load goes until links come to ends of their pieces, and which those are at once
-    pure subroutine next_change(chain, at_once, way, links, steps)
-        type(chain_type), intent(in) :: chain
+    pure subroutine next_change(chain, at_once, reach, way, links, steps)
+        type(chain_type), intent(inout) :: chain
         !> Is it the chain that moves, not the load
         logical, intent(in) :: at_once
+        !> Points between which rates or pieces are others than before
+        integer, intent(in) :: reach(2)
         !> Of the load factor, or of the chain where it moves at once; huge where nothing comes
         real(qp), intent(out) :: way
         !> Links that come to such an end first, and the piece to which each goes: 1 on, -1 back
         integer, allocatable, intent(out) :: links(:), steps(:)
-        real(qp) :: ways(size(chain%first)), slope, gap, rate, forces, places, least_rate, deflection, velocity, share, limits
-        integer :: to(size(chain%first)), l, n, j
+        real(qp) :: share, first, near
+        integer :: l, j
 
-        ways(:) = huge(way)
-        to(:) = 0
         share = merge(0.0_qp, 1.0_qp, at_once)
-        forces = maxval(abs(chain%force_rate)) + maxval(abs(chain%tension_rate)) + share*maxval(abs(chain%limit_rate))
-        places = maxval(abs(chain%displacement_rate)) + share*maxval(abs(chain%own_rate))
-        do l = 1, size(chain%first)
-            associate (k => chain%first(l), node => chain%laws(chain%first(l))%node)
-                if (chain%laws(k)%side == 0) cycle
-                call find_piece(chain, l, slope, n)
-                deflection = chain%displacement(node) - chain%moved(l)
-                velocity = chain%displacement_rate(node)
-                limits = 0.0_qp
-                if (.not. at_once) then
-                    velocity = velocity - chain%own_rate(l)
-                    limits = chain%limit_rate(l)
-                end if
-                do j = 0, 1
-                    ! On to the next breakpoint, or back to the last one
-                    if (n + 1 - j < 1 .or. n + 1 - j > chain%last(l) - k + 1) cycle
-                    associate (s => chain%laws(k + n - j))
-                        if (abs(slope) > huge(slope)) then
-                            gap = s%force - merge(chain%force(l), -chain%force(l), s%side > 0)
-                            rate = merge(chain%force_rate(l), -chain%force_rate(l), s%side > 0)
-                            if (chain%rubs(l)) rate = rate + merge(-limits, limits, j == 0)
-                            least_rate = no_rate*forces
-                            if (abs(gap) <= no_way*abs(s%force)) gap = 0.0_qp
-                        else
-                            gap = s%contact - deflection
-                            if (s%side < 0) gap = -gap
-                            rate = merge(velocity, -velocity, s%side > 0)
-                            least_rate = no_rate*places
-                            if (abs(gap) <= no_way*max(abs(s%contact), abs(deflection))) gap = 0.0_qp
-                            ! What slides has its breakpoint with it
-                            if (chain%rubs(l)) gap = 0.0_qp
-                        end if
-                    end associate
-                    if (j == 1) then
-                        gap = -gap
-                        rate = -rate
-                    end if
-                    if (.not. rate > least_rate) cycle
-                    gap = max(gap, 0.0_qp)/rate
-                    if (gap >= ways(l)) cycle
-                    ways(l) = gap
-                    to(l) = merge(1, -1, j == 0)
-                end do
-            end associate
-        end do
-        way = minval(ways)
-        links = pack([(l, l=1, size(to))], ways <= way .and. to /= 0)
-        steps = to(links)
+        if (reach(2) - reach(1) == size(chain%flexibility)) then
+            chain%force_scale = 0.0_qp
+            chain%place_scale = 0.0_qp
+        end if
+        associate (a => reach(1), b => reach(2))
+            chain%force_scale = max(chain%force_scale, maxval(abs(chain%tension_rate(a + 1:b))))
+            chain%place_scale = max(chain%place_scale, maxval(abs(chain%displacement_rate(a:b))))
+            do j = chain%first_at(a), chain%first_at(b + 1) - 1
+                l = chain%in_order(j)
+                chain%force_scale = max(chain%force_scale, abs(chain%force_rate(l)), share*abs(chain%limit_rate(l)))
+                chain%place_scale = max(chain%place_scale, share*abs(chain%own_rate(l)))
+            end do
+            do j = chain%first_at(a), chain%first_at(b + 1) - 1
+                call find_due(chain, chain%in_order(j), at_once)
+            end do
+        end associate
+        first = huge(first)
+        if (size(chain%due) > 0) first = minval(chain%due)
+        way = first
+        links = [integer ::]
+        steps = [integer ::]
+        if (.not. first < huge(first)) return
+        way = max(0.0_qp, first - chain%clock)
+        ! Sums of the load round
+        near = first + no_way*max(abs(first), abs(chain%clock))
+        links = pack([(l, l=1, size(chain%due))], chain%due <= near)
+        steps = chain%goes(links)
     end subroutine next_change
 
-    !> Go on by the rates
-    pure subroutine advance(chain, way, at_once)
+    !> How far the load will be when the piece of a link ends
+    pure subroutine find_due(chain, l, at_once)
         type(chain_type), intent(inout) :: chain
-        real(qp), intent(in) :: way
-        !> Is it the chain that moves, not the load
+        !> The link, added up
+        integer, intent(in) :: l
         logical, intent(in) :: at_once
-        integer :: l
-        real(qp) :: limit
+        real(qp) :: slope, gap, rate, least_rate, deflection, velocity, limits
+        integer :: n, j
 
-        chain%displacement(:) = chain%displacement + way*chain%displacement_rate
-        if (.not. at_once) then
-            chain%tension(:) = chain%tension + way*chain%tension_rate
-            chain%force(:) = chain%force + way*chain%force_rate
-            chain%moved(:) = chain%moved + way*chain%own_rate
-        end if
-        do l = 1, size(chain%first)
-            if (.not. chain%rubs(l)) cycle
-            associate (k => chain%first(l))
-                limit = chain%laws(k + 1)%force
-                if (.not. at_once) limit = max(0.0_qp, limit + way*chain%limit_rate(l))
-                chain%laws(k)%force = -limit
-                chain%laws(k + 1)%force = limit
-                chain%laws(k:k + 1)%contact = chain%displacement(chain%laws(k)%node)
-            end associate
-        end do
-        if (any(chain%keeps_set)) call move_breakpoints(chain)
-    end subroutine advance
-
-    !> Write the laws that keep a set anew from where the links are
-    pure subroutine move_breakpoints(chain)
-        type(chain_type), intent(inout) :: chain
-        real(qp) :: deflection(size(chain%laws)), reaction(size(chain%laws))
-        integer :: l
-
-        reaction(:) = 0.0_qp
-        do l = 1, size(chain%first)
-            associate (k => chain%first(l))
-                deflection(k:chain%last(l)) = chain%displacement(chain%laws(k)%node) - chain%moved(l)
-                reaction(k) = chain%force(l)
-            end associate
-        end do
-        call rewrite_laws(chain%laws, chain%closed, chain%keeps_set, chain%first_slope, deflection, reaction)
-    end subroutine move_breakpoints
-
-    !> Let links go to the pieces beside theirs
-    pure subroutine change_pieces(chain, links, steps)
-        type(chain_type), intent(inout) :: chain
-        !> By next_change
-        integer, intent(in) :: links(:), steps(:)
-        integer :: i, n
-
-        do i = 1, size(links)
-            associate (k => chain%first(links(i)), last => chain%last(links(i)))
-                n = count(chain%closed(k:last)) + steps(i)
-                chain%closed(k:last) = .false.
-                chain%closed(k:k + n - 1) = .true.
-                ! No rounding where nothing acts
-                if (n == 0 .and. .not. (abs(chain%laws(k)%before) > 0.0_qp .or. abs(chain%laws(k)%force) > 0.0_qp)) then
-                    chain%force(links(i)) = 0.0_qp
+        chain%due(l) = huge(gap)
+        chain%goes(l) = 0
+        associate (k => chain%first(l), node => chain%laws(chain%first(l))%node)
+            if (chain%laws(k)%side == 0) return
+            call find_piece(chain, l, slope, n)
+            deflection = chain%displacement(node) - chain%moved(l)
+            velocity = chain%displacement_rate(node)
+            limits = 0.0_qp
+            if (.not. at_once) then
+                velocity = velocity - chain%own_rate(l)
+                limits = chain%limit_rate(l)
+            end if
+            do j = 0, 1
+                ! On to the next breakpoint, or back to the last one
+                if (n + 1 - j < 1 .or. n + 1 - j > chain%last(l) - k + 1) cycle
+                associate (s => chain%laws(k + n - j))
+                    if (abs(slope) > huge(slope)) then
+                        gap = s%force - merge(chain%force(l), -chain%force(l), s%side > 0)
+                        rate = merge(chain%force_rate(l), -chain%force_rate(l), s%side > 0)
+                        if (chain%rubs(l)) rate = rate + merge(-limits, limits, j == 0)
+                        least_rate = no_rate*chain%force_scale
+                        if (abs(gap) <= no_way*abs(s%force)) gap = 0.0_qp
+                    else
+                        gap = s%contact - deflection
+                        if (s%side < 0) gap = -gap
+                        rate = merge(velocity, -velocity, s%side > 0)
+                        least_rate = no_rate*chain%place_scale
+                        if (abs(gap) <= no_way*max(abs(s%contact), abs(deflection))) gap = 0.0_qp
+                        ! What slides has its breakpoint with it
+                        if (chain%rubs(l)) gap = 0.0_qp
+                    end if
+                end associate
+                if (j == 1) then
+                    gap = -gap
+                    rate = -rate
                 end if
-            end associate
-        end do
-    end subroutine change_pieces
+                if (.not. rate > least_rate) cycle
+                gap = chain%clock + max(gap, 0.0_qp)/rate
+                if (gap >= chain%due(l)) cycle
+                chain%due(l) = gap
+                chain%goes(l) = merge(1, -1, j == 0)
+            end do
+        end associate
+    end subroutine find_due
 
 end module gapbeam_axial_chain

@@ -4,7 +4,7 @@
 !> all wrong signs at once first, then that of the least number alone, which always ends (Murty 1974).
 module gapbeam_axial_rates
     use gapbeam_kinds, only: qp
-    use gapbeam_axial_quad, only: solve_axial, axial_slides, axial_indeterminate
+    use gapbeam_axial_quad, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_axial_chain, only: chain_type, find_piece, sticks, no_rate
     implicit none
     private
@@ -16,29 +16,33 @@ module gapbeam_axial_rates
 contains
 
     !> The rates with all links on their pieces
-    subroutine find_rates(chain, outcome, place, dragged)
+    subroutine find_rates(chain, reach, outcome, place, dragged)
+        !> Between the points added up
         type(chain_type), intent(inout) :: chain
+        !> Points between which pieces or loads have changed: the ends of the chain, or rigid links that stay
+        integer, intent(in) :: reach(2)
         !> moves_on, moves_at_once or not_told
         integer, intent(out) :: outcome
         !> Link at which it cannot be told
         integer, intent(out) :: place
         !> Has a link that moves itself changed what friction does, so that the rates are to be found anew
         logical, intent(out) :: dragged
-        real(qp) :: stiffness(0:size(chain%flexibility)), settlement(0:size(chain%flexibility))
-        real(qp) :: force(0:size(chain%flexibility)), reaction(0:size(chain%flexibility)), slope(size(chain%first)), total
-        integer :: holder(0:size(chain%flexibility)), pieces(size(chain%first)), l, node, found
+        real(qp), dimension(reach(1):reach(2)) :: stiffness, settlement, force, reaction
+        real(qp) :: slope(size(chain%first)), total
+        integer :: pieces(size(chain%first)), l, j, node, found
 
         dragged = .false.
         outcome = moves_on
         stiffness(:) = 0.0_qp
         settlement(:) = 0.0_qp
-        holder(:) = 0
-        force(:) = chain%load_rate
-        do l = 1, size(chain%first)
+        chain%holder(reach(1):reach(2)) = 0
+        force(:) = chain%load_rate(reach(1):reach(2))
+        do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
+            l = chain%in_order(j)
             call find_piece(chain, l, slope(l), pieces(l))
             node = chain%laws(chain%first(l))%node
             if (abs(slope(l)) > huge(total)) then
-                call choose_holder(chain, l, holder(node), dragged, place)
+                call choose_holder(chain, l, chain%holder(node), dragged, place)
                 if (place > 0) then
                     outcome = not_told
                     return
@@ -50,10 +54,11 @@ contains
                 force(node) = force(node) - (pieces(l) - sticks)*chain%limit_rate(l)
             end if
         end do
-        do l = 1, size(chain%first)
+        do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
+            l = chain%in_order(j)
             ! What another rigid link holds does not slide: friction does not grow with its limit
             if (.not. chain%rubs(l) .or. abs(slope(l)) > 0.0_qp .or. .not. chain%limit_rate(l) > 0.0_qp) cycle
-            node = holder(chain%laws(chain%first(l))%node)
+            node = chain%holder(chain%laws(chain%first(l))%node)
             if (node == 0) cycle
             if (chain%rubs(node) .or. abs(chain%own_rate(node)) > 0.0_qp) cycle
             chain%closed(chain%first(l)) = .true.
@@ -62,19 +67,18 @@ contains
         end do
         if (dragged) return
         where (stiffness > 0.0_qp) settlement = settlement/stiffness
-        do node = 0, ubound(holder, 1)
-            if (holder(node) == 0) cycle
-            stiffness(node) = slope(holder(node))
-            settlement(node) = chain%own_rate(holder(node))
+        do node = reach(1), reach(2)
+            if (chain%holder(node) == 0) cycle
+            stiffness(node) = slope(chain%holder(node))
+            settlement(node) = chain%own_rate(chain%holder(node))
         end do
-        call solve_axial(chain%flexibility, chain%elongation_rate, force, stiffness, settlement, chain%displacement_rate, &
-                         chain%tension_rate, reaction, found, node)
+        call solve_between(chain, reach, force, stiffness, settlement, reaction, found, node)
         chain%solves = chain%solves + 1
         outcome = moves_on
         chain%loose = found == axial_slides
         if (found == axial_indeterminate) then
             outcome = not_told
-            place = max(1, holder(node))
+            place = max(1, chain%holder(node))
             return
         else if (found == axial_slides) then
             total = sum(force)
@@ -87,13 +91,33 @@ contains
             end if
             ! Nothing holds it and nothing pushes it: its middle stays where it is
             stiffness(0) = 1.0_qp
-            call solve_axial(chain%flexibility, chain%elongation_rate, force, stiffness, settlement, chain%displacement_rate, &
-                             chain%tension_rate, reaction, found, node)
+            call solve_between(chain, reach, force, stiffness, settlement, reaction, found, node)
             chain%displacement_rate(:) = chain%displacement_rate - sum(chain%displacement_rate)/size(chain%displacement_rate)
         end if
-        call share_reactions(chain, slope, pieces, holder, reaction)
+        call share_reactions(chain, reach, slope, pieces, reaction)
 
     end subroutine find_rates
+
+    !> Rates of displacements, bars and reactions between two points
+    pure subroutine solve_between(chain, reach, force, stiffness, settlement, reaction, found, place)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: reach(2)
+        !> Rates of loads and of the movements of supports, and their stiffnesses, at all points
+        real(qp), intent(in) :: force(reach(1):), stiffness(reach(1):), settlement(reach(1):)
+        !> What supports take, those at the ends beside the bars beyond them as well
+        real(qp), intent(out) :: reaction(reach(1):)
+        !> By solve_axial
+        integer, intent(out) :: found, place
+
+        associate (a => reach(1), b => reach(2))
+            call solve_axial(chain%flexibility(a + 1:b), chain%elongation_rate(a + 1:b), force, stiffness, settlement, &
+                             chain%displacement_rate(a:b), chain%tension_rate(a + 1:b), reaction, found, place)
+            place = place + a
+            if (found /= axial_ok) return
+            if (a > 0) reaction(a) = reaction(a) + chain%tension_rate(a)
+            if (b < size(chain%flexibility)) reaction(b) = reaction(b) - chain%tension_rate(b + 1)
+        end associate
+    end subroutine solve_between
 
     !> Which of the rigid links of a node takes its force: friction that is stuck takes none beside another one that stays, and
     !> of several that are stuck the first
@@ -126,16 +150,18 @@ contains
     end subroutine choose_holder
 
     !> Rates of the forces of the links from those of the points
-    pure subroutine share_reactions(chain, slope, pieces, holder, reaction)
+    pure subroutine share_reactions(chain, reach, slope, pieces, reaction)
         type(chain_type), intent(inout) :: chain
-        !> Slope and closed breakpoints of every link; rigid link of every point, 0: none
+        integer, intent(in) :: reach(2)
+        !> Slope and closed breakpoints of every link
         real(qp), intent(in) :: slope(:)
-        integer, intent(in) :: pieces(:), holder(0:)
+        integer, intent(in) :: pieces(:)
         !> Of the springs and the rigid link of every point, changed
-        real(qp), intent(inout) :: reaction(0:)
-        integer :: l, node
+        real(qp), intent(inout) :: reaction(reach(1):)
+        integer :: j, l, node
 
-        do l = 1, size(chain%first)
+        do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
+            l = chain%in_order(j)
             node = chain%laws(chain%first(l))%node
             chain%force_rate(l) = 0.0_qp
             if (abs(slope(l)) > huge(1.0_qp)) cycle
@@ -146,8 +172,8 @@ contains
                 chain%force_rate(l) = (pieces(l) - sticks)*chain%limit_rate(l)
             end if
         end do
-        do node = 0, ubound(holder, 1)
-            if (holder(node) > 0) chain%force_rate(holder(node)) = -reaction(node)
+        do node = reach(1), reach(2)
+            if (chain%holder(node) > 0) chain%force_rate(chain%holder(node)) = -reaction(node)
         end do
     end subroutine share_reactions
 

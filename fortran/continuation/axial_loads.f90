@@ -12,7 +12,7 @@ module gapbeam_axial_loads
     use gapbeam_path_states, only: solve_on_path
     implicit none
     private
-    public :: make_chain, set_loads, set_limits, find_reactions, zeros_between, values_of
+    public :: make_chain, set_loads, set_limits, find_reactions, zeros_between
 
 contains
 
@@ -151,13 +151,5 @@ contains
             zeros = [zeros(:place), zero, zeros(place + 1:)]
         end do
     end function zeros_between
-
-    !> Numbers of the chain: displacements, forces of bars, forces of links on the beam, to the right
-    pure function values_of(chain) result(values)
-        type(chain_type), intent(in) :: chain
-        real(wp), allocatable :: values(:)
-
-        values = [real(chain%displacement, wp), real(chain%tension, wp), -real(chain%force, wp)] + 0.0_wp
-    end function values_of
 
 end module gapbeam_axial_loads

@@ -8,8 +8,9 @@ module gapbeam_axial_path
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_axial_loads, only: make_chain, set_loads, set_limits, find_reactions, zeros_between, values_of
-    use gapbeam_axial_chain, only: chain_type, next_change, advance, change_pieces
+    use gapbeam_axial_loads, only: make_chain, set_loads, set_limits, find_reactions, zeros_between
+    use gapbeam_axial_chain, only: chain_type, next_change, find_reach
+    use gapbeam_axial_progress, only: advance, change_pieces, settle, note_rates, values_of
     use gapbeam_axial_rates, only: find_rates, moves_at_once, not_told
     use gapbeam_history_record, only: history_type, stretch_type, limit_type, new_history, add_stretch, along_type, &
         mechanism, no_limit, cut_off
@@ -171,25 +172,28 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: links(:), steps(:)
         real(qp) :: at, way
-        integer :: outcome, place, single
+        integer :: outcome, place, single, whole(2), reach(2)
         logical :: dragged
 
         at = from
+        whole = [0, size(walk%chain%flexibility)]
+        reach = whole
         walk%idle = 0
         do
             call end_if_stopped(walk%assembled%beam%watch, error)
             if (allocated(error)) return
             dragged = .true.
             do while (dragged)
-                call find_rates(walk%chain, outcome, place, dragged)
+                call find_rates(walk%chain, reach, outcome, place, dragged)
                 if (outcome == not_told) exit
             end do
+            call note_rates(walk%chain, reach)
             walk%start = values_of(walk%chain)
             if (outcome == not_told) then
                 call refuse_shared(walk, place, real(at, wp), error)
                 return
             end if
-            call next_change(walk%chain, outcome == moves_at_once, way, links, steps)
+            call next_change(walk%chain, outcome == moves_at_once, reach, way, links, steps)
             ! Where a limit and what it holds vanish together, rounding is no motion
             if (outcome == moves_at_once .and. abs(to - at) <= no_way_left*abs(to - from)) return
             if (outcome == moves_at_once) then
@@ -222,6 +226,9 @@ contains
             end if
             single = size(links)
             if (walk%idle > rounds_at_once) single = 1
+            reach = whole
+            if (outcome /= moves_at_once) reach = find_reach(walk%chain, links(:single))
+            call settle(walk%chain, reach)
             call change_pieces(walk%chain, links(:single), steps(:single))
         end do
 
@@ -235,6 +242,11 @@ contains
             begin = real(at, wp)
             end = real(next, wp)
             call advance(walk%chain, abs(next - at), .false.)
+            if (.not. abs(to - next) > 0.0_qp) then
+                ! At the end all digits are those of quadruple precision
+                call settle(walk%chain, whole)
+                call note_rates(walk%chain, whole)
+            end if
             if (abs(end - begin) > 0.0_wp) call keep(walk, s, begin, end, error)
             at = next
         end subroutine go_on

@@ -389,3 +389,34 @@ def compare(beam, supports, loads, history):
     except LooseError:
         return
     assert (result.status == "solved") == comes
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_stops_on_the_way_change_nothing(seed):
+    """Rates are found anew between the nearest links that stay; where a leg begins along the whole chain. Forces balance."""
+    rng = random.Random(seed)
+    count = rng.choice([15, 40])
+    supports = [at(i, side=rng.choice(["below", "both"]), friction=rng.choice([0.1, 0.3])) for i in range(count)]
+    for one in supports[1:-1]:
+        if one["side"] == "below" and rng.random() < 0.3:
+            one["gap"] = 0.003
+    for way, place in (("left", 0), ("right", count - 1), ("both", count // 2)):
+        if rng.random() < 0.5:
+            stop = {"node": place, "direction": "axial", "side": way, "stiffness": rng.choice([500.0, 5e4])}
+            supports.append(stop | ({"gap": 0.01} if way != "both" else {}))
+    loads = [own_weight(3.0), {"type": "temperature", "dT": 60.0, "gradient": rng.choice([0.0, 4.0])},
+             {"type": "axial", "node": rng.randrange(count), "F": rng.uniform(-20.0, 20.0)}]  # fmt: skip
+    loads += [{"type": "force", "x": 6.0 * i + 2.0, "F": -rng.uniform(5.0, 25.0)} for i in range(2, count - 2, 5)]
+    scene = {"beam": {"spans": [6.0] * (count - 1), "EI": 2e4, "EA": rng.choice([4e5, 4e6]), "alpha": 1.2e-5, "depth": 0.3},
+             "supports": supports, "loads": loads, "analysis": {"follow": "events", "first_order": True}}  # fmt: skip
+    found = []
+    for history in ([1.0, 0.0, 0.8], [0.3, 0.71, 1.0, 0.55, 0.2, 0.0, 0.4, 0.8]):
+        scene["analysis"]["history"] = history
+        found.append(gapbeam.solve(scene).steps[-1])
+    one, other = found
+    size = np.abs(one.friction).max()
+    assert size > 1.0
+    for name in ("friction", "reaction", "slip"):
+        assert np.abs(getattr(one, name) - getattr(other, name)).max() <= 1e-12 * max(1.0, size), name
+    along = sum(force for force, given in zip(one.reaction, supports, strict=True) if given.get("direction") == "axial")
+    assert abs(one.friction.sum() + along + 0.8 * loads[2]["F"]) <= 1e-11 * size
