@@ -9,7 +9,7 @@ module gapbeam_unloading
     use gapbeam_polyline, only: node_support_type, piece_that_acts, last_breakpoint
     implicit none
     private
-    public :: rewrite_law, rewrite_laws, holds_both_ways
+    public :: unload, rewrite_laws, holds_both_ways
 
 contains
 
@@ -94,6 +94,30 @@ contains
             law(j - 1)%force = law(j)%force - law(j)%before*(law(j)%contact - law(j - 1)%contact)
         end do
     end subroutine move_sliders
+
+    !> Write the law of a support that turns back anew, from where it is, and tell which of its breakpoints change with that
+    pure subroutine unload(supports, closed, k, first_slope, deflection, reaction, changed)
+        type(node_support_type), intent(inout) :: supports(:)
+        logical, intent(in) :: closed(:)
+        !> First breakpoint of the law
+        integer, intent(in) :: k
+        !> As for rewrite_law
+        real(wp), intent(in) :: first_slope, deflection, reaction
+        !> First and last breakpoint that open or close where it turns back
+        integer, intent(out) :: changed(2)
+        integer :: last, count_closed, middle
+
+        last = last_breakpoint(supports, k)
+        count_closed = count(closed(k:last))
+        if (holds_both_ways(supports(k))) then
+            middle = (last - k + 1)/2
+            call move_sliders(supports(k:last), count_closed, deflection)
+            changed = k - 1 + [min(count_closed, middle) + 1, max(count_closed, middle)]
+        else
+            call rewrite_law(supports, closed, k, k - 1 + count_closed, first_slope, deflection, reaction)
+            changed = [k + 1, k - 1 + count_closed]
+        end if
+    end subroutine unload
 
     !> The same for all laws beyond their first breakpoint that unload so, and for those that hold both ways
     pure subroutine rewrite_laws(supports, closed, keeps_set, first_slope, deflection, reaction)

@@ -12,7 +12,7 @@ module gapbeam_branch
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
     use gapbeam_polyline_quad, only: break_law
-    use gapbeam_unloading_quad, only: rewrite_law, rewrite_laws
+    use gapbeam_unloading_quad, only: unload, rewrite_laws
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: coarse_beam_type => beam_type
     use gapbeam_model_quad, only: beam_type
@@ -172,7 +172,7 @@ contains
         !> If not, the branch is where it was
         logical, intent(out) :: done
         type(outgoing_type) :: way
-        integer :: direction, i
+        integer :: direction, i, changed(2)
         logical :: breaks
 
         done = .false.
@@ -197,9 +197,9 @@ contains
             branch%rounded_places = branch%rounded_places .or. size(local%turned) > 0
             do i = 1, size(local%turned)
                 associate (top => local%turned(i), laws => branch%beam%supports)
-                    call rewrite_law(laws, branch%way%closed, top - laws(top)%breakpoint + 1, top, &
-                                     branch%first_slope(top - laws(top)%breakpoint + 1), real(local%turned_at(i), wp), &
-                                     real(local%turned_with(i), wp))
+                    call unload(laws, branch%way%closed, top - laws(top)%breakpoint + 1, &
+                                branch%first_slope(top - laws(top)%breakpoint + 1), real(local%turned_at(i), wp), &
+                                real(local%turned_with(i), wp), changed)
                 end associate
             end do
         end associate

@@ -6,8 +6,8 @@
 module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit
-    use gapbeam_unloading, only: rewrite_law, rewrite_laws, holds_both_ways
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit, last_breakpoint
+    use gapbeam_unloading, only: unload, rewrite_laws
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -29,6 +29,9 @@ module gapbeam_local_step
     real(wp), parameter :: most_growth = 2.0_wp**16
     !> Rounding errors within which factors are not told apart
     real(wp), parameter :: slack = 64*epsilon(1.0_wp)
+
+    !> Rate beside the way to a breakpoint, or the force, below which it is none
+    real(wp), parameter :: no_rate = epsilon(1.0_wp)**4
 
     !> Supports that turn back in turn where one support yields
     integer, parameter :: most_turns = 8
@@ -64,8 +67,7 @@ contains
         type(local_type), intent(out) :: local
         integer :: i
 
-        ! Sliders are moved in quadruple precision
-        local%usable = .not. (allocated(beam%ground) .or. any(keeps_set .and. holds_both_ways(beam%supports)))
+        local%usable = .not. allocated(beam%ground)
         if (.not. local%usable) return
         local%beam = beam
         local%settling = real(settling, wp)
@@ -263,7 +265,7 @@ contains
         logical, intent(inout) :: closed(:)
         real(wp), intent(in) :: factor
         type(response_type) :: response
-        integer :: k, top, turn, first, last, j
+        integer :: k, top, turn, first, j, changed(2)
         real(wp) :: at, with
 
         associate (stretch => local%stretch, laws => local%beam%supports)
@@ -272,7 +274,8 @@ contains
                 do k = 1, size(closed)
                     if (.not. unloads_from_here(local%beam, closed, k, stretch)) cycle
                     response = response_in(local%beam, closed, k, stretch)
-                    if (rises(response)) cycle
+                    ! What does not move stays on its piece: where nothing reaches a support, updates leave rates of 1e-80
+                    if (rises(response) .or. abs(response%v1) < no_rate*abs(response%v0)) cycle
                     if (.not. falls(response) .or. top > 0 .or. turn == most_turns) return
                     top = k
                 end do
@@ -283,14 +286,13 @@ contains
                     at = dead%answers(i)%deflection + factor*(live%answers(i)%deflection - local%settling(top))
                     with = dead%reaction(top) + factor*live%reaction(top)
                 end associate
-                call rewrite_law(laws, closed, first, top, local%first_slope(first), at, with)
-                call renew_rates(local, first, top)
+                call unload(laws, closed, first, local%first_slope(first), at, with, changed)
+                call renew_rates(local, first, last_breakpoint(laws, first))
                 local%turned = [local%turned, top]
                 local%turned_at = [local%turned_at, at]
                 local%turned_with = [local%turned_with, with]
-                call find_unit(laws, closed, top, first, last)
-                local%changed = [local%changed, (j, j=first, last)]
-                call change_supports(local%beam, [(j, j=first, last)], stretch%direction*factor, closed, stretch)
+                local%changed = [local%changed, (j, j=changed(1), changed(2))]
+                call change_supports(local%beam, [(j, j=changed(1), changed(2))], stretch%direction*factor, closed, stretch)
                 if (.not. stretch%current) return
             end do
         end associate

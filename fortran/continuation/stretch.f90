@@ -4,6 +4,8 @@ module gapbeam_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: agreement, same_factor
     use gapbeam_band, only: band_ok
+    use gapbeam_polyline, only: last_breakpoint
+    use gapbeam_unloading, only: holds_both_ways
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_update, only: start_updates, update_scheme, find_groups
@@ -240,10 +242,25 @@ contains
         integer, intent(in) :: k
         type(stretch_type), intent(in) :: stretch
         logical :: it_does
+        integer :: middle
 
         it_does = allocated(stretch%keeps_set)
-        if (it_does) it_does = stretch%keeps_set(k) .and. closed(k) .and. beam%supports(k)%breakpoint > 1
-        if (it_does .and. beam%supports(k)%more) it_does = .not. closed(k + 1)
+        if (it_does) it_does = stretch%keeps_set(k)
+        if (.not. it_does) return
+        associate (s => beam%supports, number => beam%supports(k)%breakpoint)
+            it_does = closed(k) .and. number > 1
+            if (holds_both_ways(s(k - number + 1))) then
+                middle = (last_breakpoint(s, k) - k + number)/2
+                if (number <= middle) then
+                    ! Below its lower limits: closing that one again
+                    it_does = .not. closed(k)
+                    if (it_does .and. number > 1) it_does = closed(k - 1)
+                    return
+                end if
+                it_does = closed(k)
+            end if
+            if (it_does .and. s(k)%more) it_does = .not. closed(k + 1)
+        end associate
     end function unloads_from_here
 
 end module gapbeam_stretch

@@ -5,6 +5,7 @@ import random
 from fractions import Fraction
 
 import gapbeam
+import numpy as np
 import pytest
 from scenes import at, force, scene
 
@@ -169,3 +170,59 @@ def test_random_histories(seed):
     found = sorted({round(one.factor, 10) for one in result.events} - set(history) - {0.0})
     true = sorted({round(one, 10) for _, one in kinks} - set(history) - {0.0})
     assert found == true
+
+
+def polyline(rng):
+    """A law that softens from piece to piece."""
+    points, d, f, slope = [], 0.0, 0.0, rng.choice([500.0, 1000.0, 3000.0])
+    for _ in range(rng.choice([1, 2, 3])):
+        width = rng.choice([0.004, 0.01, 0.02])
+        d, f = round(d + width, 9), round(f + slope * width, 9)
+        points.append([d, f])
+        slope *= rng.choice([0.1, 0.3, 0.5])
+    return [*points, [d + 1.0, f + slope]]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stops_on_the_way_change_nothing(seed):
+    """Between the ends of legs links slide and turn back by local updates; where a leg begins all of the beam is solved."""
+    rng = random.Random(seed)
+    count, supports, loads = rng.choice([6, 25, 60]), [], []
+    for i in range(count + 1):
+        kind, one = rng.random(), {"node": i}
+        if kind < 0.55:
+            one |= {"side": "both", "law": polyline(rng), "unloading": "plastic"}
+        elif kind < 0.7:
+            one |= {"side": rng.choice(["below", "above"]), "law": polyline(rng), "unloading": "plastic"}
+        else:
+            one |= {"side": "both", "stiffness": rng.choice([200.0, 2000.0])} if kind < 0.85 else {"side": "below"}
+        supports.append(one)
+        if rng.random() < 0.6:
+            loads.append({"type": "force", "node": i, "F": rng.uniform(-30.0, 40.0)})
+    supports[0] = {"node": 0, "rotation": "fixed"}
+    scene = {"beam": {"spans": [1.0] * count, "EI": rng.choice([5.0, 50.0, 500.0])}, "supports": supports, "loads": loads}
+    found = []
+    for history in ([1.0, -0.7, 1.2], [0.2, 0.45, 0.83, 1.0, 0.9, 0.31, 0.05, -0.4, -0.7, -0.2, 0.3, 0.77, 1.0, 1.1, 1.2]):
+        result = gapbeam.solve(scene | {"analysis": {"history": history, "follow": "events"}})
+        assert result.status == "solved"
+        found.append([result.steps[-1], result.state(-0.7, leg=history.index(-0.7))])
+    for one, other in zip(*found, strict=True):
+        for name in ("reaction", "deflection"):
+            values = getattr(one, name)
+            assert np.abs(values - getattr(other, name)).max() <= 1e-11 * np.abs(values).max()
+
+
+def test_what_does_not_move_does_not_unload():
+    """Where the load presses the beam on a rigid stop, a yielding link beside it stands still: it keeps the piece that it has."""
+    plastic = {"node": 1, "side": "both", "law": [[0.004, 4.0], [1.004, 104.0]], "unloading": "plastic", "settlement": 0.005}
+    other = {"node": 3, "side": "above", "law": [[0.02, 20.0], [1.02, 520.0]], "unloading": "plastic", "gap": 0.003}
+    below = [{"node": 2, "side": "below"}, {"node": 4, "side": "below"}]
+    supports = [{"node": 0, "rotation": "fixed"}, *below, plastic, other]
+    result = gapbeam.solve({"beam": {"spans": [1.0] * 4, "EI": 5.0}, "supports": supports,
+                            "loads": [{"type": "force", "node": 2, "F": 20.0}],
+                            "analysis": {"follow": "events", "history": [1.5, -1.0, 1.0]}})  # fmt: skip
+    its = [(one.event, one.factor < 0.0) for one in result.events if one.support == 3]
+    assert its[-2:] == [("unloads", True), ("yields", True)]
+    still = [result.state(factor, leg=2) for factor in (0.1, 1.0)]
+    assert still[0].deflection[3] == pytest.approx(still[1].deflection[3], rel=1e-14)
+    assert still[0].state[3] == "branch 2"
