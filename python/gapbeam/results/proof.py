@@ -157,6 +157,9 @@ def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
             tables = [table for table in data[key] if name in table]
             for table, x in zip(tables, _snapped([table[name] for table in tables], beam).tolist(), strict=True):
                 table[name] = x
+    for table in data["sections"]:
+        for key in [key for key in ("EI", "GA", "EA") if isinstance(table.get(key), tuple | list | dict)]:
+            table[f"tapered {key}"] = table.pop(key)  # which checkers do not know, and say so
     if scene.hinges:
         data["hinges"] = list(map(msgspec.to_builtins, scene.hinges))
     for table, support in zip(data["supports"], scene.supports, strict=True):

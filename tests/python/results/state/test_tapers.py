@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from gapbeam import SceneError
 from gapbeam.report.text import report_text
+from gapbeam.results.proof import proof_data
 from oracle.tapered_beam import TaperedBeam
 
 inf = math.inf
@@ -268,3 +269,10 @@ def test_written_and_read_again():
     data = json.loads(gapbeam.solve(GIRDER).to_json())
     assert data["status"] == "solved"
     assert "2 sections (2 tapered)" in report_text(gapbeam.solve(GIRDER), verbose=True)
+
+
+def test_proofs_are_not_decided():
+    """The checker does not know tapers, and says so."""
+    data = proof_data(GIRDER | {"analysis": {}})
+    assert data["scene"]["sections"][0]["tapered EI"] == {"from": 4e6, "to": 2.2e7, "power": 3}
+    assert "EI" not in data["scene"]["sections"][0]
