@@ -5,7 +5,7 @@ module gapbeam_assemble_loads
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
-        gapbeam_movement, gapbeam_temperature, gapbeam_rotation, gapbeam_dead
+        gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
@@ -64,7 +64,7 @@ contains
 
         do k = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(k), point => assembled%support_point)
-                if (load%kind /= gapbeam_rotation) cycle
+                if (load%kind /= gapbeam_support_rotation) cycle
                 if (count(point == point(load%node) .and. assembled%model%supports%rotation > 0.0_wp) < 2) cycle
                 call refuse(error, of_loads, k, size(assembled%model%loads), bad_movement, "support", "another support at its "// &
                             "place holds the rotation of the beam, too; leave one of them out")
@@ -87,9 +87,9 @@ contains
                 k = merge(1, 2, load%case == gapbeam_dead)
                 if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) then
                     cycle
-                else if (load%kind == gapbeam_rotation .and. k == 1) then
+                else if (load%kind == gapbeam_support_rotation .and. k == 1) then
                     call turn_ends(load, a, assembled%dead)
-                else if (load%kind == gapbeam_rotation) then
+                else if (load%kind == gapbeam_support_rotation) then
                     call turn_ends(load, a, assembled%live)
                 else if (.not. is_stretch(load)) then
                     call add_at_point(assembled, load, a, k)
@@ -158,7 +158,7 @@ contains
             node = -1
             if (is_stretch(load)) return
             last = a
-            if (load%kind == gapbeam_rotation) then
+            if (load%kind == gapbeam_support_rotation) then
                 first = max(1, a)
                 last = min(size(assembled%pieces), a + 1)
                 return
@@ -182,7 +182,7 @@ contains
         associate (load => assembled%model%loads(k))
             if (is_stretch(load)) then
                 call spread_load(assembled, load, first - 1, last, on_pieces)
-            else if (load%kind == gapbeam_rotation) then
+            else if (load%kind == gapbeam_support_rotation) then
                 call turn_ends(load, assembled%load_from(k), on_pieces)
             else if (first == last) then
                 call add_to_piece(on_pieces(first), load)

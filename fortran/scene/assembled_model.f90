@@ -7,7 +7,7 @@ module gapbeam_assembled_model
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, gapbeam_unchanged, &
-        gapbeam_temperature, gapbeam_movement, gapbeam_rotation
+        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type
     implicit none
@@ -129,7 +129,7 @@ contains
         type(load_type), intent(in) :: load
         logical :: yes
 
-        yes = any(load%kind == [gapbeam_movement, gapbeam_rotation])
+        yes = any(load%kind == [gapbeam_movement, gapbeam_support_rotation])
     end function is_of_support
 
     !> x of a point

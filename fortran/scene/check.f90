@@ -8,7 +8,7 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_rotation, gapbeam_live, gapbeam_dead
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_of_support
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
@@ -234,7 +234,7 @@ contains
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force)
             call check_place(load%x, load%node, here, ends, error)
-        case (gapbeam_movement, gapbeam_rotation)
+        case (gapbeam_movement, gapbeam_support_rotation)
         case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
@@ -265,7 +265,7 @@ contains
 
         if (load%node < 1 .or. load%node > size(model%supports)) then
             call refuse_entry(error, here, "support", bad_movement, "there is no such support")
-        else if (load%kind == gapbeam_rotation) then
+        else if (load%kind == gapbeam_support_rotation) then
             call check_rotation(model, load, here, error)
         else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
             return
