@@ -6,7 +6,7 @@
 module gapbeam_link
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: sum_type, add, total, load_moment, moment_integrals, field_type
-    use gapbeam_piece, only: piece_type, piece_load_type, no_load, is_tapered
+    use gapbeam_piece, only: piece_type, piece_load_type, no_load, is_tapered, any_load, combine_loads
     use gapbeam_taper, only: find_softness, turn_ends
     implicit none
     private
@@ -137,6 +137,7 @@ contains
         if (.not. any_load(loads)) return
         if (n == 1 .and. .not. is_tapered(pieces(1))) then
             call condense_load(pieces(1), loads(1), link, k)
+            call add_end_couples(loads(1)%couple_a, loads(1)%couple_b, link, k)
             return
         end if
 
@@ -185,7 +186,25 @@ contains
         link%turn_b(k) = total(turn_b) + total(slip)/link%length - loads(n)%kink_b
         link%shear_a(k) = right_end/link%length
         link%shear_b(k) = -total(at%moment)/link%length
+        call add_end_couples(loads(1)%couple_a, loads(n)%couple_b, link, k)
     end subroutine condense_loads
+
+    !> Couples just inside the ends: as moments there would
+    pure subroutine add_end_couples(couple_a, couple_b, link, k)
+        !> Clockwise
+        real(wp), intent(in) :: couple_a, couple_b
+        !> With its flexibilities and its other loads
+        type(link_type), intent(inout) :: link
+        integer, intent(in) :: k
+
+        if (.not. max(abs(couple_a), abs(couple_b)) > 0.0_wp) return
+        link%turn_a(k) = link%turn_a(k) + (link%faa*couple_a - link%fab*couple_b)
+        link%turn_b(k) = link%turn_b(k) + (link%fab*couple_a - link%fbb*couple_b)
+        link%shear_a(k) = link%shear_a(k) - (couple_a + couple_b)*link%inverse
+        link%shear_b(k) = link%shear_b(k) - (couple_a + couple_b)*link%inverse
+        link%load_sum(k) = link%load_sum(k) + (abs(couple_a) + abs(couple_b))*link%inverse
+        link%turn_sum(k) = link%turn_sum(k) + link%bending*(abs(couple_a) + abs(couple_b))
+    end subroutine add_end_couples
 
     !> Go on to the next piece of a link
     pure subroutine next_piece(length, load, of_link, before, behind, is_last, at)
@@ -234,22 +253,6 @@ contains
         end associate
     end subroutine condense_load
 
-    !> Is there anything to do for this load case
-    pure function any_load(loads) result(found)
-        type(piece_load_type), intent(in) :: loads(:)
-        logical :: found
-        integer :: j
-
-        found = .true.
-        do j = 1, size(loads)
-            associate (q => loads(j))
-                if (max(abs(q%qa), abs(q%qb), abs(q%kappa), abs(q%kink_a), abs(q%kink_b)) > 0) return
-                if (j < size(loads) .and. max(abs(q%force), abs(q%couple)) > 0) return
-            end associate
-        end do
-        found = .false.
-    end function any_load
-
     !> Sum of the moments about the right end of all loads that lie to the right of each interior point
     pure subroutine moments_about_right_end(pieces, loads, right, all_of_them)
         type(piece_type), intent(in) :: pieces(:)
@@ -288,42 +291,31 @@ contains
         if (.not. is_last) moment = right + (load%force*y - load%couple)
     end function before_point
 
-    !> Dead plus factor times live
-    elemental function combine_loads(dead, live, factor) result(loads)
-        type(piece_load_type), intent(in) :: dead, live
-        real(wp), intent(in) :: factor
-        type(piece_load_type) :: loads
-
-        loads%qa = dead%qa + factor*live%qa
-        loads%qb = dead%qb + factor*live%qb
-        loads%kappa = dead%kappa + factor*live%kappa
-        loads%force = dead%force + factor*live%force
-        loads%couple = dead%couple + factor*live%couple
-        loads%kink_a = dead%kink_a + factor*live%kink_a
-        loads%kink_b = dead%kink_b + factor*live%kink_b
-    end function combine_loads
-
     !> Fields at the left end of every piece of a link, from the fields at its nodes.
     !> Sums run from both ends towards the point, so that no large parts cancel.
-    pure subroutine recover_link(pieces, loads, length, moment_a, moment_b, shear, w_a, w_b, psi_a, work, starts)
+    pure subroutine recover_link(pieces, loads, length, node_a, node_b, node_shear, w_a, w_b, psi_a, work, starts)
         !> Pieces and their loads (already combined), shape (n)
         type(piece_type), intent(in) :: pieces(:)
         type(piece_load_type), intent(in) :: loads(:)
         !> Length of the link
         real(wp), intent(in) :: length
-        !> Moments just inside its ends, shear that belongs to them, deflections of its ends, rotation at its left end
-        real(wp), intent(in) :: moment_a, moment_b, shear, w_a, w_b, psi_a
+        !> Moments at its nodes, shear that belongs to them, deflections of its ends, rotation at its left end
+        real(wp), intent(in) :: node_a, node_b, node_shear, w_a, w_b, psi_a
         !> Workspace, shape (at least n, 3)
         real(wp), intent(inout) :: work(:, :)
         !> Fields just right of the left end of every piece, shape (n)
         type(field_type), intent(out) :: starts(:)
         type(sum_type) :: left, position, turning, first, slip
-        real(wp) :: right_end, x0, x1, xi, m1, before, beside, slipping
+        real(wp) :: right_end, x0, x1, xi, m1, before, beside, slipping, moment_a, moment_b, shear
         integer :: j, n
 
         n = size(pieces)
         beside = psi_a + loads(1)%kink_a
-        if (pieces(1)%hinge > 0.0_wp) beside = beside - pieces(1)%hinge*moment_a
+        if (pieces(1)%hinge > 0.0_wp) beside = beside - pieces(1)%hinge*node_a
+        ! Inside the couples at its ends
+        moment_a = node_a + loads(1)%couple_a
+        moment_b = node_b - loads(n)%couple_b
+        shear = node_shear - (loads(1)%couple_a + loads(n)%couple_b)/length
         if (n == 1) then
             ! Nothing to be summed; no zero is to be negative
             associate (q => loads(1), l => pieces(1)%length)

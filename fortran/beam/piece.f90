@@ -3,7 +3,7 @@ module gapbeam_piece
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: piece_type, piece_load_type, no_load, is_tapered, is_prismatic, greatest_softness
+    public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, greatest_softness
 
     !> A stretch between two points
     type :: piece_type
@@ -25,6 +25,8 @@ module gapbeam_piece
         !> Rotations imposed at its ends, as a curvature there would: of the node at its left end that rotation, of the one at its
         !> right end minus that
         real(wp) :: kink_a = 0.0_wp, kink_b = 0.0_wp
+        !> Couples (clockwise) just inside its ends, beside hinges there
+        real(wp) :: couple_a = 0.0_wp, couple_b = 0.0_wp
     end type piece_load_type
     type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
@@ -45,6 +47,40 @@ contains
 
         yes = .not. (is_tapered(piece) .or. piece%hinge > 0.0_wp)
     end function is_prismatic
+
+    !> Is there any load on the pieces of a link; the point load of the last one belongs to its node
+    pure function any_load(loads) result(found)
+        type(piece_load_type), intent(in) :: loads(:)
+        logical :: found
+        integer :: j
+
+        found = .true.
+        do j = 1, size(loads)
+            associate (q => loads(j))
+                if (max(abs(q%qa), abs(q%qb), abs(q%kappa), abs(q%kink_a), abs(q%kink_b)) > 0) return
+                if (max(abs(q%couple_a), abs(q%couple_b)) > 0) return
+                if (j < size(loads) .and. max(abs(q%force), abs(q%couple)) > 0) return
+            end associate
+        end do
+        found = .false.
+    end function any_load
+
+    !> Dead plus factor times live
+    elemental function combine_loads(dead, live, factor) result(loads)
+        type(piece_load_type), intent(in) :: dead, live
+        real(wp), intent(in) :: factor
+        type(piece_load_type) :: loads
+
+        loads%qa = dead%qa + factor*live%qa
+        loads%qb = dead%qb + factor*live%qb
+        loads%kappa = dead%kappa + factor*live%kappa
+        loads%force = dead%force + factor*live%force
+        loads%couple = dead%couple + factor*live%couple
+        loads%kink_a = dead%kink_a + factor*live%kink_a
+        loads%kink_b = dead%kink_b + factor*live%kink_b
+        loads%couple_a = dead%couple_a + factor*live%couple_a
+        loads%couple_b = dead%couple_b + factor*live%couple_b
+    end function combine_loads
 
     !> 1/EI and 1/GA where they are greatest
     pure function greatest_softness(piece) result(softness)

@@ -3,7 +3,7 @@
 !> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_scene, only: gapbeam_support_rotation
+    use gapbeam_assemble_loads, only: is_beside_point
     use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: most_lane_links
     use gapbeam_tolerances, only: most_unit_power
@@ -48,7 +48,7 @@ contains
             fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
-                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(assembled%model%loads%kind == gapbeam_support_rotation) &
+                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_beside_point(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power
         end associate

@@ -55,8 +55,8 @@ module gapbeam
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, &
-        gapbeam_broken, &
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_live, &
+        gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
         gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle, &
         gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter

@@ -151,7 +151,8 @@ contains
         type(fine_load_type) :: fine
 
         fine = fine_load_type(real(load%qa, qp), real(load%qb, qp), real(load%kappa, qp), real(load%force, qp), &
-                              real(load%couple, qp), real(load%kink_a, qp), real(load%kink_b, qp))
+                              real(load%couple, qp), real(load%kink_a, qp), real(load%kink_b, qp), real(load%couple_a, qp), &
+                              real(load%couple_b, qp))
     end function fine_load
 
 end module gapbeam_refined

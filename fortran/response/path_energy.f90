@@ -69,6 +69,11 @@ contains
                     end do
                 end if
                 if (abs(live%kink_a) > 0.0_wp) call add(parts, -live%kink_a*starts(j)%moment)
+                if (abs(live%couple_a) > 0.0_wp) call add(parts, live%couple_a*starts(j)%rotation)
+                if (abs(live%couple_b) > 0.0_wp) then
+                    there = field_at(j, length)
+                    call add(parts, live%couple_b*there%rotation)
+                end if
                 if (abs(live%kink_b) > 0.0_wp) then
                     there = field_at(j, length)
                     call add(parts, -live%kink_b*there%moment)

@@ -8,9 +8,10 @@ module gapbeam_assemble
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
-    use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_movement, gapbeam_dead, gapbeam_right_end, &
-        gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_of_support, in_bending, in_shear, along_axis
+    use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_movement, &
+        gapbeam_dead, gapbeam_right_end
+    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_of_support
+    use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
     use gapbeam_support_laws, only: gather_points
@@ -18,7 +19,7 @@ module gapbeam_assemble
     use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
     use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge, &
-        bad_law
+        bad_movement
     use gapbeam_assemble_supports, only: assemble_supports
     use gapbeam_assemble_loads, only: assemble_loads
     implicit none
@@ -118,34 +119,6 @@ contains
             if (.not. any(abs(assembled%growth) > 0.0_wp)) deallocate (assembled%growth)
         end associate
     end subroutine take_movements
-
-    !> Which section gives the stiffness of a piece: the last one that gives it
-    subroutine assign_sections(assembled, error)
-        type(assembled_type), intent(inout) :: assembled
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
-
-        if (size(assembled%model%sections) == 0) return
-        allocate (assembled%section_of(3, size(assembled%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        assembled%section_of(:, :) = 0
-        do i = 1, size(assembled%model%sections)
-            associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
-                if (max(s%EI_to, s%GA_to) > gapbeam_unchanged .and. size(assembled%model%foundations) > 0) then
-                    call refuse(error, of_sections, i, size(assembled%model%sections), bad_law, &
-                                merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside a foundation is "// &
-                                "not available in this version; give short sections, each of one stiffness")
-                    return
-                end if
-                if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
-                if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
-                if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i
-            end associate
-        end do
-    end subroutine assign_sections
 
     !> Points between the pieces, and the points of supports, hinges, foundations and loads
     subroutine find_points(assembled, error)
@@ -310,6 +283,9 @@ contains
                                 "the couple acts exactly at a hinge, so it is unclear which side takes it; put it on one side "// &
                                 "of the hinge")
                 end if
+                if (.not. allocated(error) .and. any(model%loads(i)%kind == [gapbeam_couple_left, gapbeam_couple_right])) then
+                    call check_couple(i, assembled%load_from(i), error)
+                end if
                 if (allocated(error)) return
             end do
             at = at + 2*size(model%loads)
@@ -320,6 +296,24 @@ contains
         end associate
 
     contains
+
+        !> A couple on one side of a hinge
+        subroutine check_couple(i, point, error)
+            integer, intent(in) :: i, point
+            type(error_type), allocatable, intent(out) :: error
+
+            associate (n => size(assembled%model%loads))
+                if (.not. is_hinge(point)) then
+                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "there is no hinge at its place; leave it out")
+                else if (.not. assembled%hinged(point)) then
+                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "at a hinge with a stiffness it is not "// &
+                                "available in this version; put the couple on one side of the hinge")
+                else if (size(assembled%model%foundations) > 0) then
+                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "beside a foundation it is not available in "// &
+                                "this version; put the couple on one side of the hinge")
+                end if
+            end associate
+        end subroutine check_couple
 
         !> Is there a hinge, elastic or not
         pure function is_hinge(point)

@@ -5,7 +5,8 @@ module gapbeam_assemble_loads
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
-        gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_dead
+        gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, &
+        gapbeam_couple_right, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
@@ -14,7 +15,7 @@ module gapbeam_assemble_loads
     use gapbeam_input_error, only: refuse, of_loads, bad_movement
     implicit none
     private
-    public :: assemble_loads, find_loaded, put_load
+    public :: assemble_loads, find_loaded, put_load, is_beside_point
 
 contains
 
@@ -87,10 +88,10 @@ contains
                 k = merge(1, 2, load%case == gapbeam_dead)
                 if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) then
                     cycle
-                else if (load%kind == gapbeam_support_rotation .and. k == 1) then
-                    call turn_ends(load, a, assembled%dead)
-                else if (load%kind == gapbeam_support_rotation) then
-                    call turn_ends(load, a, assembled%live)
+                else if (is_beside_point(load) .and. k == 1) then
+                    call put_beside(load, a, assembled%dead)
+                else if (is_beside_point(load)) then
+                    call put_beside(load, a, assembled%live)
                 else if (.not. is_stretch(load)) then
                     call add_at_point(assembled, load, a, k)
                 else if (k == 1) then
@@ -133,16 +134,31 @@ contains
         end if
     end subroutine add_to_piece
 
-    !> What a support turns the ends of the pieces beside it against the beam
-    pure subroutine turn_ends(load, point, piece_loads)
+    !> Does a load act on the ends of the pieces beside a point: a rotation of a support, a couple on one side of a hinge
+    elemental function is_beside_point(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = any(load%kind == [gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right])
+    end function is_beside_point
+
+    !> Put such a load on the pieces beside its point
+    pure subroutine put_beside(load, point, piece_loads)
         type(load_type), intent(in) :: load
         integer, intent(in) :: point
         !> Of all pieces
         type(piece_load_type), intent(inout) :: piece_loads(:)
 
-        if (point > 0) piece_loads(point)%kink_b = piece_loads(point)%kink_b - load%value
-        if (point < size(piece_loads)) piece_loads(point + 1)%kink_a = piece_loads(point + 1)%kink_a + load%value
-    end subroutine turn_ends
+        select case (load%kind)
+        case (gapbeam_support_rotation)
+            if (point > 0) piece_loads(point)%kink_b = piece_loads(point)%kink_b - load%value
+            if (point < size(piece_loads)) piece_loads(point + 1)%kink_a = piece_loads(point + 1)%kink_a + load%value
+        case (gapbeam_couple_left)
+            piece_loads(point)%couple_b = piece_loads(point)%couple_b + load%value
+        case default
+            piece_loads(point + 1)%couple_a = piece_loads(point + 1)%couple_a + load%value
+        end select
+    end subroutine put_beside
 
     !> Where a load acts across the beam
     pure subroutine find_loaded(assembled, k, first, last, node)
@@ -158,7 +174,7 @@ contains
             node = -1
             if (is_stretch(load)) return
             last = a
-            if (load%kind == gapbeam_support_rotation) then
+            if (is_beside_point(load)) then
                 first = max(1, a)
                 last = min(size(assembled%pieces), a + 1)
                 return
@@ -182,8 +198,8 @@ contains
         associate (load => assembled%model%loads(k))
             if (is_stretch(load)) then
                 call spread_load(assembled, load, first - 1, last, on_pieces)
-            else if (load%kind == gapbeam_support_rotation) then
-                call turn_ends(load, assembled%load_from(k), on_pieces)
+            else if (is_beside_point(load)) then
+                call put_beside(load, assembled%load_from(k), on_pieces)
             else if (first == last) then
                 call add_to_piece(on_pieces(first), load)
             end if

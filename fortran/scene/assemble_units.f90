@@ -120,7 +120,8 @@ contains
             associate (a => assembled%dead(j), b => assembled%live(j))
                 most(1) = max(most(1), abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb))
                 most(2) = max(most(2), abs(a%force), abs(b%force))
-                most(3) = max(most(3), abs(a%couple), abs(b%couple))
+                most(3) = max(most(3), abs(a%couple), abs(b%couple), abs(a%couple_a), abs(b%couple_a), abs(a%couple_b), &
+                              abs(b%couple_b))
                 most(4) = max(most(4), abs(a%kappa), abs(b%kappa))
                 most(5) = max(most(5), abs(a%kink_a), abs(b%kink_a), abs(a%kink_b), abs(b%kink_b))
             end associate
@@ -362,7 +363,8 @@ contains
 
         finite = abs(load%qa) <= huge(1.0_wp) .and. abs(load%qb) <= huge(1.0_wp) .and. abs(load%kappa) <= huge(1.0_wp) &
             .and. abs(load%force) <= huge(1.0_wp) .and. abs(load%couple) <= huge(1.0_wp) &
-            .and. abs(load%kink_a) <= huge(1.0_wp) .and. abs(load%kink_b) <= huge(1.0_wp)
+            .and. abs(load%kink_a) <= huge(1.0_wp) .and. abs(load%kink_b) <= huge(1.0_wp) &
+            .and. abs(load%couple_a) <= huge(1.0_wp) .and. abs(load%couple_b) <= huge(1.0_wp)
     end function is_finite
 
     !> The load of a piece in other units
@@ -375,6 +377,8 @@ contains
         load%kappa = scale(load%kappa, units%length - rotation_unit(units))
         load%kink_a = scale(load%kink_a, -rotation_unit(units))
         load%kink_b = scale(load%kink_b, -rotation_unit(units))
+        load%couple_a = scale(load%couple_a, -moment_unit(units))
+        load%couple_b = scale(load%couple_b, -moment_unit(units))
         load%force = scale(load%force, -units%force)
         load%couple = scale(load%couple, -moment_unit(units))
     end subroutine load_in_units

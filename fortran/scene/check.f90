@@ -8,7 +8,7 @@ module gapbeam_check
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_live, gapbeam_dead
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_of_support
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
@@ -232,7 +232,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         select case (load%kind)
-        case (gapbeam_force, gapbeam_couple, gapbeam_axial_force)
+        case (gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_couple_left, gapbeam_couple_right)
             call check_place(load%x, load%node, here, ends, error)
         case (gapbeam_movement, gapbeam_support_rotation)
         case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature)
@@ -240,7 +240,8 @@ contains
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
-                              "6 (movement), 7 (temperature) or 8 (rotation), got "//trim(whole(load%kind)))
+                              "6 (movement), 7 (temperature), 8 (rotation), 9 or 10 (couple left or right of a hinge), "// &
+                              "got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then

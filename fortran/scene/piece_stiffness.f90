@@ -1,13 +1,43 @@
 !> Stiffness of the pieces of a beam in the user's units: that of their span, or of the last section that gives it.
 module gapbeam_piece_stiffness
     use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear, along_axis
+    use gapbeam_input_error, only: refuse, of_sections, bad_law
     implicit none
     private
-    public :: stiffness_of, stiffness_along, least_stiffness_of
+    public :: assign_sections, stiffness_of, stiffness_along, least_stiffness_of
 
 contains
+
+    !> Which section gives the stiffness of a piece: the last one that gives it
+    subroutine assign_sections(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        if (size(assembled%model%sections) == 0) return
+        allocate (assembled%section_of(3, size(assembled%pieces)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        assembled%section_of(:, :) = 0
+        do i = 1, size(assembled%model%sections)
+            associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
+                if (max(s%EI_to, s%GA_to) > gapbeam_unchanged .and. size(assembled%model%foundations) > 0) then
+                    call refuse(error, of_sections, i, size(assembled%model%sections), bad_law, &
+                                merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside a foundation is "// &
+                                "not available in this version; give short sections, each of one stiffness")
+                    return
+                end if
+                if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
+                if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
+                if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i
+            end associate
+        end do
+    end subroutine assign_sections
 
     !> Stiffness of a piece in the user's units
     pure function stiffness_of(assembled, piece, kind) result(stiffness)

@@ -17,7 +17,7 @@ module gapbeam_scene
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-              gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation
+              gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -36,7 +36,8 @@ module gapbeam_scene
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
-                          gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8
+                          gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
+                          gapbeam_couple_left = 9, gapbeam_couple_right = 10
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -158,7 +159,7 @@ module gapbeam_scene
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
-        !> gapbeam_temperature or gapbeam_support_rotation
+        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left or gapbeam_couple_right
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live

@@ -8,7 +8,11 @@ import numpy as np
 
 SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
-"""Of a movement with rotation it is 8."""
+
+
+def special_kind(load):
+    """8: a movement that is a rotation; 9 and 10: couples left and right of a hinge."""
+    return 8 if "rotation" in load else {"left": 9, "right": 10}.get(load.get("at_hinge"))
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
     "plastic": (1, ("stiffness", "limit")),
@@ -189,7 +193,7 @@ def columns(scene):
         "support_settlement": real(supports, "settlement", 0.0),
         "support_rotation": np.array([turns.get(s.get("rotation", "free"), s.get("rotation")) for s in supports], dtype=float),
         "support_direction": np.array([s.get("direction") == "axial" for s in supports], dtype=np.int32),
-        "load_kind": np.array([8 if "rotation" in load else KINDS[load["type"]] for load in loads], dtype=np.int32),
+        "load_kind": np.array([special_kind(load) or KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
         "load_node": np.array([number_of(load) for load in loads], dtype=np.int32),

@@ -530,12 +530,13 @@ def soft_scene(seed):
 
 
 def test_turned_supports_agree(library):
-    """From C and Fortran 77, elastic and rigid ones, dead and live."""
+    """From C and Fortran 77, elastic and rigid ones, dead and live, beside couples at a hinge."""
     scene = {
-        "beam": {"spans": [3.0, 2.0], "EI": 80.0},
+        "beam": {"spans": [3.0, 2.0], "EI": 80.0, "hinges": [4.0]},
         "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2, "rotation": 40.0}],
         "loads": [{"type": "movement", "support": 0, "rotation": 0.02}, {"type": "uniform", "q": 1.0, "case": "dead"},
-                  {"type": "movement", "support": 2, "rotation": -0.01, "case": "dead"}],
+                  {"type": "movement", "support": 2, "rotation": -0.01, "case": "dead"},
+                  *({"type": "moment", "x": 4.0, "M": 0.7, "at_hinge": side} for side in ("left", "right"))],
     }  # fmt: skip
     result = python_result(scene)
     beam, message = library.prepare(scene)

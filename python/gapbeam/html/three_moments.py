@@ -9,7 +9,6 @@ import numpy as np
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.formatting import stretch
-from ..scene.loads import MovementLoad
 from ..scene.tapers import is_tapered
 from .hand_check import DIGITS, leaves
 from .states import ROW
@@ -131,7 +130,7 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
     """Choose the inner support with the largest moment, about which both pieces can bend: its number, and that of its point."""
     beam, scene = step._beam, result.scene
     x, pieces = beam.places.point_x, beam.places.pieces
-    turned = {load.support for load in scene.loads if isinstance(load, MovementLoad) and load.rotation is not None}
+    turned = any(getattr(load, "rotation", None) is not None or getattr(load, "at_hinge", None) for load in scene.loads)
     tapered = [stretch(scene, section) for section in scene.sections if is_tapered(section)]
     found = []
     for k, at in enumerate(scene.positions(scene.supports).tolist()):

@@ -45,6 +45,8 @@ SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = 1, 2, 3, 4, 5, 6, 7, 8
+COUPLES = {None: COUPLE, "left": 9, "right": 10}
+"""Couples, by the side of a hinge on which they act."""
 KINDS = {
     ForceLoad: (FORCE, "F"),
     MomentLoad: (COUPLE, "M"),
@@ -280,6 +282,8 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
+        if kind == COUPLE and not isinstance(group, Table):
+            kinds[some] = [COUPLES[load.at_hinge] for load in group]
         if kind == MOVEMENT:
             given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
         elif kind == TEMPERATURE:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from .table import Point, Stretch, Table
 
 
@@ -47,15 +49,18 @@ class ForceLoad(_PointLoad, kw_only=True, gc=False, tag="force"):
 
 
 class MomentLoad(_PointLoad, kw_only=True, gc=False, tag="moment"):
-    """A couple at a node or at x; not exactly at a hinge.
+    """A couple at a node or at x; exactly at a hinge it needs at_hinge.
 
     Parameters
     ----------
     M : float
         Couple (force*length), positive clockwise.
+    at_hinge : {"left", "right"}, optional
+        At a hinge: on which part of the beam it acts, that left of the hinge or that right of it.
     """
 
     M: float
+    at_hinge: Literal["left", "right"] | None = None
 
 
 class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):

@@ -116,7 +116,7 @@ loads = [{type = 3}] ->
 loads = [5] -> loads[0]: expected a table, got 5
 loads = [{type = "force", x = 1.0}] -> loads[0].F: this key is missing; give a number
 loads = [{type = "moment", x = 1.0, F = 1.0}] ->
-    loads[0].F: unknown key; the keys of a load of type "moment" are type, node, x, name, case and M
+    loads[0].F: unknown key; the keys of a load of type "moment" are type, node, x, name, case, M and at_hinge
 loads = [{type = "linear", q = 3.0}] -> loads[0].q: expected a pair of numbers, got 3.0
 loads = [{type = "linear", q = [1, 2, 3]}] -> loads[0].q: expected a pair of numbers, got [1, 2, 3]
 loads = [{type = "uniform", q = [1, 2]}] -> loads[0].q: expected a number, got [1, 2]
@@ -377,7 +377,7 @@ def test_loads(given, expected):
 def test_moment_at_a_hinge(place):
     expected = (
         "loads[1]: the moment acts exactly at the hinge at x = 6, so it is unclear which side takes it; "
-        "put it on one side of the hinge"
+        'say at_hinge = "left" or "right"'
     )
     loads = [FORCE, {"type": "moment", "M": 2.0} | place]
     assert message(beam=BEAM | {"hinges": [9.0, 6.0]}, loads=loads) == expected
