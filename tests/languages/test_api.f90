@@ -135,7 +135,7 @@ contains
         model%supports(1)%gap = -0.03_wp
         call refuse(model, 3, 1, "no room")
         call two_spans(model)
-        model%loads = [load_type(kind=9, x=1.0_wp)]
+        model%loads = [load_type(kind=99, x=1.0_wp)]
         call refuse(model, 4, 1, "kind")
         model%loads = [point_force(1.0_wp, x=1.0_wp), point_force(1.0_wp, x=1.0_wp, case=4)]
         call refuse(model, 4, 2, "case")
