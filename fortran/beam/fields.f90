@@ -2,16 +2,16 @@
 module gapbeam_fields
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: extreme_margin
-    use gapbeam_element, only: field_type, fields_at
+    use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
     use gapbeam_piece, only: is_tapered
-    use gapbeam_taper, only: fields_in_taper, softness_at
+    use gapbeam_taper, only: fields_in_piece, softness_at
     use gapbeam_taper_extremes, only: find_turning_places, most_places
     use gapbeam_quantities, only: state_count, derived_count, bending_count, bending, shares_of, terms_of_derived, with_derived
     use gapbeam_polynomial, only: roots_between, highest_degree
     implicit none
     private
-    public :: values_at, find_extremes, bending_values, softness_of, fields_of_piece
+    public :: values_at, find_extremes, bending_values, softness_of
 
     !> Degrees of the derivatives of deflection, rotation, moment, shear along a piece
     integer, parameter :: degree_of_state(state_count) = [4, 3, 2, 1]
@@ -45,23 +45,6 @@ contains
         values(:) = with_derived([field%deflection, field%rotation, field%moment, field%shear], softness, kappa)
     end function bending_values
 
-    !> Fields inside a piece, tapered or not, from those at its left end
-    pure function fields_of_piece(start, s, piece, load) result(fields)
-        !> Fields just right of its left end
-        type(field_type), intent(in) :: start
-        !> Distance from there, 0..length
-        real(wp), intent(in) :: s
-        type(piece_type), intent(in) :: piece
-        type(piece_load_type), intent(in) :: load
-        type(field_type) :: fields
-
-        if (is_tapered(piece)) then
-            fields = fields_in_taper(start, s, piece, load)
-        else
-            fields = fields_at(start, s, piece%length, piece%flexibility, piece%shear_flexibility, load%qa, load%qb, load%kappa)
-        end if
-    end function fields_of_piece
-
     !> Fields at given places
     pure subroutine values_at(pieces, dead, live, factor, starts, piece, distance, fields)
         !> Pieces, loads, factor of the live loads and fields at the pieces' left ends
@@ -80,7 +63,7 @@ contains
         do i = 1, size(piece)
             j = piece(i)
             load = combine_loads(dead(j), live(j), factor)
-            fields(i) = fields_of_piece(starts(j), distance(i), pieces(j), load)
+            fields(i) = fields_in_piece(starts(j), distance(i), pieces(j), load)
         end do
     end subroutine values_at
 
@@ -162,7 +145,7 @@ contains
             real(wp), intent(in) :: s
             real(wp) :: found(bending_count)
 
-            found = values_of(fields_of_piece(starts(j), s, pieces(j), q), s)
+            found = values_of(fields_in_piece(starts(j), s, pieces(j), q), s)
         end function fields_here
 
         !> The quantities of a section of the piece at hand

@@ -11,7 +11,7 @@ module gapbeam_taper
     use gapbeam_element, only: field_type, fields_at
     implicit none
     private
-    public :: depth_ratio, softness_at, mean_softness, find_softness, turn_ends, fields_in_taper
+    public :: depth_ratio, softness_at, mean_softness, find_softness, turn_ends, fields_in_piece
     public :: intervals_in, points_in, number_of_points
 
     !> Left half of the points of Gauss's formula with 28 points from 0 to 1, and their weights: 3e-43 is left of a function whose
@@ -166,8 +166,8 @@ contains
         end associate
     end subroutine turn_ends
 
-    !> Fields inside a piece from the fields at its left end
-    pure function fields_in_taper(start, s, piece, load) result(fields)
+    !> Fields inside a piece, tapered or not, from the fields at its left end
+    pure function fields_in_piece(start, s, piece, load) result(fields)
         !> Fields just right of its left end
         type(field_type), intent(in) :: start
         !> Distance from there, 0..length
@@ -217,7 +217,7 @@ contains
             here = fields_at(start, t*piece%length, piece%length, 0.0_wp, 0.0_wp, load%qa, load%qb, 0.0_wp)
         end function inside
 
-    end function fields_in_taper
+    end function fields_in_piece
 
     !> Intervals of a piece in which all its fields are smooth
     pure function intervals_in(piece) result(number)

@@ -7,7 +7,7 @@ module gapbeam_taper_extremes
     use gapbeam_polynomial, only: roots_between
     use gapbeam_piece, only: piece_type, piece_load_type
     use gapbeam_element, only: field_type
-    use gapbeam_taper, only: depth_ratio, softness_at, fields_in_taper
+    use gapbeam_taper, only: depth_ratio, softness_at, fields_in_piece
     use gapbeam_quantities, only: of_rotation, of_moment, of_shear, of_curvature
     implicit none
     private
@@ -114,7 +114,7 @@ contains
             type(field_type) :: here
             real(wp) :: softness(2)
 
-            here = fields_in_taper(start, t*piece%length, piece, load)
+            here = fields_in_piece(start, t*piece%length, piece, load)
             softness(:) = softness_at(piece, t*piece%length)
             slope = here%rotation + softness(2)*here%shear
         end function incline

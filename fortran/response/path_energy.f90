@@ -70,17 +70,10 @@ contains
                 end if
                 if (abs(live%kink_a) > 0.0_wp) call add(parts, -live%kink_a*starts(j)%moment)
                 if (abs(live%couple_a) > 0.0_wp) call add(parts, live%couple_a*starts(j)%rotation)
-                if (abs(live%couple_b) > 0.0_wp) then
-                    there = field_at(j, length)
-                    call add(parts, live%couple_b*there%rotation)
-                end if
-                if (abs(live%kink_b) > 0.0_wp) then
-                    there = field_at(j, length)
-                    call add(parts, -live%kink_b*there%moment)
-                end if
-                if (.not. max(abs(live%force), abs(live%couple)) > 0.0_wp) cycle
+                if (.not. max(abs(live%force), abs(live%couple), abs(live%couple_b), abs(live%kink_b)) > 0.0_wp) cycle
                 there = field_at(j, length)
-                call add(parts, live%force*there%deflection + live%couple*there%rotation)
+                call add(parts, live%force*there%deflection + (live%couple + live%couple_b)*there%rotation &
+                         - live%kink_b*there%moment)
             end associate
         end do
         do i = 0, ubound(state%deflection, 1)

@@ -85,7 +85,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", or friction',
         AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
-        "which side takes it; say at_hinge = \"left\" or \"right\"",
+        'which side takes it; say at_hinge = "left" or "right"',
     }
     return SceneError(path, words[reason]())
 

@@ -44,7 +44,7 @@ VALUES = {
 """What was probably meant by a value, by its key and the value in lower case."""
 LAW = '{ type = "tanh", stiffness = 2e4, limit = 90.0 }'
 """An example of a law of the ground by name."""
-TAPERED = re.compile(r"(sections\[\d+\]|beam)\.(EI|GA|EA)(\[\d+\])?")
+TAPERED = re.compile(r"beam\.(EI|GA|EA)(\[\d+\])?")
 """Places of stiffnesses, where a pair or a table was probably meant as one that changes along the beam."""
 LONGEST = 30
 """Characters of a text that is read as a number, to be written again."""
@@ -106,7 +106,7 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
     if place.rpartition("[")[0].endswith(".axles"):
         return "; an axle is [distance behind the first axle, force]"
     if TAPERED.fullmatch(place) and isinstance(value, list | tuple | Mapping) and len(value) > 1:
-        return "; give a stiffness that changes along the beam in [[sections]]: EI = [at from, at to]" if place[0] == "b" else ""
+        return "; give a stiffness that changes along the beam in [[sections]]: EI = [at from, at to]"
     if not isinstance(value, str | bool):
         return ""
     if key == "law" and place.startswith("foundation"):

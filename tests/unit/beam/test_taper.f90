@@ -5,7 +5,7 @@ program test_taper
     use gapbeam_element, only: field_type
     use gapbeam_piece, only: piece_type, piece_load_type, no_load
     use gapbeam_taper, only: intervals_in, points_in, number_of_points, mean_softness, find_softness, turn_ends, &
-        fields_in_taper, softness_at
+        fields_in_piece, softness_at
     use gapbeam_taper_quad, only: mean_finely => mean_softness
     use gapbeam_taper_extremes, only: find_turning_places, most_places
     use gapbeam_quantities, only: of_deflection, of_rotation, of_curvature
@@ -104,7 +104,7 @@ contains
         type(field_type) :: at
 
         piece = piece_type(1.0_wp, 0.5_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 1, 0)
-        at = fields_in_taper(field_type(0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp), 1.0_wp, piece, no_load)
+        at = fields_in_piece(field_type(0.0_wp, 0.0_wp, -1.0_wp, 1.0_wp), 1.0_wp, piece, no_load)
         call check_close(at%deflection, log(2.0_wp) - 0.5_wp, "deflection of the tip")
         call check_close(at%rotation, 1 - log(2.0_wp), "rotation of the tip")
         call check_close(at%moment, 0.0_wp, "moment at the tip", absolute=1e-15_wp)

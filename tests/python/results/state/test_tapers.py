@@ -1,5 +1,6 @@
 """Sections that taper, beside closed forms and double integration in 30 digits."""
 
+import copy
 import json
 import math
 import random
@@ -259,6 +260,12 @@ def test_what_no_taper_can_be(changes, words):
 def test_refused_beside(beside):
     with pytest.raises(SceneError, match="section"):
         gapbeam.solve(GIRDER | beside)
+
+
+def test_a_result_keeps_its_tapers():
+    with pytest.raises(AttributeError, match="a result keeps its model"):
+        gapbeam.solve(GIRDER).scene.sections[0].EI.to = 1.0
+    assert copy.copy(gapbeam.solve(GIRDER).scene.sections[0].EI).power == 3
 
 
 def test_written_and_read_again():
