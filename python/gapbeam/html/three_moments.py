@@ -137,7 +137,7 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
         point = int(np.argmin(np.abs(x - at)))
         inner = 0 < point < len(x) - 1 and scene.supports[k].direction != "axial" and step.state[k] != "open"
         hinges = [*scene.beam.hinges, *scene.positions(scene.hinges)]
-        tapers = any(a <= x[point + 1] and b >= x[point - 1] for a, b in tapered) if inner else False
+        tapers = inner and any(a <= x[point + 1] and b >= x[point - 1] for a, b in tapered)
         bends = inner and not (tapers or turned) and np.isfinite(pieces[point - 1 : point + 1, 1]).all()
         if bends and not np.isclose(x[point], hinges).any():
             found.append((-abs(float(result.at_state(step, x[point]).moment)), k, point))

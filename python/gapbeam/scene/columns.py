@@ -140,14 +140,13 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
     found[5:8], found[8:] = NOT_GIVEN, 1.0
     for row, key in enumerate(("EI", "GA", "EA"), 2):
         values = _column(items, key)
-        if isinstance(values, list) and any(isinstance(one, tuple | Taper) for one in values):
-            given = [(i, *ends_of(one)) for i, one in enumerate(values) if isinstance(one, tuple | Taper)]
-            for i, *ends in given:
-                found[[row + 3, row + 6], i] = ends[1:]
-            lefts = [one if one is None else ends_of(one)[0] for one in values]
-            found[row, :-1] = [NOT_GIVEN if one is None else one for one in lefts]
-        else:
+        tapered = [i for i, one in enumerate(values) if isinstance(one, tuple | Taper)] if isinstance(values, list) else []
+        if not tapered:
             found[row, :-1] = _optional(items, key)
+            continue
+        found[row, :-1] = [NOT_GIVEN if one is None else ends_of(one)[0] for one in values]
+        for i in tapered:
+            found[[row + 3, row + 6], i] = ends_of(values[i])[1:]
     return found
 
 
@@ -282,8 +281,9 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])
             right[some] = 0.0
-        if kind == COUPLE and not isinstance(group, Table):
-            kinds[some] = [COUPLES[load.at_hinge] for load in group]
+        if kind == COUPLE:
+            sides = _column(group, "at_hinge")
+            kinds[some] = COUPLES[sides] if sides is None or isinstance(sides, str) else [COUPLES[side] for side in sides]
         if kind == MOVEMENT:
             given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
         elif kind == TEMPERATURE:

@@ -55,12 +55,14 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         raise SceneError("sections", what)
     if any(hinge.stiffness for hinge in scene.hinges):
         raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
-    refuse_movements(scene, "a support cannot be moved or turned by a load under trains")
     for k, load in enumerate(scene.loads):
         if getattr(load, "at_hinge", None):
             what = "a couple at a hinge under trains is not available in this version; put it on one side of the hinge"
             raise SceneError(f"loads[{k}].at_hinge", what)
+        if getattr(load, "rotation", None) is not None:
+            raise SceneError(f"loads[{k}].rotation", "a support that is turned under trains is not available in this version")
     if beam.depends_on_path:
+        refuse_movements(scene, "a support cannot be moved by a load under trains")
         if beam.has_links_along:
             what = "friction, and axial supports that push one way or have a law,"
             raise SceneError("supports", f"{what} cannot be combined with trains in this version; leave one of them out")

@@ -34,6 +34,14 @@ def test_right_of_the_hinge():
     assert result.extremes["moment"]["max"].value == pytest.approx(M, rel=1e-14)
 
 
+def test_as_columns():
+    """Loads as columns, one side for all of them or one each."""
+    row = gapbeam.solve(GERBER | {"loads": [couple("left")]})
+    for side in ("left", np.array(["left"])):
+        column = gapbeam.solve(GERBER | {"loads": {"type": "moment", "x": np.array([L]), "M": np.array([M]), "at_hinge": side}})
+        assert column.at(1.0).moment == row.at(1.0).moment == -M
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_limit_of_couples_aside(seed):
     """Beams with pieces, one-sided supports and tapers: what couples 1e-7 aside tend to."""

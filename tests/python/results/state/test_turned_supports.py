@@ -98,6 +98,16 @@ def test_combinations_cases_and_pieces():
     assert both.combinations["b"].at(0.0).moment == pytest.approx(-4 * EI / L * TURN, rel=1e-13)
 
 
+def test_moved_from_the_start_under_trains():
+    """A movement of case dead is a settlement, under trains as well."""
+    scene = {"beam": {"spans": [4.0, 4.0], "EI": 1e4}, "supports": [{"node": i} for i in range(3)],
+             "trains": [{"axles": [[0.0, 10.0]]}]}  # fmt: skip
+    moved = gapbeam.solve(scene | {"loads": [{"type": "movement", "support": 1, "value": 0.01, "case": "dead"}]})
+    scene["supports"][1]["settlement"] = 0.01
+    pair = [result.envelope().extremes["moment"]["max"].value for result in (moved, gapbeam.solve(scene))]
+    assert pair[0] == pair[1]
+
+
 @pytest.mark.parametrize(("changes", "words"), [
     ({"loads": [{"type": "movement", "support": 0}]}, "loads[0].value: is missing; give value (length) or rotation (rad)"),
     ({"loads": [{"type": "movement", "support": 0, "value": 0.1, "rotation": 0.1}]}, "both given; make two loads"),
@@ -107,7 +117,7 @@ def test_combinations_cases_and_pieces():
                    {"node": 1}]},
      "another support at its place holds the rotation of the beam, too"),
     ({"foundation": [{"k": 10.0}]}, "beside a foundation no support is turned"),
-    ({"trains": [{"axles": [[0.0, 1.0]]}]}, "cannot be moved or turned by a load under trains"),
+    ({"trains": [{"axles": [[0.0, 1.0]]}]}, "loads[0].rotation: a support that is turned under trains"),
 ])  # fmt: skip
 def test_what_turns_nothing(changes, words):
     with pytest.raises(SceneError) as caught:
