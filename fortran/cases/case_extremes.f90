@@ -39,7 +39,8 @@ contains
         logical :: yes
 
         associate (beam => assembled%beam, units => assembled%units)
-            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(assembled%axial%point) &
+            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(beam%turning) &
+                         .or. allocated(assembled%axial%point) &
                         .or. .not. all(is_prismatic(assembled%pieces)) &
                         .or. any(is_beside_point(assembled%model%loads))) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &

@@ -11,7 +11,7 @@ module gapbeam_cases
     use gapbeam_scene, only: gapbeam_force, gapbeam_couple, gapbeam_live
     use gapbeam_units, only: moment_unit
     use gapbeam_law, only: both
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, way_unit, push_unit
     use gapbeam_assemble_supports, only: is_room
     use gapbeam_assemble_loads, only: find_loaded, put_load, assemble_loads
     use gapbeam_assemble_units, only: support_in_units
@@ -134,8 +134,9 @@ contains
         status = gapbeam_solved
         do k = 1, size(beam%supports)
             associate (s => beam%supports(k), given => values(:, assembled%normal(k)))
-                call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), s%stiffness, s%contact, &
-                                      lost_stiffness, lost_level)
+                call support_in_units(given(3), given(1) + s%side*given(2), way_unit(assembled, assembled%normal(k)), &
+                                      push_unit(assembled, assembled%normal(k)), s%stiffness, s%contact, lost_stiffness, &
+                                      lost_level)
                 if (lost_stiffness .or. lost_level) status = gapbeam_not_finite
             end associate
         end do

@@ -47,8 +47,9 @@ contains
             n = size(beam%links)
             fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
-            fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) .and. .not. has_laws(beam%supports) &
-                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_beside_point(assembled%model%loads)) &
+            fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
+                .and. .not. (has_laws(beam%supports) .or. allocated(beam%turning)) .and. all(is_prismatic(assembled%pieces)) &
+                .and. .not. any(is_beside_point(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power
         end associate

@@ -77,7 +77,7 @@ contains
                 spans%least = scale(1.0_wp, powers - most_stiffness_power)
                 spans%most = scale(1.0_wp, powers + most_stiffness_power)
             end if
-            spans%softest = least_stiffness(assembled%beam%supports)
+            spans%softest = least_stiffness(assembled%beam%supports, size(assembled%beam%links))
             spans%last(:) = pieces%last
             spans%length(:) = pieces%length
             spans%before(:) = pieces%before

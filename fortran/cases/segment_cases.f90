@@ -49,7 +49,8 @@ contains
             fits = n >= least_segment_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
-                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) .and. .not. has_laws(beam%supports) &
+                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
+                .and. .not. (has_laws(beam%supports) .or. allocated(beam%turning)) &
                 .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_beside_point(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
         end associate
@@ -217,8 +218,8 @@ contains
                 room%contact(i) = s%contact
                 if (present(values)) then
                     associate (given => values(:, assembled%normal(k)))
-                        call support_in_units(assembled%units, given(3), given(1) + s%side*given(2), stiffness, room%contact(i), &
-                                              lost_stiffness, lost_level)
+                        call support_in_units(given(3), given(1) + s%side*given(2), assembled%units%deflection, &
+                                              assembled%units%force, stiffness, room%contact(i), lost_stiffness, lost_level)
                         lost = lost .or. lost_stiffness .or. lost_level
                     end associate
                 end if

@@ -6,7 +6,7 @@ module gapbeam_single_cases
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, push_unit
     use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
@@ -135,16 +135,18 @@ contains
         integer, intent(in) :: i
         type(case_solutions_type), intent(inout) :: solutions
         logical :: fits
+        integer :: k
 
         solutions%closed(:, i) = 0
         if (solutions%status(i) == gapbeam_solved) then
             ! gfortran 16 takes a pointer of an associated name for one that may be strided.
-            associate (units => assembled%units, a => work%answers)
+            associate (units => assembled%units, a => work%answers(0:size(assembled%beam%links)))
                 fits = .true.
                 call give(a%deflection, units%deflection, solutions%w)
                 call give(a%moment_left, moment_unit(units), solutions%ml)
                 call give(a%moment_right, moment_unit(units), solutions%mr)
-                call give(work%reaction, units%force, solutions%reaction)
+                call give(scale(work%reaction, [(push_unit(assembled, assembled%normal(k)) - units%force, k=1, size(acting))]), &
+                          units%force, solutions%reaction)
                 if (fits) then
                     solutions%closed(:size(acting), i) = merge(1, 0, acting)
                     return

@@ -16,7 +16,8 @@ module gapbeam_contact_state
     use gapbeam_law, only: always_closed, separate_rigid_pairs, has_laws, jump_to_plateau
     use gapbeam_law_kinematics, only: find_free_level, is_blocked, distance_to_contact
     use gapbeam_law_adapters, only: limit_stiffness
-    use gapbeam_model, only: beam_type, softest
+    use gapbeam_model, only: beam_type, last_place, softest
+    use gapbeam_turning, only: turn_with
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_unbounded_motions, only: unbounded_motion_type, find_unbounded_motions, prefer_rotation_mode
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -68,7 +69,7 @@ contains
 
         if (checked) call require(size(closed) == size(beam%supports), "find_contact_state: closed")
         closed = closed .or. always_closed(beam%supports)
-        call separate_rigid_pairs(beam%supports, size(beam%links), closed)
+        call separate_rigid_pairs(beam%supports, last_place(beam), closed)
         work%solves = 0
         work%cycled = .false.
         work%proximal_weight = 0.0_wp
@@ -151,7 +152,7 @@ contains
         logical :: settled, stable, in_doubt, at_rest, stopped, there_is
         integer :: move, state, place
 
-        allocate (wrong(size(closed)), displaced(0:size(beam%links)), direction(0:size(beam%links)))
+        allocate (wrong(size(closed)), displaced(0:last_place(beam)), direction(0:last_place(beam)))
         displaced(:) = 0.0_wp
         proximal_weight = proximal_ratio*softest(beam)
         work%reference = 0.0_wp
@@ -163,7 +164,8 @@ contains
             call settle(beam, rule, .true., closed, work, settled, error)
             if (.not. settled .and. move == 1 .and. is_unloaded(work)) then
                 ! Weak springs press it onto lacks of fit, which takes very long to settle; off all supports it rests as well
-                call find_free_level(beam%supports, way, there_is)
+                there_is = .false.
+                if (.not. allocated(beam%turning)) call find_free_level(beam%supports, way, there_is)
                 if (there_is) then
                     work%reference = way
                     closed = always_closed(beam%supports)
@@ -181,7 +183,7 @@ contains
             if (.not. settled) call settle(beam, rule_least_index, .false., closed, work, settled, error)
             if (allocated(error)) return
             if (.not. work%complete) call complete_scheme(beam, closed, work)
-            displaced = work%answers%deflection
+            displaced(:) = work%answers%deflection
             ! Does the scheme hold without the springs?
             call find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
             if (stable) then
@@ -197,7 +199,7 @@ contains
             else if (size(unbounded) == 0) then
                 ! Free to move, but no load does work: the springs carry nothing once the reference has come to rest, but for
                 ! what loads that balance each other have left to rounding
-                moved = maxval(abs(displaced - work%reference))
+                moved = maxval(abs(displaced(:ubound(work%reference, 1)) - work%reference))
                 at_rest = moved <= max(at_rest_share*maxval(abs(displaced)), &
                                        epsilon(1.0_wp)*maxval(work%shear_size)/proximal_weight) &
                     .or. (moved <= least_spring_force*maxval(work%load_size)/proximal_weight .and. moved > moved_before/2)
@@ -212,7 +214,7 @@ contains
                                               stopped)
                 if (.not. stopped) return
             end if
-            work%reference = displaced
+            work%reference(:) = displaced(:ubound(work%reference, 1))
         end do
         call fatal_error(error, gapbeam_not_converged, "the beam is held by so little that the contact state "// &
                          "could not be settled: give it a support that holds both ways, or check the loads")
@@ -237,23 +239,41 @@ contains
         stopped = .true.
         do r = 1, size(unbounded)
             associate (from => unbounded(r)%first, to => unbounded(r)%last)
-                way = distance_to_contact(beam%supports, beam%order(beam%first(from):beam%first(to + 1) - 1), closed, &
-                                          direction, displaced, no_speed)
+                way = distance_to_contact(beam%supports, supports_between(beam, from, to), closed, direction, displaced, no_speed)
                 stopped = way < huge(way)
                 if (.not. stopped) then
                     outcome%status = gapbeam_no_equilibrium
                     direction(:from - 1) = 0.0_wp
                     direction(to + 1:) = 0.0_wp
+                    call turn_with(beam, direction)
                     outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
                     call prefer_rotation_mode(beam, factor, direction)
                     allocate (outcome%motion(0:size(beam%links)))
-                    outcome%motion(:) = direction
+                    outcome%motion(:) = direction(0:size(beam%links))
                     return
                 end if
                 displaced(from:to) = displaced(from:to) + way*direction(from:to)
             end associate
         end do
     end subroutine follow_unbounded_motions
+
+    !> Numbers of the supports at some nodes of the beam, and of those that hold rotations there or beside them
+    pure function supports_between(beam, from, to) result(numbers)
+        type(beam_type), intent(in) :: beam
+        !> First and last node
+        integer, intent(in) :: from, to
+        integer, allocatable :: numbers(:)
+        integer :: j, v
+
+        numbers = beam%order(beam%first(from):beam%first(to + 1) - 1)
+        if (.not. allocated(beam%turning)) return
+        do j = 1, size(beam%turning)
+            v = size(beam%links) + j
+            ! Nodes that stay turn as well where their neighbours move
+            if (beam%turning(j) < from - 1 .or. beam%turning(j) > to + 1) cycle
+            numbers = [numbers, beam%order(beam%first(v):beam%first(v + 1) - 1)]
+        end do
+    end function supports_between
 
     !> Are there no loads, couples and imposed curvatures
     pure function is_unloaded(work) result(unloaded)

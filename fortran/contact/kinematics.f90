@@ -7,8 +7,9 @@
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: hinge, restrained
-    use gapbeam_law_kinematics, only: mark_held, leaves_all
-    use gapbeam_model, only: beam_type
+    use gapbeam_law_kinematics, only: mark_held, lets_go_beyond, leaves_all
+    use gapbeam_model, only: beam_type, last_place
+    use gapbeam_turning, only: find_kinds, turn_with
     implicit none
     private
     public :: free_motions, motion_type, work_of_loads, held_by_ties
@@ -23,9 +24,11 @@ module gapbeam_kinematics
 
     !> Motions that are found, and the one that is followed from left to right
     type :: followed_type
-        !> Places of the nodes, which of them are held, and how they move, shape (0:n)
+        !> Places of the nodes and how they move, shape (0:n), and which of them are held, shape (0:n + r)
         real(wp), allocatable :: x(:), y(:)
         logical, allocatable :: fixed(:)
+        !> Kinds of the nodes in the scheme at hand, shape (0:n)
+        integer, allocatable :: kind(:)
         !> Does the left end of the body at hand move, by y there; node from which on y is that of this motion
         logical :: moving = .true.
         integer :: origin = 0
@@ -55,9 +58,9 @@ contains
         associate (x => followed%x, fixed => followed%fixed)
             do while (start < n)
                 do i = start + 1, n - 1
-                    if (beam%kind(i) == hinge) exit
+                    if (followed%kind(i) == hinge) exit
                 end do
-                clamp = any(beam%kind(start:i) == restrained)
+                clamp = any(followed%kind(start:i) == restrained)
                 conditions = count(fixed(start:i)) + merge(1, 0, clamp)
                 if (conditions == 0) then
                     ! The right end is free whatever the left end does
@@ -98,7 +101,8 @@ contains
         integer :: i, n
 
         n = size(beam%links)
-        allocate (followed%x(0:n), followed%y(0:n), followed%fixed(0:n), followed%motions(8))
+        allocate (followed%x(0:n), followed%y(0:n), followed%fixed(0:last_place(beam)), followed%kind(0:n), followed%motions(8))
+        call find_kinds(beam, acting, followed%kind)
         followed%x(0) = 0.0_wp
         do i = 1, n
             followed%x(i) = followed%x(i - 1) + beam%links(i)%length
@@ -198,16 +202,19 @@ contains
         logical, intent(in) :: undecided(:)
         logical :: free
         type(motion_type), allocatable :: motions(:)
+        real(wp), allocatable :: moved(:)
         integer :: m, way
 
         free = .false.
-        if (.not. any(closed .and. undecided)) return
-        call free_motions(beam, closed .and. .not. undecided, motions)
+        if (.not. any(undecided .and. (closed .neqv. lets_go_beyond(beam%supports)))) return
+        call free_motions(beam, merge(lets_go_beyond(beam%supports), closed, undecided), motions)
+        allocate (moved(0:last_place(beam)))
         do m = 1, size(motions)
+            moved(:) = 0.0_wp
+            moved(motions(m)%first:motions(m)%last) = motions(m)%displacement
+            call turn_with(beam, moved)
             do way = -1, 1, 2
-                associate (motion => motions(m))
-                    free = free .or. leaves_all(beam%supports, undecided, motion%first, motion%last, motion%displacement, way)
-                end associate
+                free = free .or. leaves_all(beam%supports, undecided, 0, ubound(moved, 1), moved, way)
             end do
         end do
     end function held_by_ties

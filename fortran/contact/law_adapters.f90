@@ -11,14 +11,16 @@ module gapbeam_law_adapters
 contains
 
     !> The least stiffness that is not 0; huge if there is no finite one
-    pure function least_stiffness(supports) result(least)
+    pure function least_stiffness(supports, last) result(least)
         type(node_support_type), intent(in) :: supports(:)
+        !> Last node of the beam: supports beyond hold rotations
+        integer, intent(in) :: last
         real(wp) :: least
         integer :: k
 
         least = huge(least)
         do k = 1, size(supports)
-            if (supports(k)%stiffness > 0.0_wp) least = min(least, supports(k)%stiffness)
+            if (supports(k)%stiffness > 0.0_wp .and. supports(k)%node <= last) least = min(least, supports(k)%stiffness)
         end do
     end function least_stiffness
 

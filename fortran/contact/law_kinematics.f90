@@ -5,7 +5,7 @@ module gapbeam_law_kinematics
     use gapbeam_law, only: both
     implicit none
     private
-    public :: mark_held, find_level_forces, find_free_level, outermost, is_blocked, leaves_all, distance_to_contact
+    public :: mark_held, find_level_forces, find_free_level, outermost, is_blocked, lets_go_beyond, leaves_all, distance_to_contact
 
 contains
 
@@ -113,6 +113,15 @@ contains
         end do
     end function is_blocked
 
+    !> Does a breakpoint let go beyond it, as the end of a slack that a law has on its other side
+    elemental function lets_go_beyond(support) result(it_does)
+        type(node_support_type), intent(in) :: support
+        logical :: it_does
+
+        it_does = support%breakpoint > 0 .and. .not. (abs(support%stiffness) > 0.0_wp .or. abs(support%force) > 0.0_wp) &
+            .and. abs(support%before) > 0.0_wp
+    end function lets_go_beyond
+
     !> Is a motion towards none of some supports
     pure function leaves_all(supports, chosen, first, last, displacement, way) result(leaves)
         type(node_support_type), intent(in) :: supports(:)
@@ -128,7 +137,11 @@ contains
         do k = 1, size(chosen)
             associate (s => supports(k))
                 if (.not. chosen(k) .or. s%node < first .or. s%node > last) cycle
-                leaves = leaves .and. way*s%side*displacement(s%node) <= 0.0_wp
+                if (lets_go_beyond(s)) then
+                    leaves = leaves .and. way*s%side*displacement(s%node) >= 0.0_wp
+                else
+                    leaves = leaves .and. way*s%side*displacement(s%node) <= 0.0_wp
+                end if
             end associate
         end do
     end function leaves_all

@@ -9,7 +9,7 @@ module gapbeam_model
     use gapbeam_law_adapters, only: least_stiffness
     implicit none
     private
-    public :: beam_type, new_beam, order_supports, softest
+    public :: beam_type, new_beam, order_supports, last_place, node_of_support, softest
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
 
@@ -25,6 +25,12 @@ module gapbeam_model
         real(wp), allocatable :: compliance(:)
         !> Applied force (down) and couple (clockwise), shape (2, 0:n)
         real(wp), allocatable :: force(:, :), couple(:, :)
+        !> Nodes whose rotations supports hold by laws, shape (r); not allocated where there are none. Node n + j of such a support
+        !> stands for the rotation at node turning(j): its "deflection", over which its "reaction" is a couple
+        integer, allocatable :: turning(:)
+        !> Is that the rotation left of the node less that right of it, positive with a sagging moment, which is the couple, and the
+        !> node a hinge by itself; else it is that of the node, clockwise, and the couple turns the beam back, shape (r)
+        logical, allocatable :: relative(:)
         !> Supports in the caller's order
         type(node_support_type), allocatable :: supports(:)
         !> Their numbers from left to right; those at node i are order(first(i)) to order(first(i + 1) - 1)
@@ -36,7 +42,7 @@ module gapbeam_model
 contains
 
     !> A beam from arrays; see the components of the type for their meaning
-    pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam)
+    pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam, turning, relative)
         !> Links, shape (n)
         type(link_type), intent(in) :: links(:)
         !> Nodes, shape (0:n)
@@ -46,9 +52,15 @@ contains
         type(node_support_type), intent(in) :: supports(:)
         !> The beam
         type(beam_type), intent(out) :: beam
+        !> Rotations that supports hold, if any
+        integer, intent(in), optional :: turning(:)
+        logical, intent(in), optional :: relative(:)
         integer :: n
 
         n = size(links)
+        ! Components that are not allocated are absent
+        if (present(turning)) beam%turning = turning
+        if (present(relative)) beam%relative = relative
         allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
         beam%links(:) = links
         beam%kind(:) = kind
@@ -62,11 +74,11 @@ contains
     pure subroutine order_supports(supports, beam)
         !> The supports
         type(node_support_type), intent(in) :: supports(:)
-        !> A beam whose links are there
+        !> A beam whose links, and rotations that supports hold, are there
         type(beam_type), intent(inout) :: beam
         integer :: k, i, n
 
-        n = size(beam%links)
+        n = last_place(beam)
         if (checked) then
             call require(all(supports%node >= 0 .and. supports%node <= n), "order_supports: node")
             call require(all(is_support(supports)), "order_supports: side, stiffness or contact level")
@@ -95,12 +107,32 @@ contains
         beam%first(0) = 1
     end subroutine order_supports
 
+    !> The last node that supports can have: that of the beam, or the last rotation
+    pure function last_place(beam) result(last)
+        type(beam_type), intent(in) :: beam
+        integer :: last
+
+        last = size(beam%links)
+        if (allocated(beam%turning)) last = last + size(beam%turning)
+    end function last_place
+
+    !> The node of the beam at which a support is
+    pure function node_of_support(beam, k) result(node)
+        type(beam_type), intent(in) :: beam
+        !> Its number
+        integer, intent(in) :: k
+        integer :: node
+
+        node = beam%supports(k)%node
+        if (node > size(beam%links)) node = beam%turning(node - size(beam%links))
+    end function node_of_support
+
     !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
     pure function softest(beam) result(stiffness)
         type(beam_type), intent(in) :: beam
         real(wp) :: stiffness
 
-        stiffness = least_stiffness(beam%supports)
+        stiffness = least_stiffness(beam%supports, size(beam%links))
         if (any(beam%links%bending > 0.0_wp)) then
             stiffness = min(stiffness, 1/(sum(beam%links%bending)*sum(beam%links%length)**2))
         end if

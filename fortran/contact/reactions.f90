@@ -221,7 +221,7 @@ contains
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
         real(wp) :: force(support_block), error(support_block)
-        integer :: i, j, from, to
+        integer :: i, j, from, to, n
 
         do from = range(1), range(2), support_block
             to = min(from + support_block - 1, range(2))
@@ -234,6 +234,18 @@ contains
             call share_forces(beam%supports, beam%order, beam%first, acting, [from, to], work%nodes, work%answers, &
                               work%deflection_size, force, error, work%reaction, work%reaction_error)
         end do
+        if (.not. allocated(beam%turning)) return
+        n = size(beam%links)
+        do j = 1, size(beam%turning)
+            ! For signs, rounding that comes from farther away counts as well
+            associate (i => beam%turning(j))
+                work%shear_size(n + j) = max(work%couple_size(j), work%shear_size(i)/2 &
+                                              *maxval(beam%links(max(1, i):min(i + 1, n))%length))
+            end associate
+        end do
+        call share_forces(beam%supports, beam%order, beam%first, acting, [n + 1, n + size(beam%turning)], work%nodes, &
+                          work%answers, work%deflection_size, work%couple, epsilon(1.0_wp)*work%shear_size(n + 1:), work%reaction, &
+                          work%reaction_error)
     end subroutine find_reactions
 
     !> Force of all supports together at a node, from the shears beside it

@@ -77,7 +77,7 @@ contains
         search%carefully = any(work%proximal_weight > 0.0_wp)
         if (present(carefully)) search%carefully = search%carefully .or. carefully
         ! Parts and interior points know of ordinary supports only
-        search%with_laws = has_laws(beam%supports)
+        search%with_laws = has_laws(beam%supports) .or. allocated(beam%turning)
         if (.not. (search%with_laws .or. allocated(beam%ground))) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)

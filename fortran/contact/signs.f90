@@ -51,7 +51,8 @@ contains
         call take_group(beam, .true., signs%rigid)
         call take_group(beam, .false., signs%elastic)
         associate (nodes => signs%rigid%node)
-            signs%unclear = has_laws(beam%supports) .or. any(beam%first(nodes + 1) - beam%first(nodes) > 1)
+            signs%unclear = has_laws(beam%supports) .or. allocated(beam%turning)
+            if (.not. signs%unclear) signs%unclear = any(beam%first(nodes + 1) - beam%first(nodes) > 1)
         end associate
         farthest = 0.0_wp
         if (size(beam%supports) > 0) farthest = maxval(abs(beam%supports%contact))
@@ -122,8 +123,8 @@ contains
             call judge_elastic(signs%elastic, n, work%plain%moment, work%plain%deflection, work%inverse, work%reach, size(closed), &
                                closed, shear, deflection, wrong, number, doubtful)
         else
-            signs%moment(:) = max(abs(work%answers%moment_left), abs(work%answers%moment_right))
-            signs%w(:) = work%answers%deflection
+            signs%moment(:) = max(abs(work%answers(0:n)%moment_left), abs(work%answers(0:n)%moment_right))
+            signs%w(:) = work%answers(0:n)%deflection
             call judge_elastic(signs%elastic, n, signs%moment, signs%w, work%inverse, work%reach, size(closed), closed, shear, &
                                deflection, wrong, number, doubtful)
         end if

@@ -12,7 +12,8 @@ module gapbeam_system
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
     use gapbeam_plain, only: ends_hold, solve_plain, set_node, solve_rows, refine_rows
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, node_of_support
+    use gapbeam_turning, only: find_turning
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_three_moment, method_pivoting
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
@@ -53,6 +54,12 @@ contains
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
 
+        if (allocated(beam%turning)) then
+            associate (n => size(beam%links))
+                call find_turning(beam, work%nodes, work%rhs, work%loads, work%turn_size, work%answers, &
+                                  work%deflection_size(n + 1:), work%couple, work%couple_size)
+            end associate
+        end if
         call find_sizes(beam, [0, size(beam%links)], work)
         call find_shears(beam, [1, size(beam%links)], work)
         call find_reactions(beam, acting, [0, size(beam%links)], work)
@@ -75,6 +82,7 @@ contains
         logical, intent(in), optional :: applied(:)
         type(motion_type), allocatable :: motions(:)
         logical :: regular, has_rows
+        integer :: n
 
         place = 0
         if (is_stopped(beam%watch)) then
@@ -96,11 +104,12 @@ contains
             call solve_on_ground(beam, work, state, place)
             return
         end if
+        n = size(beam%links)
         if (work%may_soften .and. softens(work%nodes)) then
             regular = .false.
-        else if (fits_three_moment(work%nodes)) then
+        else if (fits_three_moment(work%nodes(0:n))) then
             work%method = method_three_moment
-            call solve_three_moment(work%nodes, beam%links, work%rhs, work%moment_work, work%answers, regular)
+            call solve_three_moment(work%nodes(0:n), beam%links, work%rhs(0:n), work%moment_work, work%answers(0:n), regular)
         else
             work%method = method_mixed
             work%from_both_ends = fits_both_ends(work)
@@ -113,18 +122,18 @@ contains
                 work%plain%has_rows = .true.
                 regular = .true.
             else
-                call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+                call factor_chain(work%nodes(0:n), beam%links, work%pivots, state, place)
                 regular = state == band_ok
                 if (state == band_mechanism) return
                 if (regular) then
-                    work%eliminated = work%rhs
-                    call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%answers)
+                    work%eliminated(:) = work%rhs(0:n)
+                    call solve_chain(work%nodes(0:n), beam%links, work%pivots, work%eliminated, work%answers(0:n))
                 end if
             end if
         end if
         if (.not. regular) then
             work%method = method_pivoting
-            call solve_pivoting(work%nodes, beam%links, work%rhs, work%answers, regular)
+            call solve_pivoting(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), regular)
         end if
         state = merge(band_ok, band_needs_pivoting, regular)
         if (.not. regular) then
@@ -146,7 +155,7 @@ contains
 
         do k = 1, size(acting)
             if (acting(k) .eqv. applied(k)) cycle
-            associate (i => beam%supports(k)%node)
+            associate (i => node_of_support(beam, k))
                 call apply_scheme(beam, acting, [i, i], work)
                 if (has_rows) call set_node(work%plain, i, work%nodes(i), work%rhs(i))
             end associate
@@ -190,7 +199,9 @@ contains
         logical, intent(in) :: acting(:)
         type(workspace_type), intent(inout) :: work
         logical :: regular
+        integer :: n
 
+        n = size(beam%links)
         if (allocated(beam%ground)) then
             call refine_on_ground(beam, work)
             if (.not. work%complete) call complete_scheme(beam, acting, work)
@@ -204,20 +215,22 @@ contains
         if (work%plain%has_rows) then
             call refine_rows(work%plain, work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%correction)
         else
-            call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, &
+            call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, &
                                 work%sizes, work%compatibility, work%equilibrium)
-            if (fits_three_moment(work%nodes)) then
+            if (fits_three_moment(work%nodes(0:n))) then
                 work%method = method_three_moment
-                call solve_three_moment(work%nodes, beam%links, work%eliminated, work%moment_work, work%correction, regular)
+                call solve_three_moment(work%nodes(0:n), beam%links, work%eliminated, work%moment_work, work%correction, regular)
             else if (fits_both_ends(work)) then
                 call solve_plain(work%plain, work%nodes, work%eliminated, work%correction)
             else
-                call solve_chain(work%nodes, beam%links, work%pivots, work%eliminated, work%correction)
+                call solve_chain(work%nodes(0:n), beam%links, work%pivots, work%eliminated, work%correction)
             end if
         end if
-        work%answers%deflection = work%answers%deflection + work%correction%deflection
-        work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
-        work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
+        associate (a => work%answers(0:n), change => work%correction)
+            a%deflection = a%deflection + change%deflection
+            a%moment_left = a%moment_left + change%moment_left
+            a%moment_right = a%moment_right + change%moment_right
+        end associate
         work%refined = .true.
         call complete_scheme(beam, acting, work)
     end subroutine refine_scheme

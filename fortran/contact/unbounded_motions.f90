@@ -5,7 +5,8 @@ module gapbeam_unbounded_motions
     use gapbeam_band, only: hinge, restrained
     use gapbeam_law, only: below, above
     use gapbeam_law_kinematics, only: find_level_forces, outermost, is_blocked
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, last_place
+    use gapbeam_turning, only: turn_with
     use gapbeam_kinematics, only: free_motions, motion_type, work_of_loads
     implicit none
     private
@@ -25,7 +26,8 @@ contains
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
         logical, intent(in) :: closed(:)
-        !> Displacements of the nodes, largest 1 in every part; zero if no load does work
+        !> Displacements of the nodes, largest 1 in every part, and the rotations that go with them; zero if no load does work;
+        !> shape (0:n + r)
         real(wp), intent(out) :: direction(0:)
         !> The parts that the loads move
         type(unbounded_motion_type), allocatable, intent(out) :: unbounded(:)
@@ -34,27 +36,30 @@ contains
         type(motion_type), allocatable :: motions(:)
         real(wp), allocatable :: y(:), level(:), gram(:, :), share(:)
         real(wp) :: parts, largest
-        integer :: k, begin, finish, last, number
+        integer :: k, n, begin, finish, last, number
 
+        n = size(beam%links)
         call free_motions(beam, closed, motions)
         stable = size(motions) == 0
         in_doubt = .false.
         direction = 0.0_wp
         allocate (unbounded(0))
         if (stable) return
-        allocate (share(size(motions)), y(0:size(beam%links)), level(0:size(beam%links)))
+        allocate (share(size(motions)), y(0:last_place(beam)), level(0:last_place(beam)))
         y(:) = 0.0_wp
         call find_level_forces(beam%supports, closed, level)
         do k = 1, size(motions)
             associate (motion => motions(k))
                 y(motion%first:motion%last) = motion%displacement
                 call work_of_loads(beam, factor, y, [motion%first, motion%last], share(k), parts)
-                y(motion%first:motion%last) = 0.0_wp
+                call turn_with(beam, y)
                 ! Less what supports that yield take of it
-                associate (taken => level(motion%first:motion%last)*motion%displacement)
-                    share(k) = share(k) - sum(taken)
-                    parts = parts + sum(abs(taken))
+                associate (taken => level(motion%first:motion%last)*motion%displacement, &
+                           taken_by_turning => level(n + 1:)*y(n + 1:))
+                    share(k) = share(k) - sum(taken) - sum(taken_by_turning)
+                    parts = parts + sum(abs(taken)) + sum(abs(taken_by_turning))
                 end associate
+                y(motion%first:motion%last) = 0.0_wp
             end associate
             in_doubt = in_doubt .or. (abs(share(k)) > 0.0_wp .and. abs(share(k)) <= clearly_more*no_work*parts)
             if (abs(share(k)) <= no_work*parts) share(k) = 0.0_wp
@@ -89,6 +94,7 @@ contains
             begin = finish + 1
         end do
         unbounded = unbounded(1:number)
+        call turn_with(beam, direction)
     end subroutine find_unbounded_motions
 
     !> Scalar products of motions and those before them that they overlap with: gram(j, k) of motions k and k - j
@@ -149,13 +155,15 @@ contains
     subroutine prefer_rotation_mode(beam, factor, direction)
         type(beam_type), intent(in) :: beam
         real(wp), intent(in) :: factor
+        !> Shape (0:n + r)
         real(wp), intent(inout) :: direction(0:)
         real(wp), allocatable :: x(:), y(:), best(:)
         real(wp) :: most
         integer :: i, n, side, tips(2)
 
         n = size(beam%links)
-        if (any(beam%kind == hinge)) return
+        ! A hinge with a law may give way, and a restraint may hold
+        if (any(beam%kind == hinge) .or. allocated(beam%turning)) return
         allocate (x(0:n), y(0:n), best(0:n))
         x(0) = 0.0_wp
         do i = 1, n

@@ -11,7 +11,7 @@ module gapbeam_update
     use gapbeam_band, only: answer_type, factor_chain, band_ok
     use gapbeam_band_substitution, only: correct_chain
     use gapbeam_residual, only: residual_chain
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, node_of_support, last_place
     use gapbeam_workspace, only: workspace_type, apply_scheme, method_mixed, method_pivoting
     use gapbeam_system, only: solve_and_refine
     use gapbeam_reactions, only: find_sizes, find_shears, find_reactions
@@ -68,6 +68,8 @@ contains
         logical, intent(out) :: follows
         integer :: state, place
 
+        follows = .true.
+        if (allocated(beam%turning)) return
         call factor_chain(work%nodes, beam%links, work%pivots, state, place)
         follows = state == band_ok
         ! Numbers may leave the range on the way where they did not from both ends
@@ -85,7 +87,9 @@ contains
         integer :: i
 
         allocate (nodes(size(changed)))
-        nodes(:) = beam%supports(changed)%node
+        do i = 1, size(changed)
+            nodes(i) = node_of_support(beam, changed(i))
+        end do
         call sort(nodes)
         groups = 0
         count = 0
@@ -140,6 +144,12 @@ contains
 
         n = size(beam%links)
         if (checked) call require(0 <= changed(1) .and. changed(1) <= changed(2) .and. changed(2) <= n, "update_scheme: changed")
+        if (allocated(beam%turning)) then
+            ! Rotations are found anew with all the rest
+            call solve_and_refine(beam, acting, work, state, place)
+            window = [0, last_place(beam)]
+            return
+        end if
         work%method = method_mixed
         work%from_both_ends = .false.
         call apply_scheme(beam, acting, changed, work)

@@ -7,7 +7,8 @@ module gapbeam_workspace
     use gapbeam_residual, only: size_type
     use gapbeam_plain, only: plain_type, is_plain, prepare_plain
     use gapbeam_law, only: add_supports, has_laws
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, last_place
+    use gapbeam_turning, only: apply_turning
     implicit none
     private
     public :: workspace_type, interval_type, new_workspace, set_loads, apply_scheme
@@ -53,6 +54,8 @@ module gapbeam_workspace
         real(wp), allocatable :: fixity(:), reach(:), inverse(:)
         !> Largest contact level of the supports that act at a node
         real(wp), allocatable :: level(:)
+        !> Couples of the supports that hold rotations, and their sizes for rounding errors, shape (r)
+        real(wp), allocatable :: couple(:), couple_size(:)
         !> Sizes of the shears and deflections whose rounding reaches a node: from beside it, from the left, from the
         !> right, from everywhere
         type(interval_type), allocatable :: reach_own(:), reach_left(:), reach_right(:)
@@ -83,17 +86,19 @@ contains
         type(beam_type), intent(in) :: beam
         !> The workspace, no load set
         type(workspace_type), intent(out) :: work
-        integer :: n, m
+        integer :: n, m, last
 
         n = size(beam%links)
         m = size(beam%supports)
-        allocate (work%nodes(0:n), work%loads(0:n), work%rhs(0:n), work%eliminated(0:n), work%pivots(0:n))
-        allocate (work%answers(0:n), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
-        allocate (work%load_size(0:n), work%turn_size(n))
+        last = last_place(beam)
+        allocate (work%nodes(0:last), work%loads(0:last), work%rhs(0:last), work%eliminated(0:n), work%pivots(0:n))
+        allocate (work%answers(0:last), work%correction(0:n), work%moment_work(2, 0:n), work%sizes(0:n))
+        allocate (work%load_size(0:last), work%turn_size(n))
+        work%load_size(n + 1:) = 0.0_wp
         allocate (work%shear(n), work%shear_error(n))
-        allocate (work%level(0:n))
+        allocate (work%level(0:last), work%couple(last - n), work%couple_size(last - n))
         allocate (work%reach_own(0:n), work%reach_left(0:n), work%reach_right(0:n))
-        allocate (work%shear_size(0:n), work%deflection_size(0:n))
+        allocate (work%shear_size(0:last), work%deflection_size(0:last))
         allocate (work%reaction(m), work%reaction_error(m))
         allocate (work%proximal_weight(0:n), work%reference(0:n))
         work%proximal_weight = 0.0_wp
@@ -107,7 +112,7 @@ contains
         work%most_solves = max(least_solves, most_nodes_solved/(n + 1))
         if (allocated(beam%ground)) then
             allocate (work%end_shear(2, n), work%end_shear_error(2, n))
-        else if (is_plain(beam%links, beam%kind)) then
+        else if (is_plain(beam%links, beam%kind) .and. last == n) then
             call prepare_plain(beam%links, work%plain)
         end if
     end subroutine new_workspace
@@ -180,6 +185,7 @@ contains
                 end if
             end associate
         end do
+        if (allocated(beam%turning)) call apply_turning(beam, acting, range, work%nodes, work%rhs, work%level)
     end subroutine apply_scheme
 
 end module gapbeam_workspace

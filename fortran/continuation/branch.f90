@@ -15,7 +15,7 @@ module gapbeam_branch
     use gapbeam_unloading_quad, only: unload, rewrite_laws
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: coarse_beam_type => beam_type
-    use gapbeam_model_quad, only: beam_type
+    use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_affine_response_quad, only: value_at, width_at, zero_of
     use gapbeam_region_responses, only: outgoing_type, new_responses, solve_responses, are_one, turn, rise, fall, from_nowhere
     use gapbeam_outgoing_directions, only: find_outgoing
@@ -66,7 +66,7 @@ contains
         call new_responses(beam, branch%responses)
         branch%responses%settling(:) = settling
         call new_local(in_doubles, unloading == parallel, settling, branch%local)
-        allocate (branch%deflection(0:size(beam%links)))
+        allocate (branch%deflection(0:last_place(beam)))
         branch%deflection(:) = 0.0_wp
         call solve_responses(branch%beam, closed, branch%responses)
         branch%way%closed = closed

@@ -196,9 +196,15 @@ contains
                                  "these supports no gap")
             end if
         end if
+        if (.not. allocated(error) .and. outcome == no_way_on .and. history%number == 0) then
+            call fatal_error(error, gapbeam_not_converged, "before it carries any load a part of the beam can move freely "// &
+                             "without work of the loads, so the path of supports that yield cannot be followed: hold that "// &
+                             "part, or give its supports no gap or slack")
+        end if
         walk%branch%rounded_places = rounded_places
         ! On the polylines of smooth laws, equal ones soften all but together: which goes first is told by all digits only
         if (any(is_smooth(walk%assembled%model%supports%law))) walk%branch%local%usable = .false.
+        if (allocated(walk%assembled%beam%turning)) walk%branch%local%usable = .false.
         call refuse_shared(walk, outcome, error)
         if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, walk%leg, real(from, wp), history)
         if (outcome /= goes_on) history%ending = mechanism
@@ -243,7 +249,7 @@ contains
             call refuse_idle(walk, moves, error)
             if (allocated(error)) return
             if (outcome == never_ends) then
-                if (direction == turn) history%motion = real(branch%way%motion, wp)
+                if (direction == turn) history%motion = real(branch%way%motion(0:size(branch%beam%links)), wp)
             else if (moves) then
                 if (outcome == goes_on .and. .not. walk%keeps) then
                     ! No cell is crossed twice, but a path without end may come round to where it began

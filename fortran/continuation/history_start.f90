@@ -9,7 +9,7 @@ module gapbeam_history_start
     use gapbeam_contact_state_quad, only: outcome_type
     use gapbeam_linear_region, only: find_region, region_type
     use gapbeam_scene, only: gapbeam_both, gapbeam_live, gapbeam_dead, gapbeam_axial
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, way_unit
     implicit none
     private
     public :: find_beginning, find_movements, supports_move, has_dead_loads, has_dead_along, grow_dead_loads, find_rest
@@ -52,7 +52,7 @@ contains
 
         do k = 1, size(movement)
             associate (s => assembled%model%supports(assembled%normal(k)))
-                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -assembled%units%deflection)
+                movement(k) = scale(s%settlement + s%side*min(s%gap, 0.0_wp), -way_unit(assembled, assembled%normal(k)))
             end associate
         end do
     end subroutine find_movements

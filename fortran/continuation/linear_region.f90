@@ -112,13 +112,14 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(lines_type) :: lines
         real(wp) :: springs
-        integer :: state, place, k
+        integer :: state, place, k, n
 
         call new_lines(beam, lines)
         ! A beam that stays free to move stays where it is
         lines%dead%proximal_weight = weaker_springs*work%proximal_weight
         lines%live%proximal_weight = lines%dead%proximal_weight
-        lines%dead%reference = work%answers%deflection
+        n = size(beam%links)
+        lines%dead%reference(:) = work%answers(0:n)%deflection
         call solve_and_refine(beam, region%closed, lines%dead, state, place)
         if (state == band_ok) call solve_and_refine(lines%incremental, region%closed, lines%live, state, place)
         if (state /= band_ok) then
@@ -128,7 +129,8 @@ contains
         end if
         region%solves = region%solves + 2
         associate (dead => lines%dead, live => lines%live)
-            springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers%deflection) + abs(live%answers%deflection)))
+            springs = sum(dead%proximal_weight*(abs(dead%reference - dead%answers(0:n)%deflection) &
+                                                + abs(live%answers(0:n)%deflection)))
         end associate
         do k = 1, size(region%closed)
             region%responses(k) = response_of(beam, region%closed, k, lines)

@@ -14,6 +14,7 @@ module gapbeam_outgoing_directions
     use gapbeam_polyline_quad, only: node_support_type, coincide
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model_quad, only: beam_type
+    use gapbeam_turning_quad, only: turn_with
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_region_responses, only: responses_type, outgoing_type, solve_responses, find_falling, find_index, &
         is_held_twice, rise, fall, turn, from_nowhere
@@ -152,6 +153,7 @@ contains
         do sign = 1, -1, -2
             y(:) = 0.0_wp
             y(motions(1)%first:motions(1)%last) = sign*motions(1)%displacement
+            call turn_with(beam, y)
             leads = .true.
             moves = .false.
             touched(:) = .false.

@@ -5,7 +5,7 @@ module gapbeam_region_responses
     use gapbeam_band_quad, only: band_ok
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
     use gapbeam_law_margins_quad, only: is_watched_in
-    use gapbeam_model_quad, only: beam_type
+    use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_system_quad, only: solve_and_refine
     use gapbeam_pivoting_quad, only: count_unstable
     use gapbeam_affine_response_quad, only: lines_type, new_lines, response_type, response_of, value_at, width_at
@@ -123,7 +123,7 @@ contains
         integer :: i
 
         twice = .false.
-        do i = 0, size(beam%links)
+        do i = 0, last_place(beam)
             associate (first => beam%first(i), last => beam%first(i + 1) - 1)
                 if (last > first) twice = vertical_pieces(beam%supports, closed, beam%order(first:last)) > 1
             end associate
@@ -143,7 +143,8 @@ contains
         logical :: acts
 
         index = 0
-        if (any(responses%dead%nodes%stiffness < 0.0_wp)) call count_unstable(responses%dead%nodes, beam%links, index)
+        if (any(responses%dead%nodes%stiffness < 0.0_wp)) call count_unstable(responses%dead%nodes(0:size(beam%links)), &
+                                                                              beam%links, index)
         do k = 1, size(closed)
             if (beam%supports(k)%breakpoint == 0) cycle
             call piece_that_acts(beam%supports, closed, k, acts, slope)

@@ -26,12 +26,12 @@ module gapbeam_band
     use gapbeam_tolerances, only: pivot_digits
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_nodes, only: plain, hinge, restrained
+    use gapbeam_nodes, only: plain, hinge, restrained, jointed
     implicit none
     private
     public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, count_unstable_pivots
     public :: band_ok, band_mechanism, band_needs_pivoting, band_stopped
-    public :: plain, hinge, restrained
+    public :: plain, hinge, restrained, jointed
     ! For gapbeam_band_substitution, and for gapbeam_foundation_chain, which eliminates likewise
     public :: full, w_known, m_known, both_known, statics, end_of_beam
 
@@ -40,13 +40,13 @@ module gapbeam_band
 
     !> A node as the contact state at hand sees it
     type :: node_type
-        !> plain, hinge or restrained
+        !> plain, hinge, restrained or jointed
         integer :: kind = plain
         !> Deflection known: a rigid support acts
         logical :: held = .false.
         !> Sum of the stiffnesses of the elastic supports that act, force/length
         real(wp) :: stiffness = 0.0_wp
-        !> Compliance of the rotational restraint, rad/(force length); 0 is a clamp; used if restrained
+        !> Compliance of the rotational restraint or of the joint, rad/(force length); 0 is a clamp; used if restrained or jointed
         real(wp) :: compliance = 0.0_wp
     end type node_type
 
@@ -58,7 +58,7 @@ module gapbeam_band
         real(wp) :: shear = 0.0_wp
         !> Known deflection where held
         real(wp) :: deflection = 0.0_wp
-        !> Applied couple, clockwise
+        !> Applied couple, clockwise; of a hinge the moment in it
         real(wp) :: couple = 0.0_wp
     end type rhs_type
 

@@ -11,8 +11,8 @@
 module gapbeam_foundation_chain
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, band_ok, band_mechanism, &
-        band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam
+    use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, jointed, band_ok, &
+        band_mechanism, band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam
     use gapbeam_foundation, only: stretch_link_type
     implicit none
     private

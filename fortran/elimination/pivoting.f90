@@ -7,7 +7,7 @@ module gapbeam_pivoting
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: pivot_hair
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained
+    use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained, jointed
     use gapbeam_band_solver, only: solve_band
     implicit none
     private
@@ -45,7 +45,7 @@ contains
             if (right(i) /= left(i)) then
                 answers(i)%moment_right = x(right(i))
             else
-                answers(i)%moment_right = x(left(i)) + rhs(i)%couple
+                answers(i)%moment_right = x(left(i)) + jump(nodes, rhs, i)
             end if
         end do
         ! The outer sides of the two ends carry no moment; the unknown there is the inner one
@@ -171,9 +171,11 @@ contains
                     call put(left(i), left(i), 1.0_wp)
                     if (i == 0) b(left(i)) = r%couple
                     if (i == n) b(left(i)) = -r%couple
+                    if (i > 0 .and. i < n) b(left(i)) = r%couple
                 else
                     call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
                     call add_rotation(left(i), i + 1, -1.0_wp, links(i + 1)%faa, links(i + 1)%fab)
+                    if (node%kind == jointed) call put(left(i), left(i), -node%compliance)
                     b(left(i)) = b(left(i)) + r%left + r%right
                 end if
             end associate
@@ -234,7 +236,7 @@ contains
         real(wp) :: couple
 
         couple = 0.0_wp
-        if (nodes(k)%kind /= restrained .and. k > 0) couple = rhs(k)%couple
+        if (all(nodes(k)%kind /= [restrained, hinge]) .and. k > 0) couple = rhs(k)%couple
     end function jump
 
 end module gapbeam_pivoting

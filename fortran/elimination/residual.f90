@@ -8,7 +8,8 @@ module gapbeam_residual
     use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
+    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained, jointed
+    use gapbeam_nodes, only: is_through
     implicit none
     private
     public :: residual_chain, residual_inside, size_type
@@ -91,14 +92,18 @@ contains
                     s%left = left%size_of_psi + abs(turn) + abs(b%left)
                     s%right = right%size_of_psi + abs(turn) + abs(b%right)
                     compatibility = max(compatibility, abs(r%left), abs(r%right))
-                else if (node%kind == plain .and. i > 0 .and. i < n) then
+                else if (is_through(node%kind) .and. i > 0 .and. i < n) then
                     high = right%psi
                     low = right%psi_low
                     call subtract(high, low, left%psi, left%psi_low)
                     call add(high, low, b%left)
                     call add(high, low, b%right)
-                    r%right = high + low
                     s%right = left%size_of_psi + right%size_of_psi + abs(b%left) + abs(b%right)
+                    if (node%kind == jointed) then
+                        call add_product(high, low, node%compliance, a%moment_left)
+                        s%right = s%right + node%compliance*abs(a%moment_left)
+                    end if
+                    r%right = high + low
                     compatibility = max(compatibility, abs(r%right))
                 end if
                 largest_turn = max(largest_turn, s%left, s%right)

@@ -233,7 +233,7 @@ contains
         bars = 0
         if (allocated(beam%lowered%axial%flexibility)) bars = size(beam%lowered%axial%flexibility)
         same = size(state%closed) == size(beam%lowered%normal) .and. size(state%starts) == size(beam%lowered%pieces) &
-            .and. size(state%deflection) == size(beam%lowered%node_point) .and. size(state%tension) == bars
+            .and. size(state%moment_left) == size(beam%lowered%node_point) .and. size(state%tension) == bars
     end function fits
 
     !> Refuse arrays of another size than expected

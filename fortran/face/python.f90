@@ -187,6 +187,7 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
     use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_units, only: rotation_unit, moment_unit
     use gapbeam_assembled_model, only: point_x, piece_length, in_bending, in_shear
+    use gapbeam_model, only: node_of_support
     use gapbeam_piece_stiffness, only: least_stiffness_of
     use gapbeam_assemble_supports, only: contact_level
     implicit none
@@ -231,7 +232,7 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
         force = scale(lowered%beam%force, units%force)
         couple = scale(lowered%beam%couple, moment_unit(units))
         snode = 0
-        snode(:ns) = lowered%beam%supports%node
+        snode(:ns) = [(node_of_support(lowered%beam, k), k=1, ns)]
         level = 0.0d0
         do k = 1, nm
             if (lowered%model%supports(k)%direction /= 0) cycle

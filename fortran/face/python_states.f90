@@ -82,7 +82,7 @@ subroutine gbsget(state, nl, ns, nb, w, ml, mr, shear, react, motion, u, pull)
     associate (s => solved%result%state)
         if (allocated(s%motion)) motion = s%motion
         if (s%status /= gapbeam_solved) return
-        w = s%deflection
+        w = s%deflection(0:nl)
         ml = s%moment_left
         mr = s%moment_right
         shear = s%shear
@@ -256,6 +256,23 @@ subroutine gbslop(beam, state, n, slope)
         end do
     end associate
 end subroutine gbslop
+
+! Elastic energies of the supports that yield, in a state on a loading history, in the scene's units
+subroutine gbstor(beam, state, nm, energy)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_support_values, only: stored_energies
+    implicit none
+    integer(8), intent(in) :: beam, state
+    ! Supports of the scene
+    integer, intent(in) :: nm
+    double precision, intent(out) :: energy(nm + 1)
+    type(handle_type), pointer :: handle, solved
+
+    handle => behind(beam)
+    solved => behind(state)
+    energy(nm + 1) = 0.0d0
+    call stored_energies(handle%beam%lowered, solved%result%state, energy(:nm))
+end subroutine gbstor
 
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)

@@ -7,11 +7,12 @@
 module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: most_left_out, everywhere, audit_allows
-    use gapbeam_nodes, only: hinge, restrained
-    use gapbeam_band, only: answer_type
+    use gapbeam_nodes, only: hinge, restrained, jointed
+    use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: is_plainly_right, force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: beam_type, softest
+    use gapbeam_turning, only: apply_turning, find_turning
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_supports, of_restraints, rotations, moments, &
         forces, deflections, beyond, pulls, kinds
@@ -22,7 +23,7 @@ module gapbeam_audit
 contains
 
     !> Audit a solution of a beam
-    subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
+    recursive subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> The scheme, and which supports may have either state, shape (m)
@@ -45,10 +46,14 @@ contains
         real(wp) :: passed, passed_size, farthest, most_load, limit, least(kinds)
         integer :: i, j, n
 
-        n = ubound(answers, 1)
+        n = size(beam%links)
+        if (allocated(beam%turning)) then
+            call audit_turning()
+            return
+        end if
         limit = audit_allows*epsilon(1.0_wp)
         if (present(measured)) limit = merge(0.0_wp, limit, measured)
-        farthest = maxval(abs(answers%deflection))
+        farthest = maxval(abs(answers(:n)%deflection))
         least(:) = -1.0_wp
         before = 0.0_wp
         before_size = 0.0_wp
@@ -96,13 +101,18 @@ contains
                     if (i > 0) call hold(of_restraints, rotations, before - turn, before_size + turn_size)
                     if (i < n) call hold(of_restraints, rotations, after - turn, after_size + turn_size)
                 else if (beam%kind(i) == hinge) then
-                    call hold(of_equilibrium, moments, max(abs(a%moment_left), abs(a%moment_right)), 0.0_wp)
+                    call hold(of_equilibrium, moments, max(abs(a%moment_left - r%couple), abs(a%moment_right - r%couple)), &
+                              abs(r%couple))
                 else
                     turn_size = abs(a%moment_left) + abs(a%moment_right) + abs(r%couple)
                     if (.not. abs(jump) <= limit*turn_size) call hold(of_equilibrium, moments, jump, turn_size)
                     if (i > 0 .and. i < n) then
                         turn = after - before
                         turn_size = after_size + before_size
+                        if (beam%kind(i) == jointed) then
+                            turn = turn + beam%compliance(i)*a%moment_left
+                            turn_size = turn_size + beam%compliance(i)*abs(a%moment_left)
+                        end if
                         if (.not. abs(turn) <= limit*turn_size) call hold(of_bending, rotations, turn, turn_size)
                     end if
                 end if
@@ -119,6 +129,81 @@ contains
         call hold(of_equilibrium, moments, answers(n)%moment_right, 0.0_wp)
 
     contains
+
+        !> The same where supports hold rotations: the beam with what they do as couples, restraints and joints, then their laws
+        subroutine audit_turning()
+            type(beam_type) :: without
+            type(workspace_type) :: loaded
+            type(node_type), allocatable :: nodes(:)
+            type(rhs_type), allocatable :: rhs(:)
+            type(answer_type), allocatable :: turned(:)
+            real(wp), allocatable :: level(:), turn_size(:), couple(:), couple_size(:)
+            integer :: v
+
+            farthest = maxval(abs(answers(:n)%deflection))
+            allocate (nodes(0:n + size(beam%turning)), rhs(0:n + size(beam%turning)), turned(0:n + size(beam%turning)))
+            allocate (level(0:n + size(beam%turning)))
+            allocate (turn_size(size(beam%turning)), couple(size(beam%turning)), couple_size(size(beam%turning)))
+            nodes(0:n)%kind = beam%kind
+            nodes(0:n)%compliance = beam%compliance
+            rhs(0:n) = work%loads(0:n)
+            level(:) = 0.0_wp
+            call apply_turning(beam, closed, [0, n], nodes, rhs, level)
+            turned(0:n) = answers(0:n)
+            call find_turning(beam, nodes, rhs, work%loads, work%turn_size, turned, turn_size, couple, couple_size)
+            without = beam
+            deallocate (without%turning)
+            without%kind(:) = nodes(0:n)%kind
+            without%compliance(:) = nodes(0:n)%compliance
+            loaded = work
+            loaded%loads(0:n) = rhs(0:n)
+            call audit_beam(without, closed, undecided, floats, leeway, answers(0:n), shear, reaction, loaded, ledger, measured)
+            do v = n + 1, n + size(beam%turning)
+                call audit_rotation(beam%turning(v - n), beam%order(beam%first(v):beam%first(v + 1) - 1), turned(v)%deflection, &
+                                    turn_size(v - n), couple(v - n), couple_size(v - n))
+            end do
+        end subroutine audit_turning
+
+        !> Are the supports of a rotation on their laws, in the right states, and is the couple theirs
+        subroutine audit_rotation(at, numbers, rotation, rotation_size, couple, couple_size)
+            !> Node of the beam, and the numbers of the supports
+            integer, intent(in) :: at, numbers(:)
+            real(wp), intent(in) :: rotation, rotation_size, couple, couple_size
+            real(wp) :: force, rounding, margin, of_couple, of_rotation, bent
+            logical :: acts, rigid, by_force
+            integer :: j, k
+
+            ! Couples that are nothing but rounding, of what holds links straight or of the largest load, may have been left out
+            bent = 0.0_wp
+            if (at > 0) bent = forced(at)*beam%links(at)%length
+            if (at < n) bent = bent + forced(at + 1)*beam%links(at + 1)%length
+            of_couple = couple_size + everywhere*(maxval(abs(answers(:n)%moment_left)) + bent)
+            if (.not. abs(sum(reaction(numbers))) > 0.0_wp) then
+                of_couple = of_couple + most_left_out/epsilon(1.0_wp)*(maxval(work%load_size)*maxval(beam%links%length) + bent)
+            end if
+            of_rotation = rotation_size + everywhere*maxval(abs(answers(:n)%deflection))*maxval(beam%links%inverse)
+            call note(ledger, of_equilibrium, moments, couple - sum(reaction(numbers)), of_couple + sum(abs(reaction(numbers))), &
+                      at, 0.0_wp)
+            do j = 1, size(numbers)
+                k = numbers(j)
+                associate (supports => beam%supports)
+                    call force_by_spring(supports, closed, k, rotation, of_rotation, acts, rigid, force, rounding)
+                    if (acts .and. rigid) then
+                        call note(ledger, of_supports, rotations, rotation - supports(k)%contact, of_rotation, at, 0.0_wp)
+                    else
+                        call note(ledger, of_supports, moments, reaction(k) - force, of_couple + rounding/epsilon(1.0_wp), at, &
+                                  0.0_wp)
+                    end if
+                    if (undecided(k) .or. .not. is_watched_in(supports, closed, k)) cycle
+                    if (supports(k)%breakpoint > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) cycle
+                    call margin_in_scheme(supports, closed, k, rotation, of_rotation, reaction, reaction, margin, rounding, &
+                                          by_force)
+                    if (margin >= 0.0_wp) cycle
+                    call note(ledger, of_supports, merge(pulls, beyond, by_force), margin, &
+                              leeway*merge(of_couple, rounding/epsilon(1.0_wp), by_force), at, 0.0_wp)
+                end associate
+            end do
+        end subroutine audit_rotation
 
         !> Note what is left over of a sum at node i
         subroutine hold(what, kind, left, terms)

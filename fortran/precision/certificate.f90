@@ -75,11 +75,12 @@ contains
         type(fine_workspace_type) :: work
         type(outcome_type) :: outcome
         real(wp) :: springs
-        logical, allocatable :: acting(:), undecided(:)
+        logical, allocatable :: acting(:), undecided(:), pushes(:)
         real(qp), allocatable :: moment_size(:)
         real(wp) :: moves(5), inside
-        integer :: state, place
+        integer :: state, place, n
 
+        n = size(beam%links)
         allocate (acting(size(closed)))
         acting(:) = closed
         call refine_loaded_beam(beam, detail, real(factor, qp), fine, work)
@@ -101,21 +102,24 @@ contains
         call find_movements(beam, factor, closed, work, deflection, moment_left, moment_right, length_error, moves, inside)
         call compare_fields(detail, factor, fine, work, starts, certificate)
         associate (a => work%answers)
-            moment_size = work%shear_size*maxval(fine%links%length)
-            certificate%of_nodes = difference(a%deflection, deflection, work%deflection_size) &
-                + epsilon(1.0_wp)*maxval(abs(deflection)) + moves(of_deflections)
-            if (size(reaction) > 0) certificate%reaction = difference(work%reaction, reaction, work%shear_size) &
-                + epsilon(1.0_wp)*maxval(abs(reaction)) + moves(of_reactions)
+            moment_size = work%shear_size(:n)*maxval(fine%links%length)
+            certificate%of_nodes = difference(a(:n)%deflection, deflection(:n), work%deflection_size(:n)) &
+                + epsilon(1.0_wp)*maxval(abs(deflection(:n))) + moves(of_deflections)
+            ! Couples are bounded by the moments beside them
+            pushes = beam%supports%node <= n
+            if (any(pushes)) certificate%reaction = difference(pack(work%reaction, pushes), pack(reaction, pushes), &
+                                                               work%shear_size(:n)) &
+                + epsilon(1.0_wp)*maxval(abs(reaction), pushes) + moves(of_reactions)
             certificate%deflection = max(certificate%deflection + inside, certificate%of_nodes)
-            certificate%moment = max(certificate%moment, difference(a%moment_left, moment_left, moment_size), &
-                                     difference(a%moment_right, moment_right, moment_size))
+            certificate%moment = max(certificate%moment, difference(a(:n)%moment_left, moment_left, moment_size), &
+                                     difference(a(:n)%moment_right, moment_right, moment_size))
             certificate%rotation = certificate%rotation + moves(of_rotations)
             certificate%moment = certificate%moment + moves(of_moments)
             ! Weak springs of a beam that is free to move are a load that it does not have
-            springs = movement_safety*real(sum(work%proximal_weight*abs(work%reference - a%deflection)), wp)
+            springs = movement_safety*real(sum(work%proximal_weight*abs(work%reference - a(:n)%deflection)), wp)
             certificate%reaction = certificate%reaction + springs
             certificate%moment = certificate%moment + springs*real(sum(fine%links%length), wp)
-            certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size), wp)
+            certificate%shear = certificate%shear + springs + moves(of_shears) + real(fine_error*maxval(work%shear_size(:n)), wp)
         end associate
         call measure_residuals(beam, factor, closed, undecided, deflection, moment_left, moment_right, reaction, certificate)
         if (certificate%known) return
@@ -139,9 +143,9 @@ contains
         n = size(beam%links)
         call new_plain_workspace(beam, work)
         call set_plain_loads(beam, factor, work)
-        work%answers%deflection = deflection
-        work%answers%moment_left = moment_left
-        work%answers%moment_right = moment_right
+        work%answers(:n)%deflection = deflection(:n)
+        work%answers(:n)%moment_left = moment_left
+        work%answers(:n)%moment_right = moment_right
         call audit_beam(beam, closed, undecided, .not. certificate%known, 1.0_wp, work%answers, &
                         (moment_left(1:) - moment_right(:n - 1))*beam%links%inverse, reaction, work, ledger, measured=.true.)
         residuals = audit_residuals(ledger)
@@ -166,22 +170,23 @@ contains
         type(sensitivity_type) :: sensitivity
         real(wp), allocatable :: off(:)
         real(wp) :: turns, bends, of_shear, of_reaction
-        integer :: kind, i
+        integer :: kind, i, n
 
+        n = size(beam%links)
         moves(:) = 0.0_wp
         inside = 0.0_wp
         call new_plain_workspace(beam, work)
         work%proximal_weight(:) = real(fine_work%proximal_weight, wp)
-        work%reference(:) = deflection
+        work%reference(:) = deflection(:n)
         call set_plain_loads(beam, factor, work)
-        call apply_scheme(beam, closed, [0, size(beam%links)], work)
-        work%answers%deflection = deflection
-        work%answers%moment_left = moment_left
-        work%answers%moment_right = moment_right
+        call apply_scheme(beam, closed, [0, n], work)
+        work%answers(:n)%deflection = deflection(:n)
+        work%answers(:n)%moment_left = moment_left
+        work%answers(:n)%moment_right = moment_right
         call prepare_sensitivity(beam, factor, work, sensitivity)
         if (.not. sensitivity%known) return
         call add_lengths(beam, factor, length_error, work, sensitivity, of_shear, of_reaction)
-        if (any(abs(deflection) > 0.0_wp)) call add_forces(work, real(fine_error*maxval(fine_work%shear_size), wp), sensitivity)
+        if (any(abs(deflection) > 0.0_wp)) call add_forces(work, real(fine_error*maxval(fine_work%shear_size(:n)), wp), sensitivity)
         do kind = 1, size(moves)
             call largest_movement(beam, sensitivity, kind, work, moves(kind))
         end do
@@ -252,6 +257,7 @@ contains
         end do
         of_reaction = 0.0_wp
         do i = 1, size(beam%supports)
+            if (beam%supports(i)%node > n) cycle
             associate (k => beam%supports(i)%node)
                 of_reaction = max(of_reaction, error(k) + epsilon(1.0_wp)*merge(0.0_wp, rounding(k), work%nodes(k)%held))
             end associate
@@ -284,13 +290,14 @@ contains
         type(certificate_type), intent(inout) :: certificate
         type(fine_field_type), allocatable :: fields(:)
         type(field_type) :: change
-        integer :: j
+        integer :: j, n
 
+        n = size(fine%links)
         allocate (fields(size(starts)))
         associate (a => work%answers)
             call recover_beam(fine_piece(detail%pieces), fine_load(detail%dead), fine_load(detail%live), real(factor, qp), &
-                              fine%links, detail%last, fine%kind, a%deflection, a%moment_left, a%moment_right, work%shear, &
-                              fields)
+                              fine%links, detail%last, fine%kind, a(:n)%deflection, a(:n)%moment_left, a(:n)%moment_right, &
+                              work%shear, fields)
         end associate
         do j = 1, size(starts)
             associate (f => fields(j), s => starts(j))

@@ -223,7 +223,7 @@ contains
         type(workspace_type), intent(inout) :: work
 
         associate (a => fine_work%answers)
-            work%answers%deflection = real(a%deflection, wp)
+            work%answers%deflection = real(a%deflection, wp)  ! and rotations
             work%answers%moment_left = real(a%moment_left, wp)
             work%answers%moment_right = real(a%moment_right, wp)
         end associate

@@ -35,7 +35,7 @@ contains
         integer :: k, flips, ties, state, place
 
         known = .true.
-        if (has_laws(beam%supports) .or. allocated(beam%ground)) return
+        if (has_laws(beam%supports) .or. allocated(beam%ground) .or. allocated(beam%turning)) return
         k = first_wrong(beam, closed, work)
         if (k == 0) return
         allocate (is_tie(size(closed)), flipped(size(closed)), other)

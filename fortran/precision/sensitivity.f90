@@ -8,14 +8,16 @@
 module gapbeam_sensitivity
     use gapbeam_kinds, only: wp, dp
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: rhs_type, answer_type, factor_chain, plain, restrained, band_mechanism, band_needs_pivoting
+    use gapbeam_nodes, only: is_through
+    use gapbeam_band, only: rhs_type, answer_type, factor_chain, restrained, band_mechanism, band_needs_pivoting
     use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain
     use gapbeam_pivoting, only: solve_pivoting
     use gapbeam_law_margins, only: margin_rates
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, node_of_support
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_functionals, only: add_functional, functional_of, effects, of_deflections, of_moments, of_shears, of_reactions
+    use gapbeam_functionals, only: add_functional, functional_of, effects, of_deflections, of_rotations, of_moments, &
+        of_shears, of_reactions
     implicit none
     private
     public :: sensitivity_type, prepare_sensitivity, add_forces, largest_movement, movement_of_support, way_of_forces
@@ -48,12 +50,12 @@ contains
 
         n = size(beam%links)
         state = band_needs_pivoting
-        if (.not. any(work%nodes%stiffness < 0.0_wp)) call factor_chain(work%nodes, beam%links, work%pivots, state, place)
+        if (.not. any(work%nodes%stiffness < 0.0_wp)) call factor_chain(work%nodes(0:n), beam%links, work%pivots, state, place)
         if (state == band_mechanism) return
         sensitivity%known = .true.
         sensitivity%pivoting = state == band_needs_pivoting
-        call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, compatibility, &
-                            equilibrium)
+        call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, work%sizes, &
+                            compatibility, equilibrium)
         call add_load_sizes(beam, factor, work)
         call add_couple_sizes(beam, factor, work, sensitivity)
         allocate (sensitivity%weight(4, 0:n))
@@ -112,9 +114,9 @@ contains
             couple = dot_product([1.0_wp, abs(factor)], abs(beam%couple(:, i)))
             if (.not. couple > 0.0_wp) cycle
             sensitivity%of_couple = max(sensitivity%of_couple, epsilon(1.0_dp)*couple)
-            if (beam%kind(i) == restrained) then
-                call add_turn(i, .true., work, beam%compliance(i)*couple)
-                call add_turn(i, .false., work, beam%compliance(i)*couple)
+            if (work%nodes(i)%kind == restrained) then
+                call add_turn(i, .true., work, work%nodes(i)%compliance*couple)
+                call add_turn(i, .false., work, work%nodes(i)%compliance*couple)
             else
                 associate (k => min(i + 1, n))
                     associate (link => beam%links(k), a => work%sizes(k - 1), b => work%sizes(k))
@@ -138,9 +140,9 @@ contains
             real(wp), intent(in) :: turn
 
             associate (s => work%sizes(k))
-                if (beam%kind(k) == restrained .and. left) then
+                if (work%nodes(k)%kind == restrained .and. left) then
                     s%left = s%left + turn
-                else if (beam%kind(k) == restrained .or. (beam%kind(k) == plain .and. k > 0 .and. k < n)) then
+                else if (work%nodes(k)%kind == restrained .or. (is_through(work%nodes(k)%kind) .and. k > 0 .and. k < n)) then
                     s%right = s%right + turn
                 end if
             end associate
@@ -154,7 +156,9 @@ contains
         real(wp), intent(in) :: force
         type(sensitivity_type), intent(inout) :: sensitivity
 
-        where (.not. work%nodes%held) sensitivity%weight(3, :) = sensitivity%weight(3, :) + force
+        associate (nodes => work%nodes(:ubound(sensitivity%weight, 2)))
+            where (.not. nodes%held) sensitivity%weight(3, :) = sensitivity%weight(3, :) + force
+        end associate
     end subroutine add_forces
 
     !> The most that any node moves where forces are off, and nothing else
@@ -230,7 +234,7 @@ contains
             integer :: i
 
             do i = 0, n
-                call add_functional(beam, work%nodes, kind, i, x(4*i + 1:4*i + 4), rhs)
+                call add_functional(beam, work%nodes(0:n), kind, i, x(4*i + 1:4*i + 4), rhs)
             end do
             result(:) = rhs
         end subroutine spread
@@ -246,7 +250,7 @@ contains
         pure function weighed() result(image)
             real(wp) :: image(4, 0:n)
 
-            image = effects(beam, work%nodes, result, work%correction)*sensitivity%weight
+            image = effects(beam, work%nodes(0:n), result, work%correction)*sensitivity%weight
         end function weighed
 
         !> Rows weighted, as a right-hand side
@@ -266,7 +270,7 @@ contains
             integer :: i
 
             do i = 0, n
-                x(4*i + 1:4*i + 4) = functional_of(beam, work%nodes, kind, i, work%correction)
+                x(4*i + 1:4*i + 4) = functional_of(beam, work%nodes(0:n), kind, i, work%correction)
             end do
         end subroutine take
 
@@ -289,20 +293,57 @@ contains
         allocate (rhs(0:size(beam%links)))
         i = beam%supports(k)%node
         call margin_rates(beam%supports, closed, k, rate, level, is_force)
-        associate (by_force => is_force .and. work%nodes(i)%held)
-            call add_functional(beam, work%nodes, merge(of_reactions, of_deflections, by_force), i, &
-                                [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
+        associate (by_force => is_force .and. work%nodes(i)%held, n => size(beam%links))
+            if (i > n) then
+                call add_turn(i, by_force)
+                i = node_of_support(beam, k)
+            else
+                call add_functional(beam, work%nodes(0:n), merge(of_reactions, of_deflections, by_force), i, &
+                                    [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
+            end if
             allocate (result(0:size(beam%links)))
             result(:) = rhs
             call solve_again(beam%links, sensitivity, work, rhs, regular)
-            movement = sum(sensitivity%weight*abs(effects(beam, work%nodes, result, work%correction)))
-            if (by_force) then
+            movement = sum(sensitivity%weight*abs(effects(beam, work%nodes(0:n), result, work%correction)))
+            if (by_force .and. i < beam%supports(k)%node) then
+                movement = movement + sensitivity%of_couple
+            else if (by_force) then
                 movement = movement + epsilon(1.0_dp)*work%sizes(i)%shear
             else
                 movement = rate*movement + rate*epsilon(1.0_dp)*level
             end if
         end associate
         if (.not. regular) movement = huge(movement)
+
+    contains
+
+        !> The rotation that a support holds, or its couple
+        subroutine add_turn(v, couple)
+            integer, intent(in) :: v
+            logical, intent(in) :: couple
+            real(wp) :: share(4)
+            integer :: j
+
+            j = v - size(beam%links)
+            share(:) = 0.0_wp
+            associate (at => beam%turning(j), nodes => work%nodes(0:size(beam%links)))
+                if (couple .or. work%nodes(v)%stiffness > 0.0_wp) then
+                    ! Of a spring the rotation is its couple over its stiffness
+                    share(1:2) = merge([1.0_wp, 0.0_wp], [1.0_wp, -1.0_wp], beam%relative(j))
+                    if (.not. couple) share(:) = share/work%nodes(v)%stiffness
+                    call add_functional(beam, nodes, of_moments, at, share, rhs)
+                else if (at == size(beam%links)) then
+                    share(2) = 1.0_wp
+                    call add_functional(beam, nodes, of_rotations, at - 1, share, rhs)
+                else
+                    share(1) = merge(-1.0_wp, 1.0_wp, beam%relative(j))
+                    call add_functional(beam, nodes, of_rotations, at, share, rhs)
+                    if (.not. beam%relative(j)) return
+                    call add_functional(beam, nodes, of_rotations, at - 1, [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp], rhs)
+                end if
+            end associate
+        end subroutine add_turn
+
     end subroutine movement_of_support
 
     !> K^-1 times a right-hand side, into the correction
@@ -316,9 +357,9 @@ contains
         work%correction = answer_type()
         regular = .true.
         if (sensitivity%pivoting) then
-            call solve_pivoting(work%nodes, links, rhs, work%correction, regular)
+            call solve_pivoting(work%nodes(0:size(links)), links, rhs, work%correction, regular)
         else
-            call solve_chain(work%nodes, links, work%pivots, rhs, work%correction)
+            call solve_chain(work%nodes(0:size(links)), links, work%pivots, rhs, work%correction)
         end if
     end subroutine solve_again
 

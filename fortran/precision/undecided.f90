@@ -33,7 +33,7 @@ contains
         call find_margins(fine%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
                           margin, rounding)
         ! Rounding of the loads alone moves the beam so far: what has no flexibility shows nothing of it
-        force = epsilon(1.0_qp)*maxval(work%shear_size)
+        force = epsilon(1.0_qp)*maxval(work%shear_size(:size(fine%links)))
         call compare(force/softest(fine))
         if (.not. any(undecided)) return
         call prepare_sensitivity(fine, factor, work, sensitivity)
@@ -56,13 +56,16 @@ contains
         subroutine compare(least_way)
             !> How far rounding of the loads moves the beam
             real(qp), intent(in) :: least_way
-            real(qp) :: least_force
+            real(qp) :: least_force, turns
 
             wide(:) = rounding
             do k = 1, size(closed)
                 undecided(k) = .false.
                 if (.not. is_watched_in(fine%supports, closed, k)) cycle
-                if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) wide(k) = max(wide(k), least_way/fine_width)
+                if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) then
+                    turns = merge(maxval(fine%links%inverse), 1.0_qp, fine%supports(k)%node > size(fine%links))
+                    wide(k) = max(wide(k), turns*least_way/fine_width)
+                end if
                 ! What is held stiffly beside a soft spring may move it by rounding
                 least_force = epsilon(1.0_qp)*work%shear_size(fine%supports(k)%node)
                 if (closed(k)) wide(k) = max(wide(k), least_force)

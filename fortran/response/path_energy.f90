@@ -76,7 +76,7 @@ contains
                          - live%kink_b*there%moment)
             end associate
         end do
-        do i = 0, ubound(state%deflection, 1)
+        do i = 0, ubound(state%moment_left, 1)
             associate (force => assembled%beam%force(2, i), couple => assembled%beam%couple(2, i), point => assembled%node_point(i))
                 call add(parts, force*state%deflection(i))
                 if (.not. abs(couple) > 0.0_wp) cycle

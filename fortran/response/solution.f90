@@ -8,12 +8,14 @@ module gapbeam_solution
     use gapbeam_input_error, only: refuse_range
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
+    use gapbeam_assembled_model, only: assembled_type, growth_of, turns, way_unit, push_unit, point_x
+    use gapbeam_model, only: last_place
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_units, only: name_farthest
     implicit none
     private
-    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, way_to_contact, has_own_laws, laws_in
+    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, displacement_at, way_to_contact, &
+        has_own_laws, laws_in
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -67,8 +69,8 @@ contains
         m = size(assembled%beam%supports)
         bars = 0
         if (allocated(assembled%axial%point)) bars = ubound(assembled%axial%point, 1)
-        allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:n), state%moment_left(0:n), &
-                  state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
+        allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:last_place(assembled%beam)), &
+                  state%moment_left(0:n), state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
                   state%axial_reaction(0:bars), state%tension(bars), state%starts(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
@@ -132,7 +134,7 @@ contains
 
         if (clearly_in_range(assembled, state)) return
         associate (units => assembled%units, axial => assembled%axial)
-            do i = 0, ubound(state%deflection, 1)
+            do i = 0, ubound(state%moment_left, 1)
                 call check_finite(state%deflection(i), units%deflection, "deflection", "length", assembled%node_point(i))
                 call check_finite(state%moment_left(i), moment_unit(units), "moment", "force", assembled%node_point(i))
                 call check_finite(state%moment_right(i), moment_unit(units), "moment", "force", assembled%node_point(i))
@@ -145,11 +147,11 @@ contains
             do k = 1, size(assembled%model%supports)
                 j = assembled%beam_support(k)
                 associate (point => assembled%support_point(k))
-                    if (j > 0) call check_finite(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), units%force, &
-                                                 "reaction of the support", "force", point)
+                    if (j > 0) call check_finite(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), &
+                                                 push_unit(assembled, k), "reaction of the support", "force", point)
                     if (assembled%model%supports(k)%side == 0) cycle
-                    call check_finite(way_to_contact(assembled, state, k), units%deflection, "opening of the support", "length", &
-                                      point)
+                    call check_finite(way_to_contact(assembled, state, k), way_unit(assembled, k), "opening of the support", &
+                                      "length", point)
                 end associate
             end do
             if (.not. allocated(axial%point)) return
@@ -223,10 +225,25 @@ contains
 
         moved = 0.0_wp
         if (allocated(assembled%growth)) moved = state%factor*assembled%growth(support)
-        associate (s => assembled%model%supports(support), node => assembled%node_of_point(assembled%support_point(support)))
-            way = s%side*(scale(contact_level(s) + moved, -assembled%units%deflection) - state%deflection(node))
+        associate (s => assembled%model%supports(support))
+            way = s%side*(scale(contact_level(s) + moved, -way_unit(assembled, support)) &
+                          - displacement_at(assembled, state, support))
         end associate
     end function way_to_contact
+
+    !> Deflection of the beam at a support of the model, or the rotation that it holds, in the engine's units
+    pure function displacement_at(assembled, state, support) result(displacement)
+        !> The beam, and its solved state
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: support
+        real(wp) :: displacement
+        integer :: place
+
+        place = assembled%node_of_point(assembled%support_point(support))
+        if (turns(assembled%model%supports(support))) place = assembled%beam%supports(assembled%beam_support(support))%node
+        displacement = state%deflection(place)
+    end function displacement_at
 
     !> Do supports of a state act otherwise than those of the beam without live loads
     pure function has_own_laws(assembled, state) result(it_has)

@@ -100,8 +100,10 @@ contains
         if (state%status /= gapbeam_solved) return
         state%undecided(:) = outcome%undecided
         state%deflection(:) = work%answers%deflection
-        state%moment_left(:) = work%answers%moment_left
-        state%moment_right(:) = work%answers%moment_right
+        associate (a => work%answers(0:size(beam%links)))
+            state%moment_left(:) = a%moment_left
+            state%moment_right(:) = a%moment_right
+        end associate
         state%shear(:) = work%shear
         state%reaction(:) = work%reaction
     end subroutine settle
@@ -294,7 +296,7 @@ contains
 
         associate (n => size(assembled%beam%links))
             call recover_beam(assembled%pieces, assembled%dead, assembled%live, state%factor, assembled%beam%links, &
-                              assembled%node_point(1:n), assembled%beam%kind, state%deflection, state%moment_left, &
+                              assembled%node_point(1:n), assembled%beam%kind, state%deflection(0:n), state%moment_left, &
                               state%moment_right, state%shear, starts)
         end associate
     end subroutine recover_state

@@ -1,18 +1,18 @@
-!> Reactions, openings and states of the supports in a solved state, in the user's units.
+!> Reactions, openings, states and elastic energies of the supports in a solved state, in the user's units.
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both
     use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_scene, only: gapbeam_axial
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_normal, gapbeam_rotational, gapbeam_relative, gapbeam_plastic
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit
     use gapbeam_smooth_laws, only: past_the_gap
-    use gapbeam_solution, only: state_type, couple_at_node, way_to_contact, laws_in
+    use gapbeam_solution, only: state_type, couple_at_node, displacement_at, way_to_contact, laws_in
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
     private
-    public :: support_values, friction_values, find_undecided
+    public :: support_values, friction_values, stored_energies, find_undecided
 
 contains
 
@@ -21,13 +21,14 @@ contains
         !> The beam, and its solved state
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
-        !> Force on the beam, up; of an axial support to the right, shape (nsupport)
+        !> Force on the beam, up; of an axial support to the right; couple of one that holds a rotation, counterclockwise, or the
+        !> sagging moment of a hinge, shape (nsupport)
         real(wp), intent(out) :: reaction(:)
-        !> Deflection of the beam there, down; at an axial support to the right, shape (nsupport)
+        !> Deflection of the beam there, down; at an axial support to the right; the rotation that one holds, shape (nsupport)
         real(wp), intent(out) :: deflection(:)
         !> Distance still to go until it acts, negative where the beam has gone past one without stiffness, shape (nsupport)
         real(wp), intent(out) :: opening(:)
-        !> Couple on the beam, clockwise, shape (nsupport)
+        !> Couple on the beam, clockwise; of what holds a rotation alone it is told at the support there, shape (nsupport)
         real(wp), intent(out) :: couple(:)
         !> gapbeam_open, gapbeam_closed or gapbeam_bilateral; of a support with a law gapbeam_open or gapbeam_branch plus the number
         !> of the piece, shape (nsupport)
@@ -53,20 +54,20 @@ contains
                         call value_along(assembled, state, k, reaction(k), deflection(k), opening(k), condition(k))
                         cycle
                     end if
-                    deflection(k) = scale(state%deflection(node), units%deflection)
                     j = assembled%beam_support(k)
+                    deflection(k) = scale(displacement_at(assembled, state, k), way_unit(assembled, k))
                     last = j
                     has_law = .false.
                     if (j > 0) then
                         last = last_breakpoint(beam%supports, j)
                         has_law = beam%supports(j)%breakpoint > 0
                         ! Of a law the breakpoint whose piece acts has the force
-                        reaction(k) = scale(sum(state%reaction(j:last)), units%force)
+                        reaction(k) = scale(sum(state%reaction(j:last)), push_unit(assembled, k))
                     end if
                     if (has_law) then
-                        call state_of_law(laws(j:last), s%side, state%closed(j:last), state%deflection(node), condition(k), &
-                                          opening(k))
-                        opening(k) = scale(opening(k), units%deflection)
+                        call state_of_law(laws(j:last), s%side, state%closed(j:last), displacement_at(assembled, state, k), &
+                                          condition(k), opening(k))
+                        opening(k) = scale(opening(k), way_unit(assembled, k))
                         if (is_smooth(s%law)) then
                             call past_the_gap(s, deflection(k), past, way)
                             opening(k) = max(0.0_wp, -past)
@@ -75,16 +76,39 @@ contains
                     else if (s%side /= both) then
                         condition(k) = gapbeam_open
                         if (j > 0) condition(k) = merge(gapbeam_closed, gapbeam_open, state%closed(j))
-                        opening(k) = scale(way_to_contact(assembled, state, k), units%deflection)
+                        opening(k) = scale(way_to_contact(assembled, state, k), way_unit(assembled, k))
                         ! The beam goes past a support without stiffness
                         if (j > 0) opening(k) = merge(0.0_wp, max(0.0_wp, opening(k)), state%closed(j))
+                    end if
+                    if (turns(s)) then
+                        ! The moment of a hinge is inside the beam
+                        if (s%direction /= gapbeam_relative) couple(k) = 0.0_wp - reaction(k)
+                        cycle
                     end if
                     if (.not. assembled%couple_share(k) > 0.0_wp) cycle
                     couple(k) = scale(couple_at_node(assembled, state, node)*assembled%couple_share(k), moment_unit(units))
                 end associate
             end do
         end associate
+        call give_couples(assembled, couple)
     end subroutine support_values
+
+    !> The couple of a support that holds the rotation alone is told of the one across the beam at its place, if there is one
+    pure subroutine give_couples(assembled, couple)
+        type(assembled_type), intent(in) :: assembled
+        real(wp), intent(inout) :: couple(:)
+        integer :: host, k
+
+        associate (s => assembled%model%supports, at => assembled%support_point)
+            do k = 1, size(couple)
+                if (s(k)%direction /= gapbeam_rotational) cycle
+                host = findloc(s%direction == gapbeam_normal .and. at == at(k), .true., 1)
+                if (host == 0) cycle
+                couple(host) = couple(host) + couple(k)
+                couple(k) = 0.0_wp
+            end do
+        end associate
+    end subroutine give_couples
 
     !> The same of a support along the beam
     pure subroutine value_along(assembled, state, k, reaction, deflection, opening, condition)
@@ -202,5 +226,58 @@ contains
             undecided(assembled%normal(j)) = undecided(assembled%normal(j)) .or. state%undecided(j)
         end do
     end subroutine find_undecided
+
+    !> Elastic energies of the supports with plastic unloading, 0 of others
+    pure subroutine stored_energies(assembled, state, energy)
+        !> The beam, and its solved state on a loading history
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> Force times length, or couple times angle, in the user's units, shape (nsupport)
+        real(wp), intent(out) :: energy(:)
+        type(node_support_type), allocatable :: now(:)
+        integer :: j, k, last
+
+        energy(:) = 0.0_wp
+        if (.not. any(assembled%with_law)) return
+        allocate (now, source=laws_in(assembled, state))
+        associate (given => assembled%model%supports)
+            do k = 1, size(energy)
+                j = assembled%beam_support(k)
+                if (j == 0 .or. .not. assembled%with_law(k) .or. given(k)%unloading /= gapbeam_plastic) cycle
+                last = last_breakpoint(now, j)
+                if (given(k)%side == both) then
+                    energy(k) = energy_of_sliders(now(j:last), displacement_at(assembled, state, k), sum(state%reaction(j:last)))
+                else if (now(j)%stiffness <= huge(1.0_wp)) then
+                    ! It goes back parallel to its first piece
+                    energy(k) = sum(state%reaction(j:last))**2/(2*now(j)%stiffness)
+                end if
+                energy(k) = scale(energy(k), push_unit(assembled, k) + way_unit(assembled, k))
+            end do
+        end associate
+    end subroutine stored_energies
+
+    !> Of springs with sliders side by side (Iwan 1966): spring i has the stiffness by which piece i is steeper than the next, and
+    !> its slider yields where the law bends; the last piece is a spring without slider
+    pure function energy_of_sliders(law, displacement, force) result(energy)
+        !> Breakpoints as they are now: where each spring yields one way, and in the opposite order the other way
+        type(node_support_type), intent(in) :: law(:)
+        !> Displacement of the support, and its force
+        real(wp), intent(in) :: displacement, force
+        real(wp) :: energy, stiffness, reach, stretch, rest
+        integer :: i, n
+
+        n = size(law)/2
+        energy = 0.0_wp
+        rest = force
+        do i = n + 1, 2*n
+            stiffness = law(i)%before - law(i)%stiffness
+            ! Half of the way from yielding one way to yielding the other, which never changes
+            reach = (law(i)%contact - law(2*n + 1 - i)%contact)/2
+            stretch = max(-reach, min(reach, reach - (law(i)%contact - displacement)))
+            energy = energy + stiffness*stretch**2/2
+            rest = rest - stiffness*stretch
+        end do
+        if (law(2*n)%stiffness > 0.0_wp) energy = energy + rest**2/(2*law(2*n)%stiffness)
+    end function energy_of_sliders
 
 end module gapbeam_support_values

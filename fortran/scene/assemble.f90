@@ -18,8 +18,8 @@ module gapbeam_assemble
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
-    use gapbeam_input_error, only: refuse, of_hinges, of_sections, of_foundations, of_loads, twice, no_stretch, at_hinge, &
-        bad_movement
+    use gapbeam_input_error, only: refuse, of_sections, of_foundations, of_loads, no_stretch, at_hinge, bad_movement
+    use gapbeam_assemble_hinges, only: find_hinges, make_hinges
     use gapbeam_assemble_supports, only: assemble_supports
     use gapbeam_assemble_loads, only: assemble_loads
     implicit none
@@ -267,6 +267,7 @@ contains
             at = at + size(model%supports)
             call find_hinges(point(at + 1:at + size(model%hinges)), model%hinge_stiffness, assembled%hinged, assembled%joint, &
                              error)
+            if (.not. allocated(error)) call make_hinges(assembled, error)
             if (allocated(error)) return
             at = at + size(model%hinges)
             call take_stretches(point(at + 1:), of_sections, assembled%section_from, assembled%section_to, error)
@@ -351,31 +352,5 @@ contains
 
         call refuse(error, table, number, count, no_stretch, "", "its stretch has no length; from must be less than to")
     end subroutine refuse_empty
-
-    !> Mark the hinges
-    subroutine find_hinges(points, stiffness, hinged, joint, error)
-        integer, intent(in) :: points(:)
-        !> Couple per relative rotation of each, 0: none
-        real(wp), intent(in) :: stiffness(:)
-        !> Of all points, from 0
-        logical, intent(out) :: hinged(0:)
-        real(wp), intent(out) :: joint(0:)
-        !> Two at one point
-        type(error_type), allocatable, intent(out) :: error
-        integer :: k, other
-
-        hinged(:) = .false.
-        joint(:) = 0.0_wp
-        do k = 1, size(points)
-            if (hinged(points(k)) .or. joint(points(k)) > 0.0_wp) then
-                other = findloc(points, points(k), 1)
-                call refuse(error, of_hinges, k, size(points), twice, "", &
-                            "there is a hinge at this place already; remove one of them", other)
-                return
-            end if
-            hinged(points(k)) = .not. stiffness(k) > 0.0_wp
-            joint(points(k)) = stiffness(k)
-        end do
-    end subroutine find_hinges
 
 end module gapbeam_assemble

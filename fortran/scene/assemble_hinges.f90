@@ -1,4 +1,4 @@
-!> Elastic hinges as compliances at the left ends of pieces, in the engine's units.
+!> Hinges: where they are, those that supports with laws make, and elastic ones as compliances at the left ends of pieces.
 module gapbeam_assemble_hinges
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: softest_hinge
@@ -6,12 +6,64 @@ module gapbeam_assemble_hinges
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_input_error, only: refuse, of_hinges, bad_law
+    use gapbeam_scene, only: gapbeam_relative
+    use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law
     implicit none
     private
-    public :: assemble_hinges
+    public :: find_hinges, make_hinges, assemble_hinges
 
 contains
+
+    !> Mark the hinges
+    subroutine find_hinges(points, stiffness, hinged, joint, error)
+        integer, intent(in) :: points(:)
+        !> Couple per relative rotation of each, 0: none
+        real(wp), intent(in) :: stiffness(:)
+        !> Of all points, from 0
+        logical, intent(out) :: hinged(0:)
+        real(wp), intent(out) :: joint(0:)
+        !> Two at one point
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k, other
+
+        hinged(:) = .false.
+        joint(:) = 0.0_wp
+        do k = 1, size(points)
+            if (hinged(points(k)) .or. joint(points(k)) > 0.0_wp) then
+                other = findloc(points, points(k), 1)
+                call refuse(error, of_hinges, k, size(points), twice, "", &
+                            "there is a hinge at this place already; remove one of them", other)
+                return
+            end if
+            hinged(points(k)) = .not. stiffness(k) > 0.0_wp
+            joint(points(k)) = stiffness(k)
+        end do
+    end subroutine find_hinges
+
+    !> Mark the hinges that supports make, with laws
+    subroutine make_hinges(assembled, error)
+        !> With the points of its supports, and its other hinges marked
+        type(assembled_type), intent(inout) :: assembled
+        !> A hinge is there already, or the end of the beam
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+
+        do k = 1, size(assembled%model%supports)
+            if (assembled%model%supports(k)%direction /= gapbeam_relative) cycle
+            associate (at => assembled%support_point(k), m => size(assembled%model%supports), &
+                       others => assembled%model%supports(:k - 1)%direction == gapbeam_relative)
+                if ((assembled%hinged(at) .or. assembled%joint(at) > 0.0_wp) &
+                    .and. .not. any(others .and. assembled%support_point(:k - 1) == at)) then
+                    call refuse(error, of_supports, k, m, bad_law, "", "there is a hinge at its place already; remove one of them")
+                else if (at == 0 .or. at == ubound(assembled%point_span, 1)) then
+                    call refuse(error, of_supports, k, m, bad_law, "", "a hinge at an end of the beam has nothing on its other "// &
+                                "side; move it into the beam, or hold the rotation there")
+                end if
+                if (allocated(error)) return
+                assembled%hinged(at) = .true.
+            end associate
+        end do
+    end subroutine make_hinges
 
     !> Compliances of the elastic hinges, if there are any
     subroutine assemble_hinges(assembled, error)

@@ -5,7 +5,7 @@ module gapbeam_assemble_laws
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
         gapbeam_elastic
-    use gapbeam_model, only: node_support_type
+    use gapbeam_model, only: node_support_type, last_place
     use gapbeam_law, only: always_closed
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_assembled_model, only: assembled_type
@@ -45,7 +45,7 @@ contains
         integer :: i, j, k
 
         associate (beam => assembled%beam)
-            do i = 0, size(beam%links)
+            do i = 0, last_place(beam)
                 do j = beam%first(i) + 1, beam%first(i + 1) - 1
                     do k = beam%first(i), j - 1
                         call compare(beam%order(j), beam%order(k))

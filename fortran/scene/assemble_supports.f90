@@ -4,13 +4,13 @@ module gapbeam_assemble_supports
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
-        gapbeam_normal, gapbeam_axial, gapbeam_axial_force
+        gapbeam_normal, gapbeam_axial, gapbeam_relative, gapbeam_axial_force
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, turns
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge
+    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge, bad_law
     implicit none
     private
     public :: assemble_supports, contact_level, is_room
@@ -62,12 +62,12 @@ contains
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 3 clamp, along the beam, elastic ones
-        !> too, 5 and for those that push one way 4 and 6
+        !> too, 5 and for those that push one way 4 and 6, of a rotation 7 to 9, of a hinge 10 to 12
         integer, allocatable :: rigid(:, :)
-        integer :: k, m, stat, point
+        integer :: k, m, stat, point, centre
 
         m = size(assembled%model%supports)
-        allocate (rigid(-1:6, 0:ubound(assembled%point_span, 1)), stat=stat)
+        allocate (rigid(-1:12, 0:ubound(assembled%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -81,6 +81,16 @@ contains
                                 "there is a hinge here, so it is unclear which side is held; move one aside")
                 else if (s%direction == gapbeam_axial) then
                     call note(5 + s%side, "direction", "hold the beam along its axis")
+                else if (turns(s)) then
+                    if (s%direction /= gapbeam_relative .and. assembled%hinged(point)) then
+                        call refuse(error, of_supports, k, m, at_hinge, "rotation", &
+                                    "there is a hinge here, so it is unclear which side is held; move one aside")
+                    else if (sum(assembled%model%supports%rotation, assembled%support_point == point) > 0.0_wp) then
+                        call refuse(error, of_supports, k, m, bad_law, "rotation", "another support holds the rotation here "// &
+                                    "by a stiffness; leave one of them out")
+                    else if (s%stiffness > huge(s%stiffness) .and. .not. assembled%with_law(k)) then
+                        call note(merge(11, 8, s%direction == gapbeam_relative) + s%side, "side", "hold the rotation rigidly")
+                    end if
                 else if (s%stiffness > huge(s%stiffness)) then
                     ! A law is no stiffness; what it holds rigidly depends on its piece
                     if (.not. assembled%with_law(k)) call note(s%side, "side", "do the same rigidly")
@@ -93,11 +103,13 @@ contains
         end do
         do k = 1, m
             point = assembled%support_point(k)
-            if (rigid(gapbeam_below, point) == k) then
-                call check_order(k, rigid(gapbeam_above, point), .false.)
-                if (.not. allocated(error)) call check_order(k, rigid(gapbeam_both, point), .true.)
-            else if (rigid(gapbeam_above, point) == k) then
-                call check_order(rigid(gapbeam_both, point), k, .true.)
+            centre = 0
+            if (turns(assembled%model%supports(k))) centre = merge(11, 8, assembled%model%supports(k)%direction == gapbeam_relative)
+            if (rigid(centre + gapbeam_below, point) == k) then
+                call check_order(k, rigid(centre + gapbeam_above, point), .false.)
+                if (.not. allocated(error)) call check_order(k, rigid(centre + gapbeam_both, point), .true.)
+            else if (rigid(centre + gapbeam_above, point) == k) then
+                call check_order(rigid(centre + gapbeam_both, point), k, .true.)
             end if
             if (allocated(error)) return
         end do
@@ -178,6 +190,7 @@ contains
             first = n + 1
             last = -1
             do k = 1, size(assembled%support_point)
+                if (turns(assembled%model%supports(k))) node(assembled%support_point(k)) = 0
                 if (assembled%model%supports(k)%direction /= gapbeam_normal) cycle
                 node(assembled%support_point(k)) = 0
                 first = min(first, assembled%support_point(k))
@@ -212,7 +225,7 @@ contains
         type(node_support_type), allocatable :: supports(:)
         logical, allocatable :: clamped(:)
         integer, allocatable :: first(:), last(:)
-        integer :: k, j, m, n, stat
+        integer :: k, j, m, n, place, stat
 
         n = ubound(assembled%node_point, 1)
         associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%law)
@@ -239,20 +252,26 @@ contains
             clamped(:) = .false.
             assembled%beam_support(:) = 0
             beam%kind(:) = merge(hinge, plain, assembled%hinged(assembled%node_point))
+            if (any(turns(given))) allocate (beam%turning(0), beam%relative(0))
             j = 0
             do k = 1, size(given)
-                if (given(k)%direction /= gapbeam_normal) cycle
+                if (given(k)%direction == gapbeam_axial) cycle
                 associate (node => assembled%node_of_point(assembled%support_point(k)))
                     assembled%turning(node) = assembled%turning(node) + given(k)%rotation
                     if (given(k)%rotation > huge(given(k)%rotation)) clamped(node) = .true.
                     if (.not. can_carry(given(k))) cycle
                     assembled%beam_support(k) = j + 1
+                    place = node
+                    if (turns(given(k))) then
+                        call find_rotation(node, given(k)%direction == gapbeam_relative, beam%turning, beam%relative, place)
+                        place = n + place
+                    end if
                     m = 1
                     if (assembled%with_law(k)) then
                         m = count_breakpoints(given(k), law(first(k):last(k)))
-                        call make_breakpoints(given(k), law(first(k):last(k)), node, supports(j + 1:j + m))
+                        call make_breakpoints(given(k), law(first(k):last(k)), place, supports(j + 1:j + m))
                     else
-                        supports(j + 1) = node_support_type(node, given(k)%side, 0.0_wp, 0.0_wp)
+                        supports(j + 1) = node_support_type(place, given(k)%side, 0.0_wp, 0.0_wp)
                     end if
                     assembled%normal(j + 1:j + m) = k
                     j = j + m
@@ -277,12 +296,29 @@ contains
         end associate
     end subroutine place_supports
 
+    !> The number of a rotation that a support holds
+    pure subroutine find_rotation(node, relative, turning, all_relative, place)
+        !> Node of the beam, and whether it is the rotation of its two sides against each other
+        integer, intent(in) :: node
+        logical, intent(in) :: relative
+        !> As of beam_type, longer by one where it is a new one
+        integer, allocatable, intent(inout) :: turning(:)
+        logical, allocatable, intent(inout) :: all_relative(:)
+        integer, intent(out) :: place
+
+        place = findloc(turning == node .and. (all_relative .eqv. relative), .true., 1)
+        if (place > 0) return
+        turning = [turning, node]
+        all_relative = [all_relative, relative]
+        place = size(turning)
+    end subroutine find_rotation
+
     !> Can a support carry: a one-sided one without stiffness only says where the beam is
     elemental function can_carry(support) result(yes)
         type(support_type), intent(in) :: support
         logical :: yes
 
-        yes = support%direction == gapbeam_normal .and. (support%stiffness > 0.0_wp .or. support%side == gapbeam_both)
+        yes = support%direction /= gapbeam_axial .and. (support%stiffness > 0.0_wp .or. support%side == gapbeam_both)
     end function can_carry
 
     !> Does a support hold the beam along its axis, by friction at least

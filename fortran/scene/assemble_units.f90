@@ -5,9 +5,9 @@ module gapbeam_assemble_units
     use gapbeam_error, only: error_type
     use gapbeam_link, only: piece_load_type
     use gapbeam_range, only: is_lost
-    use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, stiffness_unit, turning_unit, &
+    use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, turning_unit, &
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit, point_x, piece_length, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_foundations, only: note_foundations, scale_foundations, greatest_values
@@ -51,11 +51,12 @@ contains
 
         do k = 1, size(assembled%normal)
             if (.not. assembled%with_law(assembled%normal(k))) cycle
-            associate (s => assembled%beam%supports(k), units => assembled%units)
-                s%stiffness = scale(s%stiffness, way*stiffness_unit(units))
-                s%before = scale(s%before, way*stiffness_unit(units))
-                s%contact = scale(s%contact, way*units%deflection)
-                s%force = scale(s%force, way*units%force)
+            associate (s => assembled%beam%supports(k), displacement => way_unit(assembled, assembled%normal(k)), &
+                       force => push_unit(assembled, assembled%normal(k)))
+                s%stiffness = scale(s%stiffness, way*(force - displacement))
+                s%before = scale(s%before, way*(force - displacement))
+                s%contact = scale(s%contact, way*displacement)
+                s%force = scale(s%force, way*force)
             end associate
         end do
     end subroutine change_laws
@@ -83,7 +84,7 @@ contains
         type(assembled_type), intent(inout) :: assembled
         type(exponents_type) :: lengths, stiff(4), forces, ways
         real(wp) :: most(5)
-        integer :: length, j, k, stiffness
+        integer :: length, arm, j, k, stiffness
 
         do j = 1, size(assembled%pieces)
             call lengths%note(piece_length(assembled, j), 0)
@@ -96,14 +97,15 @@ contains
             end do
             do k = 1, size(assembled%normal)
                 associate (s => model%supports(assembled%normal(k)), made => beam%supports(k))
+                    arm = merge(length, 0, turns(s))
                     if (assembled%with_law(assembled%normal(k))) then
-                        call stiff(3)%note(abs(made%stiffness), 0)
-                        call ways%note(abs(made%contact), 0)
-                        call forces%note(abs(made%force), 0)
+                        call stiff(merge(4, 3, turns(s)))%note(abs(made%stiffness), -2*arm)
+                        call ways%note(abs(made%contact), arm)
+                        call forces%note(abs(made%force), -arm)
                     else
-                        call stiff(3)%note(s%stiffness, 0)
-                        call ways%note(abs(contact_level(s)), 0)
-                        if (allocated(assembled%growth)) call ways%note(abs(assembled%growth(assembled%normal(k))), 0)
+                        call stiff(merge(4, 3, turns(s)))%note(s%stiffness, -2*arm)
+                        call ways%note(abs(contact_level(s)), arm)
+                        if (allocated(assembled%growth)) call ways%note(abs(assembled%growth(assembled%normal(k))), arm)
                     end if
                 end associate
             end do
@@ -211,7 +213,8 @@ contains
                                           "from the other numbers", "bring them nearer together")
                         return
                     end if
-                    call support_in_units(units, given%stiffness, contact_level(given), s%stiffness, s%contact, lost_stiffness, &
+                    call support_in_units(given%stiffness, contact_level(given), way_unit(assembled, assembled%normal(k)), &
+                                          push_unit(assembled, assembled%normal(k)), s%stiffness, s%contact, lost_stiffness, &
                                           lost_level)
                     if (lost_stiffness) then
                         call refuse_range(error, trim(named(of_supports, assembled%normal(k), m))//": stiffness = "// &
@@ -229,17 +232,19 @@ contains
     end subroutine scale_supports
 
     !> A support without a law in the engine's units
-    pure subroutine support_in_units(units, stiffness, level, scaled_stiffness, scaled_level, lost_stiffness, lost_level)
-        type(units_type), intent(in) :: units
-        !> In the user's units: stiffness, infinite of a rigid one, and deflection at which it begins to act
+    pure subroutine support_in_units(stiffness, level, displacement, force, scaled_stiffness, scaled_level, lost_stiffness, &
+                                     lost_level)
+        !> In the user's units: stiffness, infinite of a rigid one, and deflection or rotation at which it begins to act
         real(wp), intent(in) :: stiffness, level
+        !> Exponents of the units of its displacement and force
+        integer, intent(in) :: displacement, force
         !> The same in the engine's
         real(wp), intent(out) :: scaled_stiffness, scaled_level
         !> Did they leave the range of doubles
         logical, intent(out) :: lost_stiffness, lost_level
 
-        scaled_stiffness = scale(stiffness, -stiffness_unit(units))
-        scaled_level = scale(level, -units%deflection)
+        scaled_stiffness = scale(stiffness, displacement - force)
+        scaled_level = scale(level, -displacement)
         lost_stiffness = is_lost(scaled_stiffness) .and. stiffness > 0.0_wp .and. stiffness <= huge(1.0_wp)
         lost_level = .not. abs(scaled_level) <= huge(1.0_wp)
     end subroutine support_in_units

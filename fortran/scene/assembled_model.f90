@@ -6,15 +6,16 @@ module gapbeam_assembled_model
     use gapbeam_piece, only: greatest_softness
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
-    use gapbeam_scene, only: model_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, gapbeam_unchanged, &
-        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation
+    use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
+        gapbeam_unchanged, &
+        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_rotational, gapbeam_relative
     use gapbeam_stations, only: place_span_ends
-    use gapbeam_units, only: units_type
+    use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
     private
     public :: in_bending, in_shear, along_axis
-    public :: assembled_type, axial_type, growth_of, copy_model, fingerprint, is_stretch, is_of_support, point_x, piece_length, &
-        find_length_errors
+    public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, fingerprint, is_stretch, &
+        is_of_support, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -88,7 +89,7 @@ module gapbeam_assembled_model
         integer, allocatable :: node_of_point(:)
         !> The beam in the engine's units
         type(beam_type) :: beam
-        !> For every support of the beam its number in the model: those across the beam that can carry
+        !> For every support of the beam its number in the model: those across the beam that can carry, and those of rotations
         integer, allocatable :: normal(:)
         !> For every support of the model its place among those of the beam, 0: none
         integer, allocatable :: beam_support(:)
@@ -112,9 +113,43 @@ contains
         type(assembled_type), intent(in) :: assembled
         real(wp) :: growth(size(assembled%normal))
 
+        integer :: k
+
         growth(:) = 0.0_wp
-        if (allocated(assembled%growth)) growth(:) = scale(assembled%growth(assembled%normal), -assembled%units%deflection)
+        if (.not. allocated(assembled%growth)) return
+        do k = 1, size(growth)
+            growth(k) = scale(assembled%growth(assembled%normal(k)), -way_unit(assembled, assembled%normal(k)))
+        end do
     end function growth_of
+
+    !> Does a support hold a rotation, so that angles and couples take the place of lengths and forces
+    elemental function turns(support) result(it_does)
+        type(support_type), intent(in) :: support
+        logical :: it_does
+
+        it_does = support%direction == gapbeam_rotational .or. support%direction == gapbeam_relative
+    end function turns
+
+    !> Unit of the displacement of a support, as a power of two
+    pure function way_unit(assembled, support) result(power)
+        type(assembled_type), intent(in) :: assembled
+        !> Its number in the model, not along the beam
+        integer, intent(in) :: support
+        integer :: power
+
+        power = assembled%units%deflection
+        if (turns(assembled%model%supports(support))) power = rotation_unit(assembled%units)
+    end function way_unit
+
+    !> Unit of its force
+    pure function push_unit(assembled, support) result(power)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: support
+        integer :: power
+
+        power = assembled%units%force
+        if (turns(assembled%model%supports(support))) power = moment_unit(assembled%units)
+    end function push_unit
 
     !> Does a load act over a stretch
     elemental function is_stretch(load) result(yes)

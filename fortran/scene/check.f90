@@ -7,6 +7,7 @@ module gapbeam_check
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
+        gapbeam_rotational, gapbeam_relative, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_of_support
@@ -14,7 +15,7 @@ module gapbeam_check
     use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
         not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
-        bad_movement
+        bad_law, bad_movement
     implicit none
     private
     public :: check_spans, check_rest, check_loads
@@ -181,9 +182,9 @@ contains
         if (all(s%side /= [gapbeam_both, gapbeam_below, gapbeam_above])) then
             call refuse_entry(error, here, "side", not_expected, &
                               "expected 0 (both), 1 (below) or -1 (above), got "//trim(whole(s%side)))
-        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial])) then
-            call refuse_entry(error, here, "direction", not_expected, &
-                              "expected 0 (normal) or 1 (axial), got "//trim(whole(s%direction)))
+        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative])) then
+            call refuse_entry(error, here, "direction", not_expected, "expected 0 (normal), 1 (axial), 2 (rotational) or "// &
+                              "3 (relative), got "//trim(whole(s%direction)))
         else if (.not. s%stiffness >= 0.0_wp) then
             call refuse_number(error, here, "stiffness", s%stiffness, "a number, 0 or more (infinite: rigid)")
         else if (.not. abs(s%gap) <= huge(s%gap)) then
@@ -195,6 +196,10 @@ contains
         else if (s%direction == gapbeam_axial .and. s%rotation > 0.0_wp) then
             call refuse_entry(error, here, "rotation", not_axial, &
                               "an axial support holds no rotation; a normal one here can do that")
+        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial]) .and. .not. s%stiffness > 0.0_wp) then
+            call refuse_number(error, here, "stiffness", s%stiffness, "a number above 0 (infinite: rigid)")
+        else if (s%direction /= gapbeam_normal .and. s%rotation > 0.0_wp) then
+            call refuse_entry(error, here, "rotation", bad_law, "it holds a rotation by its stiffness; leave it out")
         else if (s%side == gapbeam_both .and. abs(s%gap) > 0.0_wp .and. .not. has_law) then
             call refuse_entry(error, here, "gap", no_gap, &
                               "only a support that acts one way has a gap, got "//trim(shown(s%gap)))

@@ -1,10 +1,12 @@
-!> Refusals of supports along the beam, and of friction, that make no sense or are not there in this version.
+!> Refusals of supports along the beam, of friction, and of supports that hold rotations, that make no sense or are not there in
+!> this version.
 module gapbeam_check_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken
+    use gapbeam_assembled_model, only: turns
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
@@ -33,22 +35,32 @@ contains
         logical, intent(in) :: with_law(:)
         type(error_type), allocatable, intent(out) :: error
         character(len=*), parameter :: in_version = " is not available in this version"
+        character(len=:), allocatable :: which, where
         integer :: k
 
         do k = 1, size(model%supports)
             associate (s => model%supports(k))
+                which = "along the beam"
+                where = which
+                if (turns(s)) which = "that holds a rotation"
+                if (turns(s)) where = "over a rotation"
                 if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
                     call say("friction", "expected a finite number, 0 or more, got "//trim(shown(s%friction)))
                 else if (s%direction == gapbeam_normal) then
                     if (s%friction > 0.0_wp) call check_rest("friction", "friction")
                 else if (s%friction > 0.0_wp) then
-                    call say("friction", "a support along the beam has none; give it to one across the beam")
+                    call say("friction", "a support "//which//" has none; give it to one across the beam")
                 else if (with_law(k) .and. is_smooth(s%law)) then
-                    call say("law", "a curve along the beam"//in_version//"; give its points")
+                    call say("law", "a curve "//where//in_version//"; give its points")
                 else if (s%unloading == gapbeam_broken) then
-                    call say("unloading", "that a support along the beam breaks"//in_version//"; give plastic or elastic")
+                    call say("unloading", "that a support "//which//" breaks"//in_version//"; give plastic or elastic")
                 else if (with_law(k) .and. falls(k)) then
-                    call say("law", "a force that falls along the beam"//in_version//"; give a law that rises or stays")
+                    call say("law", "a force that falls "//where//in_version//"; give a law that rises or stays")
+                else if (turns(s)) then
+                    call check_rest("direction", "a support that holds a rotation by a law, a slack or one way")
+                    if (.not. allocated(error) .and. is_stiff(model)) then
+                        call say("direction", "beside a rigid beam (infinite EI) it"//in_version//"; give EI")
+                    end if
                 else if (with_law(k)) then
                     call check_rest("law", "an axial support with a law")
                 else if (s%side /= gapbeam_both) then
@@ -95,5 +107,13 @@ contains
         end function falls
 
     end subroutine check_along
+
+    !> Is a span or section rigid in bending
+    pure function is_stiff(model) result(it_is)
+        type(model_type), intent(in) :: model
+        logical :: it_is
+
+        it_is = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
+    end function is_stiff
 
 end module gapbeam_check_axial

@@ -15,7 +15,8 @@ module gapbeam_scene
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
               temperature_load, support_rotation
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
-    public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial
+    public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
+    public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right
     public :: gapbeam_live, gapbeam_dead
@@ -32,8 +33,11 @@ module gapbeam_scene
     integer, parameter :: gapbeam_both = 0, gapbeam_below = 1, gapbeam_above = -1
     !> Of an axial one: pushes it to the left only, to the right only
     integer, parameter :: gapbeam_left = 1, gapbeam_right = -1
-    !> Directions of a support: across the beam, along it
-    integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1
+    !> Of one that holds a rotation: turns the beam counterclockwise only, clockwise only
+    integer, parameter :: gapbeam_counterclockwise = 1, gapbeam_clockwise = -1
+    !> Directions of a support: across the beam, along it; it holds the rotation of the beam, or as a hinge the parts on its two
+    !> sides against each other
+    integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1, gapbeam_rotational = 2, gapbeam_relative = 3
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
@@ -73,14 +77,16 @@ module gapbeam_scene
         integer :: EI_power = 1, GA_power = 1, EA_power = 1
     end type section_type
 
-    !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above)
+    !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above). Of one that holds a
+    !> rotation that is clockwise (gapbeam_rotational), or that of the part on the left less that on the right (gapbeam_relative,
+    !> which makes a hinge), and lengths are angles, forces couples: a positive one turns the beam counterclockwise, or sags it
     type :: support_type
         !> Place by x, anywhere along the beam
         real(wp) :: x = nowhere
         !> Or by node: 0 the left end, i the right end of span i; gapbeam_by_x: x counts
         integer :: node = gapbeam_by_x
         !> gapbeam_both, gapbeam_below or gapbeam_above; along the beam gapbeam_both, gapbeam_left or gapbeam_right: which way it
-        !> pushes
+        !> pushes; of a rotation gapbeam_both, gapbeam_counterclockwise (of a hinge: sagging) or gapbeam_clockwise (hogging)
         integer :: side = gapbeam_both
         !> Force per length; infinite: rigid; 0 and one-sided: it never carries
         real(wp) :: stiffness = gapbeam_infinity
@@ -90,7 +96,7 @@ module gapbeam_scene
         real(wp) :: settlement = 0.0_wp
         !> Rotational stiffness (force*length/rad): 0 free, infinite clamped; it acts where the support is open too, as a guide
         real(wp) :: rotation = 0.0_wp
-        !> gapbeam_normal or gapbeam_axial
+        !> gapbeam_normal, gapbeam_axial, gapbeam_rotational or gapbeam_relative
         integer :: direction = gapbeam_normal
         !> Of a support with a law: gapbeam_elastic, gapbeam_plastic or gapbeam_broken
         integer :: unloading = gapbeam_elastic

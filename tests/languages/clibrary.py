@@ -6,7 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
+SIDES = {
+    "both": 0, "below": 1, "above": -1, "left": 1, "right": -1, "counterclockwise": 1, "clockwise": -1, "sagging": 1,
+    "hogging": -1,
+}  # fmt: skip
+DIRECTIONS = ("normal", "axial", "rotational", "hinge")
 KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
 
 
@@ -148,8 +152,28 @@ class History(NamedTuple):
     ending: str
 
 
+def with_rotations(scene):
+    """A scene in which restraints and hinges with laws are supports of their own."""
+    supports, held = [], []
+    for k, support in enumerate(scene["supports"]):
+        given = support.get("rotation")
+        supports.append({key: value for key, value in support.items() if key != "rotation" or not isinstance(given, dict)})
+        if isinstance(given, dict):
+            place = {key: support[key] for key in ("x", "node") if key in support}
+            held.append({**place, **given, "direction": "rotational", "name": f"rotation of {support.get('name', k)}"})
+    more = [hinge for hinge in scene.get("hinges", ()) if set(hinge) & {"slack", "side", "law", "unloading"}]
+    held += [{**hinge, "direction": "hinge"} for hinge in more]
+    for one in held:
+        one["gap"] = one.pop("slack", 0.0)
+        if one["gap"] and one.get("side", "both") == "both" and "law" not in one:
+            stiffness = one.pop("stiffness", math.inf)
+            one["law"] = [[0.0, 1.0] if math.isinf(stiffness) else [1.0, stiffness]]
+    return {**scene, "supports": supports + held, "hinges": [hinge for hinge in scene.get("hinges", ()) if hinge not in more]}
+
+
 def columns(scene):
     """The arrays of the C interface for a scene without sections."""
+    scene = with_rotations(scene)
     spans, supports, loads = scene["beam"]["spans"], scene["supports"], scene["loads"]
     end = math.fsum(scene["beam"]["spans"])
 
@@ -192,7 +216,7 @@ def columns(scene):
         "support_gap": real(supports, "gap", 0.0),
         "support_settlement": real(supports, "settlement", 0.0),
         "support_rotation": np.array([turns.get(s.get("rotation", "free"), s.get("rotation")) for s in supports], dtype=float),
-        "support_direction": np.array([s.get("direction") == "axial" for s in supports], dtype=np.int32),
+        "support_direction": np.array([DIRECTIONS.index(s.get("direction", "normal")) for s in supports], dtype=np.int32),
         "load_kind": np.array([special_kind(load) or KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),
@@ -287,7 +311,7 @@ class Library:
         arrays = columns(scene)
         model, message, handle = self.model(arrays), c.create_string_buffer(400), c.c_void_p()
         status = self.c.gapbeam_prepare(c.byref(model), c.byref(handle), message, c.c_size_t(400))
-        return (CBeam(self, handle, len(scene["supports"])), "") if status == 0 else (status, message.value.decode())
+        return (CBeam(self, handle, len(arrays["support_x"])), "") if status == 0 else (status, message.value.decode())
 
 
 class CBeam:
@@ -495,7 +519,7 @@ class F77Beam:
 
     def __init__(self, library, scene):
         self.c, a = library.c, columns(scene)
-        self.supports, self.hinges, self.loads = len(scene["supports"]), len(a["hinge_x"]), len(a["load_x"])
+        self.supports, self.hinges, self.loads = len(a["support_x"]), len(a["hinge_x"]), len(a["load_x"])
         self.on_ground = len(a["length"]) + 2 * len(a["foundation_k"]) + len(a["profile_x"]) + len(a["table_x"])
         self.beam, self.state, self.history = (np.zeros(1, np.int64) for _ in range(3))
         self.both = (self.beam, self.state)

@@ -574,6 +574,30 @@ def test_friction_agrees(library):
     assert result.steps[-1].friction.any()
 
 
+def test_restraints_and_hinges_with_laws_agree(library):
+    """Supports that hold rotations, along a history: events, couples, rotations and fields have the digits of Python."""
+    scene = tomllib.loads((TOP / "examples" / "yielding_joints.toml").read_text())
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert f77.info_ == 0
+    history = scene["analysis"]["history"]
+    status, message, found = beam.follow_history(history, "stop")
+    info, found_f77 = f77.follow_history(history, "stop")
+    assert (status, message, info) == (0, "", 0)
+    assert_same_history(found, result.path)
+    assert_same_history(found_f77, result.path)
+    for step, number in zip(result.steps, numbers_of(result.path), strict=True):
+        assert beam.solve_on_path(number, step.factor) == (0, "")
+        assert f77.solve_on_path(number, step.factor) == 0
+        for one in (beam, f77):
+            expected = step.reaction, step.deflection, step.opening, step.couple
+            for values, known in zip(one.at_supports()[:4], expected, strict=True):
+                np.testing.assert_array_equal(values, known)
+    assert set(result.steps[-1].state) == {"bilateral", "branch 1", "branch 2"}
+
+
 def test_histories_on_curves_agree(library):
     """Paths past limit points, whole histories, their states and energies have the digits of Python."""
     kinds, rough, events, refused = set(), 0, 0, 0

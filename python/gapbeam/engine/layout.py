@@ -12,6 +12,9 @@ from . import calls as _engine
 from .arrays import Columns, Places
 from .laws import CurveValues
 
+AXIAL = 1
+"""Direction of a support along the beam, as in gapbeam_scene."""
+
 
 class Curve(Protocol):
     """A smooth law."""
@@ -80,7 +83,7 @@ class Layout:
     def laws(self) -> dict[int, tuple[slice, int, int]]:
         """Supports of the scene with a law: its breakpoints, how many are below its middle, piece there, 0 if it is open."""
         which = self.columns.with_laws()
-        which = which[self.across[which]]
+        which = which[self.bends[which]]
         first, last = (np.searchsorted(self.numbers, which, side=side) for side in ("left", "right"))
         breakpoints = last - first
         both, gap = self.sides[which] == 0, self.columns.support[2, which]
@@ -97,8 +100,13 @@ class Layout:
 
     @cached_property
     def across(self) -> np.ndarray:
-        """Which supports of the scene are across the beam, not axial."""
+        """Which supports of the scene are across the beam, neither axial nor of a rotation."""
         return read_only(self.columns.support_codes[1, :-1] == 0)
+
+    @cached_property
+    def bends(self) -> np.ndarray:
+        """Which supports of the scene bend the beam: all but axial ones."""
+        return read_only(self.columns.support_codes[1, :-1] != AXIAL)
 
     @cached_property
     def sides(self) -> np.ndarray:

@@ -249,6 +249,16 @@ class Solution(Record):
         beam = self.state.beam
         return _engine.gbslop(beam.handle, self.state.handle, len(beam.curves) + 1)[:-1]
 
+    def stored(self) -> np.ndarray:
+        """Give the elastic energies of the supports that yield, on a loading history, in the scene's units; 0 of others.
+
+        Returns
+        -------
+        numpy.ndarray
+        """
+        beam = self.state.beam
+        return _engine.gbstor(beam.handle, self.state.handle, beam.scene_supports)[:-1]
+
     @property
     def deflection(self) -> np.ndarray:
         """Deflections of the nodes."""

@@ -15,6 +15,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.path import Path
 
 from ..results.formatting import stretch
+from ..scene.rotations import turns
 from ..scene.tapers import ends_of, is_tapered
 from .reactions import arrow_lane, draw_reactions
 from .sheet import is_upright
@@ -206,8 +207,8 @@ def _stands_off(support: "Support", state: str) -> bool:
 
 def _group(support: "Support", state: str) -> str:
     """Name the collection of a support: state and side."""
-    if support.direction == "axial":
-        return "axial"
+    if support.direction != "normal":
+        return support.direction
     return state if support.side == "both" else f"{state} {support.side}"
 
 
@@ -242,14 +243,15 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
         if support.direction == "axial":
             _axial(axes, scene, x, end, lanes)
             continue
+        if turns(support):
+            _rotation(axes, support, x, end)
+            continue
         if support.rotation == "fixed":
             _clamp(axes, x, end)
             if support.side == "both":
                 continue
         elif support.rotation != "free" and support.rotation:
-            outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
-            axes.scatter([x], [0.0], marker=_SPIRAL, s=area(7.0), facecolors="none", edgecolors="black", zorder=6,
-                         linewidths=0.9, transform=shifted(axes, outward), label="rotational spring")  # fmt: skip
+            _spiral(axes, x, end, "black", "rotational spring")
         for sign in (1.0, -1.0):
             if support.side == ("above" if sign > 0 else "below"):
                 continue
@@ -278,6 +280,21 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
             x, y = np.transpose(points)
             axes.scatter(x, y, marker=mirrored(path, sign), s=area(lanes.size * (1.0 if name == "springs" else 0.75)),
                          facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
+
+
+def _spiral(axes: Axes | Turned, x: float, end: float, color: str, label: str) -> None:
+    outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
+    axes.scatter([x], [0.0], marker=_SPIRAL, s=area(7.0), facecolors="none", edgecolors=color, zorder=6,
+                 linewidths=0.9, transform=shifted(axes, outward), label=label)  # fmt: skip
+
+
+def _rotation(axes: Axes | Turned, support: "Support", x: float, end: float) -> None:
+    """Draw what holds a rotation by a law, with a slack or one way: a spiral, or a hinge that is not white."""
+    if support.direction == "rotational":
+        _spiral(axes, x, end, VERMILION, "rotations with laws")
+    else:
+        axes.scatter([x], [0.0], s=26, c="0.8", edgecolors=VERMILION, linewidths=1.2, zorder=6, marker="o",
+                     label="hinges with laws")  # fmt: skip
 
 
 def _clamp(axes: Axes | Turned, x: float, end: float) -> None:

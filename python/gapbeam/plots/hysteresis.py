@@ -11,6 +11,7 @@ from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.paths.branches import BranchPath
 from ..results.paths.loop import Cycle, loop_of
+from ..scene.rotations import at_support
 from .branches import KINK, MARKERS, Trace
 from .panels import cut_text
 from .save import literal
@@ -53,7 +54,8 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     marks = Trace(result).marks if isinstance(result.path, BranchPath) else []
     picture = Figure(figsize=SIZE, dpi=200, layout="constrained")
     axes = picture.add_subplot()
-    factor = fmt.shown_unit(scene, "deflection")[1]
+    quantities = [at_support(scene, name, chosen) for name in ("deflection", "reaction")]
+    factor = fmt.shown_unit(scene, quantities[0])[1]
     for number, cycle in enumerate(cycles):
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(factor * movement[cycle.points], force[cycle.points], color=colour, linewidth=1.5, zorder=3,
@@ -70,8 +72,12 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     ways = [f"{name}, {positive(scene, name)}" for name in ("deflection", "reaction")]
     if scene.supports[chosen].direction == "axial":
         ways = ["displacement along the beam, positive to the right", "reaction, positive to the right"]
-    axes.set_xlabel(fmt.shown_heading(scene, "deflection", ways[0]), fontsize=9)
-    axes.set_ylabel(fmt.with_unit(scene, "reaction", ways[1]), fontsize=9)
+    elif scene.supports[chosen].direction == "rotational":
+        ways = ["rotation, positive clockwise", "couple, positive counterclockwise"]
+    elif scene.supports[chosen].direction == "hinge":
+        ways = ["rotation left of the hinge less that right of it", "moment, positive sagging"]
+    axes.set_xlabel(fmt.shown_heading(scene, quantities[0], ways[0]), fontsize=9)
+    axes.set_ylabel(fmt.with_unit(scene, quantities[1], ways[1]), fontsize=9)
     axes.tick_params(labelsize=8)
     axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
     if len(cycles) > MOST_CYCLES:

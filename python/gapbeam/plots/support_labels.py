@@ -131,6 +131,8 @@ class SupportTexts:
     def _numbers(self, places: list[float]) -> str:
         """Write the names or numbers of the supports at some places."""
         indices = [index for place in places for index in self.at[place]]
+        # What holds a rotation stands with its support
+        indices = [index for index in indices if self.scene.supports[index].direction != "rotational"] or indices
         if len(indices) <= 3:
             return ", ".join(self.names[index] for index in indices)
         return fmt.ranges(sorted(indices))

@@ -11,6 +11,7 @@ from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.views.extreme import KINDS
 from ..scene.names import labels
+from ..scene.rotations import turns
 from .sheet import is_upright
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ class StateValues:
         scene, step, found, largest, axial = self._scene, self._step, [], 0.0, 0.0
         for k in indices:
             force = abs(float(step.reaction[k]))
-            if force <= self._small:
+            if force <= self._small or turns(scene.supports[k]):
                 continue
             if scene.supports[k].direction == "axial":
                 arrow = self._along[int(step.reaction[k] > 0.0)]
@@ -156,6 +157,8 @@ class EnvelopeValues:
         held = {self._scene.supports[k].side for k in across} & {"below", "both"}
         for k in indices:
             support = self._scene.supports[k]
+            if turns(support):
+                continue
             high, low = (float(self._values["reaction", kind][k]) for kind in KINDS)
             lines = [("max", "reaction", high)] if high > self._small or (support.side != "above" and high > low) else []
             if low < -self._small or (support.side != "above" and high > self._small):
@@ -196,6 +199,12 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
     """
     support = scene.supports[k]
     found = {}
+    if turns(support):
+        if support.gap:
+            found["gap"] = f"slack {with_unit(scene, 'rotation', support.gap)}"
+        if support.law is None and support.stiffness < np.inf:
+            found["spring"] = f"rotational spring {fmt.number(support.stiffness, DIGITS)} {_turning(scene)}".rstrip()
+        return {kind: with_minus_signs(words) for kind, words in found.items()}
     if support.gap:
         found["gap"] = f"gap {with_unit(scene, 'gap', support.gap)}"
     if support.settlement:

@@ -7,6 +7,8 @@ import io
 from collections import Counter
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
@@ -16,6 +18,7 @@ from ..results.event_words import state_in_words
 from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
+from ..scene.rotations import at_support, which_turn
 from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
@@ -64,6 +67,7 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         if not result.stands:
             at += ", the last state that stands"
         _supports(say, result, at)
+        _rotations(say, result, at)
         _hinges(say, result, at)
         write_foundations(say, result, at)
         write_contact(say, result, at)
@@ -147,8 +151,8 @@ def _landing(say: "Writer", result: "Result", landing: "Step") -> None:
     which = [k for k, support in enumerate(result.scene.supports) if support.law is not None]
     scene = result.scene
     texts = [
-        f"{fmt.support(scene, k)} on {state_in_words(landing.state[k])}, deflection "
-        f"{fmt.value(scene, 'deflection', landing.deflection[k])}"
+        f"{fmt.support(scene, k)} on {state_in_words(landing.state[k])}, {at_support(scene, 'deflection', k)} "
+        f"{fmt.value(scene, at_support(scene, 'deflection', k), landing.deflection[k])}"
         for k in which[:10]
     ]
     more = f", and {len(which) - 10} more" if len(which) > 10 else ""
@@ -182,8 +186,9 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     reaction, deflection = (
         fmt.without_noise(getattr(step, name), bounds[f"error_bound_{name}"]) for name in ("reaction", "deflection")
     )
+    turning = which_turn(scene.supports)
     quantities = {"reaction": reaction, "couple": step.couple, "deflection": deflection}
-    if not any(step.couple):
+    if not step.couple[~turning].any():
         del quantities["couple"]
     if any(state != "bilateral" for state in step.state):
         quantities["opening"] = step.opening
@@ -204,6 +209,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     left = (2, 3) if names == [str(k) for k in range(len(names))] else (0, 2, 3)
     rows = list(zip(*(texts for _, texts in columns), strict=True))
     which = chosen(len(rows), (k for k, state in enumerate(step.state) if state == "open"))
+    which = [k for k in which if k is None or not turning[k]]
     say.table([name for name, _ in columns], [rows[k] if k is not None else ["..."] * len(columns) for k in which], left=left)
     if None in which:
         kept = {k for k in which if k is not None}
@@ -212,7 +218,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         say.line(f"{len(rows) - len(kept):,} supports are left out here{words}. All are in the output of --json.", "italic")
     for line in balance_in_words(scene, step):
         say.line(line, "dim")
-    counts = Counter(map(state_in_words, step.state))
+    counts = Counter(state_in_words(state) for state, turned in zip(step.state, turning, strict=True) if not turned)
     say.line(f"Upward positive; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
     if slides := [f"{name} to the {way}" for name, way in zip(labels(scene.supports), step.sliding, strict=True) if way in WAYS]:
         more = f" and {len(slides) - 10} more" if len(slides) > 10 else ""
@@ -233,6 +239,31 @@ def _hinges(say: "Writer", result: "Result", at: str) -> None:
     say.table([fmt.with_unit(scene, "x"), fmt.shown_heading(scene, "moment"), fmt.shown_heading(scene, "rotation")], rows)
     more = f" {len(hinges) - LONGEST:,} more are in the output of --json." if len(hinges) > LONGEST else ""
     say.line(f"Rotation left of the hinge less that right of it.{more}", "dim")
+
+
+def _rotations(say: "Writer", result: "Result", at: str) -> None:
+    """Write what holds rotations by a law, with a slack or one way."""
+    scene, step = result.scene, result.steps[-1]
+    which = np.flatnonzero(which_turn(scene.supports)).tolist()
+    if not which:
+        return
+    say.heading(f"Rotations {at}")
+    x, opening = scene.positions(scene.supports), any(step.state[k] == "open" for k in which)
+    rows = [
+        [
+            fmt.support(scene, k), fmt.number(x[k], fmt.DIGITS), scene.supports[k].side,
+            f"{symbol(step.state[k], say.plain)} {state_in_words(step.state[k])}",
+            fmt.shown(scene, "couple", step.reaction[k]), fmt.shown(scene, "rotation", step.deflection[k]),
+            *([fmt.shown(scene, "rotation", step.opening[k])] if opening else []),
+        ]
+        for k in which[:LONGEST]
+    ]  # fmt: skip
+    heads = [fmt.shown_heading(scene, "couple"), fmt.shown_heading(scene, "rotation")]
+    to_go = [fmt.with_unit(scene, "rotation", "to go")] if opening else []
+    say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go], rows, left=(0, 2, 3))
+    more = f" {len(which) - LONGEST:,} more are in the output of --json." if len(which) > LONGEST else ""
+    say.line("Couple on the beam: counterclockwise; rotation of the beam: clockwise. Of a hinge: sagging moment, and rotation left "
+             f"of it less that right of it.{more}", "dim")  # fmt: skip
 
 
 def _side(support: "Support") -> str:

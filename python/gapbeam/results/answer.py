@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.characters import visible
+from ..scene.rotations import which_turn
 from ..scene.structs import Scene
 from . import formatting as fmt
 from .contact import contact_in_words, ground_in_words, source_in_words
@@ -115,6 +116,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
         return one.factor not in (None, last)
 
     sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
+    if sizes.size:
+        sizes[:, which_turn(result.scene.supports)] = np.nan  # couples
     if np.isfinite(sizes).any():
         k, i = np.unravel_index(np.nanargmax(sizes.T), sizes.T.shape)  # the first support that has it
         largest = envelope.supports[int(k)]["reaction"][KINDS[i]]

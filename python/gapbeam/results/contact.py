@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible
 from ..scene.names import column_of, label
+from ..scene.rotations import at_support, turns
 from ..scene.structs import Scene
 from ..scene.trains import LEFT
 from . import formatting as fmt
@@ -81,8 +82,7 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         return [*lines, "No support lifts off." if len(one_sided) > 1 or lines else "The support that can lift off does not."]
     largest = sorted(lifted, key=lambda one: -one.opening)
     for one in sorted(largest[:MOST_NAMED]):
-        name = fmt.support(result.scene, one.support)
-        place = f"{name[0].upper()}{name[1:]} (x = {fmt.number(x[one.support], fmt.DIGITS)})"
+        place = f"{_named(result.scene, one.support)} (x = {fmt.number(x[one.support], fmt.DIGITS)})"
         lines.append(f"{place} {_how_far(result, one)}.")
     if more := sorted(one.support for one in largest[MOST_NAMED:]):
         named = ", ".join(label(supports, k) for k in more) if len(more) <= MOST_NAMED else fmt.ranges(more)
@@ -92,6 +92,12 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         lines.append(f"The other {left:,} one-sided supports stay in contact." if left > 1
                      else "The other one-sided support stays in contact.")  # fmt: skip
     return lines
+
+
+def _named(scene: Scene, k: int) -> str:
+    """Name a support at the beginning of a sentence."""
+    name = fmt.support(scene, k)
+    return f"{name[0].upper()}{name[1:]}"
 
 
 def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
@@ -105,8 +111,9 @@ def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
         return [f"{len(closed):,} supports close their gaps."]
     x = scene.positions(scene.supports)
     return [
-        f"Support {label(scene.supports, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) closes its gap of "
-        f"{fmt.value(scene, 'gap', gaps[k])}."
+        f"{_named(scene, k)} (x = {fmt.number(x[k], fmt.DIGITS)}) "
+        f"{'is at the end of its slack' if turns(scene.supports[k]) else 'closes its gap'} of "
+        f"{fmt.value(scene, at_support(scene, 'gap', k), gaps[k])}."
         for k in closed
     ]
 
@@ -117,7 +124,9 @@ def _how_far(result: Result, one: Lifted) -> str:
     gap, followed = max(scene.supports[one.support].gap or 0.0, 0.0), is_followed(result)
     source = source_in_words(one, scene) if result.combinations or scene.trains or followed else ""
     ends_closed = followed and not result.combinations and not scene.trains and result.steps[-1].state[one.support] != "open"
-    opening = fmt.value(scene, "opening", one.opening)
+    opening = fmt.value(scene, at_support(scene, "opening", one.support), one.opening)
+    if turns(scene.supports[one.support]):
+        return f"turns freely, {opening} from where it holds{f' ({source})' if source else ''}"
     if ends_closed and gap and one.opening <= SAME * gap:
         closing = (event for event in result.events if event.support == one.support and event.event == "closes")
         first = next(closing, None)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..scene.structs import Scene
 from .envelopes.over_path import is_followed
 from .paths.branches import BranchPath
+from .paths.dissipation import dissipated
 from .paths.ground_path import GroundEvent
 from .paths.path import Event
 from .state.fields import Fields
@@ -15,6 +16,8 @@ from .state.step import Step
 from .trains.data import trains_data
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from .result import Result
 
 SCHEMA = "gapbeam-result 1"
@@ -188,7 +191,7 @@ def _friction(step: Step, k: int) -> dict[str, Any]:
     return {"force": float(step.friction[k]), "slip": float(step.slip[k]), "slides": slides if slides != "sticks" else ""}
 
 
-def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, Any]]:
+def support_data(result: Result, step: Step, x: list[float], lost: np.ndarray | None = None) -> list[dict[str, Any]]:
     """Give the supports of a state as plain data.
 
     Parameters
@@ -199,6 +202,8 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
         The state.
     x : list of float
         Places of the supports.
+    lost : numpy.ndarray, optional
+        What each of them has dissipated.
     """
     columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
     return [
@@ -213,6 +218,7 @@ def support_data(result: Result, step: Step, x: list[float]) -> list[dict[str, A
             "state": step.state[k],
             "opening": opening,
             **({"set": left} if support.unloading == "plastic" else {}),
+            **({} if lost is None or not (support.friction or support.unloading == "plastic") else {"dissipated": float(lost[k])}),
             **({"axial": _friction(step, k)} if support.friction else {}),
         }
         for k, (support, w, reaction, opening, couple, left) in enumerate(
@@ -266,6 +272,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
     """
     x = result.scene.positions(result.scene.supports).tolist()
     on_path = result.steps if isinstance(result.path, BranchPath) else None
+    lost = dissipated(result)
     for k, step in enumerate(result.steps):
         where = {}
         if on_path is not None:
@@ -277,7 +284,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             **where,
             "solves": step.solves,
             "seconds": step.seconds,
-            "supports": support_data(result, step, x),
+            "supports": support_data(result, step, x, None if lost is None else lost[k]),
             **({"hinges": [one._asdict() for one in step.hinges]} if result.scene.hinges else {}),
             **ground_data(result, step),
             "undecided": list(step.undecided),

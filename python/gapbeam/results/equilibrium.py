@@ -117,13 +117,14 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     Sums
         Its moment is that of the supports alone.
     """
-    normal = np.array([support.direction != "axial" for support in scene.supports], dtype=bool)
+    directions = np.array([support.direction for support in scene.supports], dtype=object)
+    normal, axial = directions == "normal", directions == "axial"
     x, reaction = np.asarray(scene.positions(scene.supports), dtype=float), step.reaction
     across = np.where(normal, reaction, 0.0)
     ground = [zone.resultant for zone in step.contact]
     return Sums(
         _sum([*across.tolist(), *ground]), _sum([*(across * x).tolist(), *(-step.couple).tolist()]),
-        -_sum([*reaction[~normal].tolist(), *step.friction.tolist()]),
+        -_sum([*reaction[axial].tolist(), *step.friction.tolist()]),
     )  # fmt: skip
 
 

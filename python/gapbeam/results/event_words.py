@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene.names import DEAD, cases_of, label
+from ..scene.rotations import at_support
 from . import formatting as fmt
 from .envelopes.envelope import AT_SUPPORTS
 from .paths.path import Event
@@ -24,6 +25,8 @@ STATES = {"closed": "in contact", "open": "no contact", "bilateral": "two-way"}
 EVENT_WORDS = dict((OF_SUPPORTS | OF_ZONES).values())
 LIMITS = {"limit": "Limit load", "bifurcation": "Bifurcation", "mechanism": "Limit load (mechanism)"}
 """Kinds of limits of the load."""
+WITHOUT_CONTACT = {"opens": "lets go", "closes": "holds"}
+"""Words for supports along the beam, and for rotations."""
 LOST = ("yields", "softens", "breaks")
 """Events after which a support carries no more than before."""
 
@@ -127,10 +130,11 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
         known = len(scene.foundation) > 1 or scene.foundation[0].name is not None
         name = f"ground {label(scene.foundation, event.foundation)}: " if known else "ground: "
         return f"{name}{EVENT_WORDS[event.event]}{of} at x = {x}"
-    force = f" ({fmt.value(scene, 'reaction', abs(reaction))})" if reaction else ""
+    quantity = at_support(scene, "reaction", event.support)
+    force = f" ({fmt.value(scene, quantity, abs(reaction))})" if reaction else ""
     words = EVENT_WORDS[event.event]
-    if event.event == "opens" and scene.supports[event.support].direction == "axial":
-        words = "lets go"
+    if scene.supports[event.support].direction != "normal":
+        words = WITHOUT_CONTACT.get(event.event, words)
     return f"{fmt.support(scene, event.support)} (x = {x}) {words}{force}"
 
 

@@ -31,9 +31,14 @@ def support(scene: Scene, k: int) -> str:
     Returns
     -------
     str
-        ``support R-104``, or ``support 3`` where it has no name.
+        ``support R-104``, or ``support 3`` where it has no name; ``hinge 0`` or ``rotation of 2`` where it holds a rotation.
     """
-    return f"support {name_or_number(scene.supports, k)}"
+    name, noun = name_or_number(scene.supports, k), NOUNS.get(scene.supports[k].direction, "support")
+    return name if name.startswith(f"{noun} ") else f"{noun} {name}"
+
+
+NOUNS = {"rotational": "rotation", "hinge": "hinge"}
+"""What supports are called that hold a rotation."""
 
 
 def numbered(items: Sequence) -> list[str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene.names import column_of
+from ..scene.rotations import which_turn
 from ..scene.temperature import is_held_along
 from . import formatting as fmt
 from .equilibrium import sum_of_loads
@@ -106,6 +107,8 @@ def _displaced(scene: Scene, shortest: float, deflection: float, envelope: Envel
     """Gaps and settlements that are large beside the spans."""
     found, gaps = [], np.abs([gap or 0.0 for gap in column_of(scene.supports, "gap")])
     settlements = np.abs(np.array(column_of(scene.supports, "settlement"), dtype=float))
+    if len(gaps):
+        gaps[which_turn(scene.supports)] = settlements[which_turn(scene.supports)] = 0.0  # angles
     unused = np.array(envelope.supports.values("opening", "min")) > 0.0 if len(gaps) else gaps > 0.0
     wrong = (gaps > LARGE_GAP * shortest) | (unused & (gaps > LARGE_UNUSED_GAP * shortest) & (gaps > BESIDE * deflection))
     for key, which in (("gap", wrong), ("settlement", settlements > LARGE_GAP * shortest)):

@@ -14,8 +14,8 @@ from .state.breakpoints import OF_SUPPORTS, OF_ZONES
 WORDS = {
     "Schema": [SCHEMA],
     "Status": ["solved", "no-equilibrium", "limit-load", "indeterminate", "not-converged", "not-finite"],
-    "Side": ["both", "below", "above", "left", "right"],
-    "Normal": ["normal", "axial"],
+    "Side": ["both", "below", "above", "left", "right", "counterclockwise", "clockwise", "sagging", "hogging"],
+    "Normal": ["normal", "axial", "rotational", "hinge"],
     "Way": ["right", "left"],
 }
 """Keys that hold one of some words."""
@@ -74,12 +74,16 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "x": ("number", "Position (length, from the left end of the beam)."),
         "side": ("Side", "Side on which it holds the beam, as in the scene."),
         "direction": ("Normal", "Direction, as in the scene."),
-        "deflection": ("number", "Deflection of the beam there (length), positive downward; of an axial support to the right."),
-        "reaction": ("number", "Force of the support on the beam (force), positive upward; of an axial one to the right."),
+        "deflection": ("number", "Deflection of the beam there (length), positive downward; of an axial support to the right; the "
+                                 "rotation (rad) of what holds one, clockwise, of a hinge that left of it less that right of it."),
+        "reaction": ("number", "Force of the support on the beam (force), positive upward; of an axial one to the right; the "
+                               "couple of what holds a rotation, counterclockwise, of a hinge its sagging moment."),
         "couple": ("number", "Moment of its rotational restraint on the beam (force*length), positive clockwise."),
         "state": ("string", "closed, open, bilateral, or of a support with a curve the segment of it: branch 1, branch 2, ..."),
         "opening": ("number", "Distance of the beam from its seat, the gap included (length); 0 in contact."),
         "set?": ("number", "Displacement that is left without force (length); only with plastic unloading."),
+        "dissipated?": ("number", "Energy lost up to here on a loading history (force*length); only with plastic unloading, and "
+                                  "with friction."),
         "axial?": ("Friction", "Along the beam; only of a support with friction."),
     }),
     "Friction": ("What friction does at a support.", {

@@ -3,6 +3,7 @@
 from ..engine.tolerances import POSITION_TOLERANCE
 from .analysis import Analysis
 from .edited import replace
+from .joints import Hinge, Rotation
 from .limits import Limits
 from .loads import (
     AxialLoad,
@@ -18,10 +19,10 @@ from .loads import (
 from .places import same_place
 from .reading import read_scene
 from .schema import scene_schema
-from .structs import Beam, Combination, Foundation, Hinge, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Scene", "Section", "Support", "TemperatureLoad",
-    "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
+    "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene", "Section", "Support",
+    "TemperatureLoad", "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
 ]  # fmt: skip

@@ -38,8 +38,21 @@ BY_X = -1
 """Instead of a node: the place is given by x."""
 NOT_GIVEN = -np.finfo(float).max
 """Instead of a place, the right end of a stretch, or a stiffness of a section."""
-SIDES = {"both": 0, "below": 1, "above": -1, "left": 1, "right": -1}
-DIRECTIONS = {"normal": 0, "axial": 1}
+SIDES = {
+    "both": 0, "below": 1, "above": -1, "left": 1, "right": -1, "counterclockwise": 1, "clockwise": -1, "sagging": 1,
+    "hogging": -1,
+}  # fmt: skip
+DIRECTIONS = {"normal": 0, "axial": 1, "rotational": 2, "hinge": 3}
+ONE_WAY = {
+    "normal": ("below", "above"), "axial": ("left", "right"), "rotational": ("counterclockwise", "clockwise"),
+    "hinge": ("sagging", "hogging", "counterclockwise", "clockwise"),
+}  # fmt: skip
+"""Sides of supports that act one way, by their direction."""
+WHAT = {
+    "normal": "a support across the beam is below or above it", "axial": "an axial support pushes to the left or to the right",
+    "rotational": "a support that holds the rotation turns the beam counterclockwise or clockwise",
+    "hinge": "a hinge takes sagging or hogging moments",
+}  # fmt: skip
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
@@ -97,7 +110,7 @@ def columns(scene: Scene) -> Columns:
         ends = np.append(scene.span_ends(), np.inf)  # no node is there beyond the last one, nor before the first
         by_node = ends[np.where(nodes < 0, len(ends) - 1, np.minimum(nodes, len(ends) - 1))]
         hinge[0, free:-1] = np.where(nodes == BY_X, places, by_node)
-        hinge[1, free:-1] = [one.stiffness for one in scene.hinges]
+        hinge[1, free:-1] = [one.stiffness or 0.0 for one in scene.hinges]
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
     load_codes, load_values = _loads(scene)
@@ -175,23 +188,21 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _refuse_sides(sides: Any, codes: np.ndarray) -> None:
-    """Refuse an axial support that is below or above, and one across the beam that pushes to the left or right."""
-    axial = codes[1, :-1] == DIRECTIONS["axial"]
-    if not axial.any() and "left" not in sides and "right" not in sides:
+    """Refuse sides of another direction: an axial support that is below, one across the beam that pushes to the left."""
+    words = np.asarray(sides)
+    if not codes[1, :-1].any() and np.isin(words, ("both", *ONE_WAY["normal"])).all():
         return
-    along = np.isin(sides, ("left", "right"))
-    wrong = np.flatnonzero((codes[0, :-1] != 0) & (along != axial))
-    if not len(wrong):
-        return
-    i = int(wrong[0])
-    side = sides if isinstance(sides, str) else sides[i]
-    if axial[i]:
-        meant = "an axial support pushes to the left or to the right"
-        problem = f'{meant}; use side = "left", "right" or "both", got "{side}"'
-    else:
-        meant = "a support across the beam is below or above it"
-        problem = f'{meant}; use side = "below" or "above", or direction = "axial", got "{side}"'
-    raise SceneError(f"supports[{i}].side", problem)
+    for direction, ways in ONE_WAY.items():
+        of_it = codes[1, :-1] == DIRECTIONS[direction]
+        wrong = np.flatnonzero(of_it & (codes[0, :-1] != 0) & ~np.isin(words, ways))
+        if not len(wrong):
+            continue
+        i = int(wrong[0])
+        side = sides if isinstance(sides, str) else sides[i]
+        other = ', or direction = "axial"' if direction == "normal" and side in ONE_WAY["axial"] else ""
+        both = "" if direction == "normal" else ' or "both"'
+        ask = f'"{ways[0]}", "{ways[1]}"{both}' if both else f'"{ways[0]}" or "{ways[1]}"'
+        raise SceneError(f"supports[{i}].side", f'{WHAT[direction]}; use side = {ask}{other}, got "{side}"')
 
 
 def points_given(law: Any) -> list[tuple[float, float]] | None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from ..base.characters import visible
+from .rotations import turns
 from .schema import scene_schema
 from .structs import Scene
 
@@ -58,6 +59,10 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
         table = type(scene.loads[rest[0]]).__name__
     if table == "Support" and keys[:1] == ["law"] and len(keys) == 2:
         table = type(scene.supports[rest[0]].law).__name__
+    if table == "Support" and keys[:1] == ["rotation"] and len(keys) == 2:
+        table = "Rotation"
+    elif table == "Support" and turns(scene.supports[rest[0]]):
+        table, keys = "Rotation", ["slack" if keys[-1] in ("gap", "settlement") else keys[-1]]
     pair = _units().get((table, keys[-1] if keys else ""), ())
     if not pair:
         return ""

@@ -21,6 +21,7 @@ from .limits import check_limits
 from .mistakes import all_mistakes
 from .names import check_names, names_in_errors
 from .refusals import refusal
+from .rotations import spread_rotations
 from .structs import Scene
 from .tables import Table, take_arrays, take_tables
 from .trains import check_trains
@@ -168,6 +169,7 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
     check_names(scene)
     with names_in_errors(scene):
         _check_laws(scene)
+        spread_rotations(scene)
         _settle_foundations(scene)
         _check_foundations(scene)
     check_trains(scene)

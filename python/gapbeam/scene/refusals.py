@@ -10,8 +10,9 @@ from typing import Any
 from msgspec import Struct
 
 from ..base.errors import SceneError
-from .columns import KINDS, SIDES
+from .columns import KINDS, ONE_WAY, SIDES
 from .ground_laws import PowerGround, varies
+from .rotations import turns
 from .structs import Scene
 from .table import kind_of
 from .wording import number, shown
@@ -160,6 +161,8 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):
         expected = "finite numbers, 0 or more" if key == "k" else "finite numbers"
+    elif table == SUPPORTS and key == "stiffness" and turns(item) and not isnan(value):
+        expected = "a number above 0 (inf = rigid)"
     elif key in ("x", "from", "to") or (isnan(value) and (table == SECTIONS or key == "stiffness")):
         expected = "a number"
     return SceneError(f"{path}.{key}", f"expected {expected}, got {shown(value)}")
@@ -170,7 +173,7 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
     if reason == NOT_AXIAL:
         return SceneError(f"{path}.{key}", AXIAL[key])
     if reason == NO_GAP:
-        ways = '"left" or "right"' if item.direction == "axial" else '"below" or "above"'
+        ways = " or ".join(f'"{way}"' for way in ONE_WAY[item.direction])
         return SceneError(f"{path}.gap", f"only a support with side = {ways} has a gap")
     if reason == AT_HINGE:
         problem = "there is a hinge here, so it is unclear which side is held; move one aside"
@@ -184,7 +187,8 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
         does = what.get(key, f'are rigid with side = "{item.side}"')
         return SceneError(path, f"this one and supports[{other}] both stand at x = {x} and {does}; remove one of them")
     partner = scene.supports[other]
-    here = f"this one ({item.side}, acts at a deflection of {number(contact_level(item))})"
+    what = "rotation" if turns(item) else "deflection"
+    here = f"this one ({item.side}, acts at a {what} of {number(contact_level(item))})"
     there = f"supports[{other}] ({partner.side}, acts at {number(contact_level(partner))})"
     return SceneError(path, f"{here} and {there} leave no room at x = {x}; give a greater gap")
 

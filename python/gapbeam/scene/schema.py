@@ -11,10 +11,11 @@ import msgspec
 
 from .analysis import Analysis
 from .ground_laws import GroundLawTable, LawAt
+from .joints import Hinge, Rotation
 from .laws import LawTable
 from .limits import Limits
 from .loads import Load
-from .structs import Beam, Combination, Foundation, Hinge, Scene, Section, Support, Train, Units
+from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 from .tapers import Taper
 
 
@@ -32,7 +33,7 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = set too high; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    tables = (Units, Beam, Section, Taper, Hinge, Support, Foundation, Train, Combination, Analysis, Limits, Scene)
+    tables = (Units, Beam, Section, Taper, Hinge, Support, Rotation, Foundation, Train, Combination, Analysis, Limits, Scene)
     for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]

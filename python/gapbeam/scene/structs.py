@@ -37,6 +37,7 @@ from .analysis import Analysis
 from .edited import to_data, to_toml
 from .ground_laws import GroundLaw
 from .ground_tables import Along
+from .joints import Hinge, Rotation
 from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
@@ -117,19 +118,6 @@ class Section(Stretch, kw_only=True, gc=False):
     EA: Stiffness | None = None
 
 
-class Hinge(Point, kw_only=True, gc=False):
-    """A hinge inside the beam that turns against a couple; one without stiffness is as those of ``beam.hinges``.
-
-    Parameters
-    ----------
-    stiffness : float
-        Couple per relative rotation (force*length/rad); default 0. It is the rotation left of the hinge less that right of it,
-        positive with a sagging moment. Not under trains, beside foundations and beside rigid stretches of the beam.
-    """
-
-    stiffness: NotNegative = 0.0
-
-
 class Support(Point, kw_only=True, gc=False):
     """A support, at a node or anywhere along the beam.
 
@@ -138,9 +126,10 @@ class Support(Point, kw_only=True, gc=False):
 
     Parameters
     ----------
-    side : {"both", "below", "above", "left", "right"}
+    side : {"both", "below", "above", "left", "right", "counterclockwise", "clockwise", "sagging", "hogging"}
         Both (default) holds the beam, below pushes it up only (bearing), above pushes it down only (hold-down). Of an axial
-        support left pushes it to the left only, right to the right only.
+        support left pushes it to the left only, right to the right only; of a rotational one which way it turns the beam, of a
+        hinge which moments it takes.
     stiffness : float
         Stiffness (force/length), default inf (rigid). A one-sided support with 0 never carries: it is open, and its
         opening negative where the beam has gone past it.
@@ -148,11 +137,13 @@ class Support(Point, kw_only=True, gc=False):
         Distance to be closed before it acts (length); negative = set too high; one-sided supports only.
     settlement : float
         Movement of the support itself (length), positive downward; for an axial support to the right.
-    rotation : {"free", "fixed"} or float
+    rotation : {"free", "fixed"}, float or table
         Whether the beam can rotate: free (default), fixed, or a rotational stiffness (force*length/rad). It stays active
-        when the support has lifted off, as in a guide.
-    direction : {"normal", "axial"}
-        Normal (default) is across the beam; axial holds it horizontally, only with axial loads.
+        when the support has lifted off, as in a guide. Or a table with slack, side or law (`Rotation`).
+    direction : {"normal", "axial", "rotational", "hinge"}
+        Normal (default) is across the beam; axial holds it horizontally, only with axial loads. Rotational holds its rotation, and
+        hinge the parts on its two sides against each other: what rotation and hinges with a slack, a side or a law become.
+        Lengths are angles (rad) then, and forces couples, counterclockwise, or sagging moments.
     friction : float
         Coefficient (no unit) of a support across the beam: it holds the beam along its axis with a force up to that times its
         reaction, then slips. Default 0.
@@ -170,8 +161,8 @@ class Support(Point, kw_only=True, gc=False):
     stiffness: NotNegative = inf
     gap: float = 0.0
     settlement: float = 0.0
-    rotation: Literal["free", "fixed"] | NotNegative = "free"
-    direction: Literal["normal", "axial"] = "normal"
+    rotation: Literal["free", "fixed"] | NotNegative | Rotation = "free"
+    direction: Literal["normal", "axial", "rotational", "hinge"] = "normal"
     friction: NotNegative = 0.0
     law: Law | None = None
     unloading: Literal["elastic", "plastic", "broken"] = "elastic"

@@ -17,7 +17,9 @@ Node = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 0})]
 Count = Annotated[int, Meta(le=2**31 - 1, extra_json_schema={"minimum": 1})]
 Spans = Annotated[list[Positive], Meta(extra_json_schema={"minItems": 1})]
 Side = Literal["both", "below", "above"]
-SupportSide = Literal["both", "below", "above", "left", "right"]
+SupportSide = Literal["both", "below", "above", "left", "right", "counterclockwise", "clockwise", "sagging", "hogging"]
+TurnSide = Literal["both", "counterclockwise", "clockwise"]
+HingeSide = Literal["both", "sagging", "hogging", "counterclockwise", "clockwise"]
 
 
 class _Hinting(StructMeta):

@@ -27,6 +27,8 @@ NOT_BUILT = {
     "unfavourable_parts_only": UNFAVOURABLE,
 }
 """Keys of a train that are refused by name."""
+OF_ROTATIONS = ("counterclockwise", "clockwise", "sagging", "hogging")
+"""Sides of supports that few have; those of other supports are told."""
 
 
 def shown(value: Any) -> str:
@@ -321,7 +323,8 @@ def _described(kind: inspect.Type, plural: bool = False) -> str:
         case inspect.StrType():
             return "a text in quotes"
         case inspect.LiteralType(values=values):
-            return choice(shown(value) for value in values)
+            rare = OF_ROTATIONS if {"below", *OF_ROTATIONS} <= {*values} else ()
+            return choice(shown(value) for value in values if value not in rare)
         case inspect.TupleType(item_types=items) if not all(isinstance(_core(item), inspect.FloatType) for item in items):
             return f"{'pairs' if plural else 'a pair'} of {choice(map(_described, items), 'and')}"
         case inspect.TupleType(item_types=items):

@@ -57,9 +57,9 @@ side = "under" ->
     supports[0].side: expected "above", "below", "both", "left" or "right", got "under"; a support that lies under the beam
     and lets it lift off is "below"
 side = 1 -> supports[0].side: expected "above", "below", "both", "left" or "right", got 1
-rotation = "stiff" -> supports[0].rotation: expected "fixed", "free" or a number, got "stiff"
-rotation = [1] -> supports[0].rotation: expected "fixed", "free" or a number, got [1]
-direction = "x" -> supports[0].direction: expected "axial" or "normal", got "x"
+rotation = "stiff" -> supports[0].rotation: expected "fixed", "free", a number or a table, got "stiff"
+rotation = [1] -> supports[0].rotation: expected "fixed", "free", a number or a table, got [1]
+direction = "x" -> supports[0].direction: expected "axial", "hinge", "normal" or "rotational", got "x"
 law = 3 -> supports[0].law: expected a list of pairs of numbers or a table, got 3
 law = [[1.0]] -> supports[0].law[0]: expected a pair of numbers, got [1.0]
 law = [[1.0, "a"]] -> supports[0].law[0][1]: expected a number, got "a"

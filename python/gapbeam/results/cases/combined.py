@@ -319,7 +319,7 @@ class CombinedResult(Result):
     def _fields_there(self) -> dict[str, int]:
         """Names of the fields, and which of FIELDS they are."""
         there = dict(self._beam.fields)
-        if self._plan.settlements[:, ~self._beam.across].any():
+        if self._plan.settlements[:, ~self._beam.bends].any():
             there |= {"axial_force": 4, "axial_displacement": 5}
         return there
 

@@ -45,7 +45,7 @@ class CaseSolver(Pickled):
     Attributes
     ----------
     supports : numpy.ndarray of int
-        Numbers in the scene of the supports across the beam.
+        Numbers in the scene of the supports across the beam, and of those that hold rotations.
     start : numpy.ndarray of int
         Where searches start if nothing else is said.
     one : OneCase or None
@@ -54,12 +54,12 @@ class CaseSolver(Pickled):
 
     def __init__(self, scene: Scene, beam: Beam, rule: str):
         self.scene, self.beam, self.rule = hold(scene), beam, rule
-        self.supports = read_only(np.flatnonzero(beam.across))
+        self.supports = read_only(np.flatnonzero(beam.bends))
         self.start = read_only(starting_scheme(beam))
         # Columns of the supports of the engine; None if these are the same, one by one
         self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
         # What its effect on bending is, is left out: cases whose compression is beyond the Euler load are refused
-        axial = len(beam.across) - int(beam.across.sum())
+        axial = len(beam.bends) - int(beam.bends.sum())
         self.may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order
         self.one = self._condense()
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from ...base.errors import SceneError
 from ...engine.arrays import Columns
 from ...engine.combinations import Varied
+from ...engine.layout import AXIAL
 from ...scene.names import find, names_in_errors
 from ...scene.structs import Scene
 from ...scene.wording import key_of
@@ -177,7 +178,7 @@ def _staying(columns: Columns) -> tuple[np.ndarray, ...]:
     side, direction = columns.support_codes[:2, :-1]
     with_law = np.isin(np.arange(len(side)), columns.with_laws())
     idle = with_law | ~(columns.support[1, :-1] > 0.0)
-    return np.zeros(0, int), np.flatnonzero((side == 0) | (direction != 0)), np.flatnonzero(idle)
+    return np.zeros(0, int), np.flatnonzero((side == 0) | (direction == AXIAL)), np.flatnonzero(idle)
 
 
 def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) -> list[tuple[np.ndarray, str]]:
@@ -194,7 +195,7 @@ def _mistakes(columns: Columns, key: str, which: np.ndarray, found: np.ndarray) 
     if key == "gap":
         two_sided = (side == 0) & ~with_law
         mistakes += [
-            ((direction != 0) & (found != 0.0), "an axial support has no gap"),
+            ((direction == AXIAL) & (found != 0.0), "an axial support has no gap"),
             (two_sided & (found != 0.0), 'only a support with side = "below" or "above" has a gap'),
         ]
     return mistakes

@@ -13,6 +13,7 @@ from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.combinations import refuse_movements
+from ...scene.rotations import which_turn
 from ...scene.structs import Scene
 from ...scene.tapers import is_tapered
 from ..state.schemes import starting_scheme
@@ -53,6 +54,9 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
     if any(map(is_tapered, scene.sections)):
         what = "a section that tapers under trains is not available in this version; give short sections, each of one stiffness"
         raise SceneError("sections", what)
+    if which_turn(scene.supports).any():
+        what = "a restraint or hinge with a law, a slack or a side under trains is not available in this version"
+        raise SceneError("supports", f"{what}; leave one of them out")
     if any(hinge.stiffness for hinge in scene.hinges):
         raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
     for k, load in enumerate(scene.loads):

@@ -59,9 +59,11 @@ class Loop(Record):
     leg : numpy.ndarray of int
         Which factor of the history each state is on the way to, from 0.
     movement : numpy.ndarray
-        Deflection of the beam there, positive downward; of an axial support, and of friction, along the beam, to the right.
+        Deflection of the beam there, positive downward; of an axial support, and of friction, along the beam, to the right. The
+        rotation that a support holds, clockwise; of a hinge that left of it less that right of it.
     reaction : numpy.ndarray
-        Force on the beam, positive upward; of an axial support, and of friction, to the right.
+        Force on the beam, positive upward; of an axial support, and of friction, to the right. The couple of what holds a rotation,
+        counterclockwise; of a hinge its sagging moment.
     cycles : list of Cycle
         Two factors of the history each.
     """
@@ -112,7 +114,7 @@ def loop_of(result: Result, support: int | str | None = None, friction: bool = F
     along = np.array([friction or one.direction == "axial" for one in supports], dtype=bool)
     taken = np.where(along, -force, force)
     if support is None:
-        across = [k for k, one in enumerate(supports) if (one.friction if friction else one.direction == "normal")]
+        across = [k for k, one in enumerate(supports) if (one.friction if friction else one.direction != "axial")]
         if not across:
             raise ValueError("support: none has friction" if friction else "support: there is none across the beam")
         most = (abs(_energy(taken[:, k], movement[:, k])) for k in across)

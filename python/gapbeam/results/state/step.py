@@ -169,15 +169,16 @@ class Step(Pickled):
 
     @cached_property
     def set(self) -> np.ndarray:
-        """Permanent set of each support with plastic unloading (length, in the direction in which it gives way), else 0."""
+        """Permanent set of each support with plastic unloading (length, angle), in the direction in which it gives way; else 0."""
         beam = self._beam
         found = np.zeros(beam.scene_supports)
-        which = np.flatnonzero((beam.columns.support_codes[3, :-1] == PLASTIC) & beam.across)
+        which = np.flatnonzero((beam.columns.support_codes[3, :-1] == PLASTIC) & beam.bends)
         if len(which):
             first = np.searchsorted(beam.numbers, which)
             side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
-            contact = scaled(beam.breakpoints[0, first], beam.units.deflection)
-            slope = scaled(beam.breakpoints[2, first], beam.units.force - beam.units.deflection)
+            arm = np.where(beam.across[which], 0, beam.units.length)  # of what holds rotations, angles and couples
+            contact = scaled(beam.breakpoints[0, first], beam.units.deflection - arm)
+            slope = scaled(beam.breakpoints[2, first], beam.units.force - beam.units.deflection + 2 * arm)
             yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
             back = np.divide(self.reaction[which], slope, out=np.zeros(len(which)), where=slope > 0.0)
             now = np.where(yielded, self.deflection[which] - back, contact)

@@ -1,0 +1,212 @@
+!> Supports that hold rotations: restraints and hinges with laws of their own.
+!>
+!> The law of a couple over a rotation is that of a force over a deflection, so such a support is one as any other, at a node of its
+!> own behind those of the beam (turning of beam_type). What its piece does there goes into the node of the beam at which it is: a
+!> spring becomes a compliance, which is added (docs/method.md 2), a level piece a couple, or the moment that a hinge passes on, and
+!> a rigid piece a rotation that is known.
+module gapbeam_turning
+    use gapbeam_kinds, only: wp
+    use gapbeam_nodes, only: plain, hinge, restrained, jointed
+    use gapbeam_band, only: node_type, rhs_type, answer_type
+    use gapbeam_law, only: add_supports
+    use gapbeam_law_kinematics, only: mark_held
+    use gapbeam_model, only: beam_type, last_place
+    implicit none
+    private
+    public :: apply_turning, find_turning, find_kinds, turn_with
+
+contains
+
+    !> Nodes as the supports that hold their rotations make them
+    pure subroutine apply_turning(beam, acting, range, nodes, rhs, level)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Which supports act
+        logical, intent(in) :: acting(:)
+        !> First and last node of the beam
+        integer, intent(in) :: range(2)
+        !> As the other supports leave them; of rotations as well out, shape (0:n + r)
+        type(node_type), intent(inout) :: nodes(0:)
+        type(rhs_type), intent(inout) :: rhs(0:)
+        real(wp), intent(inout) :: level(0:)
+        integer :: i, j, v
+
+        do j = 1, size(beam%turning)
+            i = beam%turning(j)
+            if (i < range(1) .or. i > range(2)) cycle
+            v = size(beam%links) + j
+            nodes(v) = node_type()
+            rhs(v) = rhs_type()
+            level(v) = 0.0_wp
+            call add_supports(beam%supports, beam%order(beam%first(v):beam%first(v + 1) - 1), acting, nodes, rhs, level)
+            associate (node => nodes(i), r => rhs(i), of => nodes(v), known => rhs(v))
+                if (of%held) then
+                    node%compliance = 0.0_wp
+                    ! What a known rotation would make where a link is held against it
+                    level(i) = level(i) + abs(known%deflection)*maxval(beam%links(max(1, i):min(i + 1, size(beam%links)))%length)
+                    if (beam%relative(j)) then
+                        node%kind = jointed
+                        r%right = r%right + known%deflection
+                    else
+                        node%kind = restrained
+                        r%left = r%left + known%deflection
+                        r%right = r%right - known%deflection
+                    end if
+                else if (of%stiffness > 0.0_wp) then
+                    node%compliance = 1/of%stiffness
+                    if (beam%relative(j)) then
+                        node%kind = jointed
+                        r%right = r%right + node%compliance*known%shear
+                    else
+                        node%kind = restrained
+                        r%couple = r%couple + known%shear
+                    end if
+                else if (beam%relative(j)) then
+                    node%kind = hinge
+                    r%couple = -known%shear
+                else
+                    r%couple = r%couple + known%shear
+                end if
+            end associate
+        end do
+    end subroutine apply_turning
+
+    !> Rotations from the solution at the nodes of the beam, and the couples that go with them
+    pure subroutine find_turning(beam, nodes, rhs, loads, turn_size, answers, rotation_size, couple, couple_size)
+        !> The beam
+        type(beam_type), intent(in) :: beam
+        !> Nodes and right-hand sides as apply_turning left them; the loads alone
+        type(node_type), intent(in) :: nodes(0:)
+        type(rhs_type), intent(in) :: rhs(0:), loads(0:)
+        !> Of every link, the rotations that its loads could make, shape (n)
+        real(wp), intent(in) :: turn_size(:)
+        !> Solution at the nodes of the beam in, rotations as the deflections of those behind them out, shape (0:n + r)
+        type(answer_type), intent(inout) :: answers(0:)
+        !> Sizes for rounding errors of the rotations, the couples, and their sizes, shape (r)
+        real(wp), intent(out) :: rotation_size(:), couple(:), couple_size(:)
+        real(wp) :: turn(2), turn_terms(2)
+        integer :: i, j, n, v
+
+        n = size(beam%links)
+        do j = 1, size(beam%turning)
+            i = beam%turning(j)
+            v = n + j
+            associate (a => answers(i), of => nodes(v), known => rhs(v), rotation => answers(v)%deflection)
+                couple_size(j) = max(abs(a%moment_left), abs(a%moment_right))
+                if (i > 0) couple_size(j) = max(couple_size(j), abs(answers(i - 1)%moment_right))
+                if (i < n) couple_size(j) = max(couple_size(j), abs(answers(i + 1)%moment_left))
+                if (beam%relative(j)) then
+                    couple(j) = a%moment_left
+                else
+                    couple(j) = (a%moment_left - a%moment_right) + loads(i)%couple
+                    couple_size(j) = couple_size(j) + abs(loads(i)%couple)
+                end if
+                if (of%held) then
+                    rotation = known%deflection
+                    rotation_size(j) = abs(rotation)
+                else if (of%stiffness > 0.0_wp) then
+                    rotation = (couple(j) + known%shear)/of%stiffness
+                    rotation_size(j) = (couple_size(j) + abs(known%shear))/of%stiffness
+                else
+                    call turns_beside(beam, loads, turn_size, answers, i, turn, turn_terms)
+                    if (beam%relative(j)) then
+                        rotation = turn(1) - turn(2)
+                        rotation_size(j) = sum(turn_terms)
+                    else
+                        ! Both are the same; the one whose terms are smaller is more exact
+                        rotation = turn(minloc(turn_terms, 1))
+                        rotation_size(j) = minval(turn_terms)
+                    end if
+                end if
+            end associate
+        end do
+    end subroutine find_turning
+
+    !> Rotations left and right of a node by the links beside it, and the sizes of their terms; huge where there is no link
+    pure subroutine turns_beside(beam, loads, turn_size, answers, i, turn, terms)
+        !> As for find_turning
+        type(beam_type), intent(in) :: beam
+        type(rhs_type), intent(in) :: loads(0:)
+        real(wp), intent(in) :: turn_size(:)
+        type(answer_type), intent(in) :: answers(0:)
+        !> The node
+        integer, intent(in) :: i
+        real(wp), intent(out) :: turn(2), terms(2)
+
+        turn(:) = 0.0_wp
+        terms(:) = huge(1.0_wp)
+        if (i > 0) then
+            associate (link => beam%links(i), a => answers(i - 1), b => answers(i))
+                turn(1) = (b%deflection - a%deflection)*link%inverse - (link%fab*a%moment_right + link%fbb*b%moment_left) &
+                    - loads(i)%left
+                terms(1) = (abs(b%deflection) + abs(a%deflection))*link%inverse + abs(link%fab*a%moment_right) &
+                    + link%fbb*abs(b%moment_left) + turn_size(i)
+            end associate
+        end if
+        if (i < size(beam%links)) then
+            associate (link => beam%links(i + 1), a => answers(i), b => answers(i + 1))
+                turn(2) = (b%deflection - a%deflection)*link%inverse + (link%faa*a%moment_right + link%fab*b%moment_left) &
+                    + loads(i)%right
+                terms(2) = (abs(b%deflection) + abs(a%deflection))*link%inverse + link%faa*abs(a%moment_right) &
+                    + abs(link%fab*b%moment_left) + turn_size(i + 1)
+            end associate
+        end if
+    end subroutine turns_beside
+
+    !> Kinds of the nodes of a beam while a scheme acts: a hinge that acts is none, a restraint that does not either
+    pure subroutine find_kinds(beam, acting, kind)
+        !> The beam, and which supports act
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: acting(:)
+        !> plain, hinge or restrained, shape (0:n)
+        integer, intent(out) :: kind(0:)
+        logical, allocatable :: held(:)
+        integer :: j
+
+        kind(:) = beam%kind
+        if (.not. allocated(beam%turning)) return
+        allocate (held(0:last_place(beam)))
+        held(:) = .false.
+        call mark_held(beam%supports, acting, held)
+        do j = 1, size(beam%turning)
+            associate (holds => held(size(beam%links) + j), here => kind(beam%turning(j)))
+                if (beam%relative(j)) then
+                    here = merge(plain, hinge, holds)
+                else if (holds) then
+                    here = restrained
+                end if
+            end associate
+        end do
+    end subroutine find_kinds
+
+    !> Rotations that go with a motion in which the beam is straight between its nodes
+    pure subroutine turn_with(beam, motion)
+        type(beam_type), intent(in) :: beam
+        !> Displacements of the nodes in, rotations behind them out, shape (0:n + r)
+        real(wp), intent(inout) :: motion(0:)
+        integer :: i, j, n
+
+        if (.not. allocated(beam%turning)) return
+        n = size(beam%links)
+        do j = 1, size(beam%turning)
+            i = beam%turning(j)
+            if (beam%relative(j)) then
+                motion(n + j) = slope(i) - slope(i + 1)
+            else
+                motion(n + j) = slope(min(i + 1, n))
+            end if
+        end do
+
+    contains
+
+        pure function slope(k)
+            !> Link
+            integer, intent(in) :: k
+            real(wp) :: slope
+
+            slope = (motion(k) - motion(k - 1))*beam%links(k)%inverse
+        end function slope
+
+    end subroutine turn_with
+
+end module gapbeam_turning

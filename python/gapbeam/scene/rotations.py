@@ -1,0 +1,168 @@
+"""Rotations held by a law, with a slack or one way: written at a support or as a hinge, they become supports of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+
+import numpy as np
+from msgspec.structs import replace
+
+from ..base.characters import visible
+from ..base.errors import SceneError
+from .joints import Hinge, Rotation
+from .loads import MovementLoad
+from .names import column_of
+from .structs import Scene, Support
+from .tables import Table
+from .wording import number
+
+TURNING = ("rotational", "hinge")
+"""Directions of supports that hold rotations."""
+
+
+def turns(support: Support) -> bool:
+    """Whether a support holds a rotation, so that angles and couples take the place of lengths and forces.
+
+    Parameters
+    ----------
+    support : Support
+        Of a scene.
+    """
+    return support.direction in TURNING
+
+
+@dataclass
+class _Spread:
+    """Supports, those that become one included."""
+
+    supports: list[Support]
+    of_support: dict[int, int] = field(default_factory=dict)
+
+    def add(self, support: Support) -> int:
+        self.supports.append(support)
+        return len(self.supports) - 1
+
+
+def at_support(scene: Scene, quantity: str, k: int) -> str:
+    """Give the quantity by whose unit a value at a support is told: that of a rotation where it holds one.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    quantity : str
+        Of a support across the beam: ``"reaction"``, ``"opening"``, ``"gap"``, ...
+    k : int
+        Number of the support.
+
+    Returns
+    -------
+    str
+    """
+    if not turns(scene.supports[k]):
+        return quantity
+    return "couple" if quantity == "reaction" else "rotation"
+
+
+def which_turn(supports: Sequence[Support]) -> np.ndarray:
+    """Find the supports that hold rotations.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Of a scene.
+
+    Returns
+    -------
+    numpy.ndarray of bool
+    """
+    return np.isin(np.array(column_of(supports, "direction"), dtype=str), TURNING)
+
+
+def spread_rotations(scene: Scene) -> None:
+    """Make supports of the rotations that are held by more than a stiffness: of tables ``rotation``, and of such hinges.
+
+    A support that turns both ways freely within a slack gets a law, since only a law has a gap both ways.
+
+    Parameters
+    ----------
+    scene : Scene
+        Keys and types are right; changed in place.
+
+    Raises
+    ------
+    SceneError
+        A slack below zero.
+
+    Examples
+    --------
+    >>> from gapbeam import Beam
+    >>> scene = Scene(beam=Beam([4.0], EI=1.0), supports=[Support(node=0, rotation=Rotation(slack=0.01)), Support(node=1)])
+    >>> spread_rotations(scene)
+    >>> scene.supports[2].name, scene.supports[2].direction, scene.supports[2].gap, scene.supports[2].law
+    ('rotation of 0', 'rotational', 0.01, [(0.0, 1.0)])
+    """
+    with_laws = [hinge for hinge in scene.hinges if _is_more(hinge)]
+    if isinstance(scene.supports, Table):
+        if with_laws:
+            scene.supports = list(scene.supports)
+        else:
+            return
+    if not with_laws and not any(isinstance(one.rotation, Rotation) or turns(one) for one in scene.supports):
+        return
+    found = _Spread(list(scene.supports))
+    for k, support in enumerate(scene.supports):
+        if isinstance(support.rotation, Rotation):
+            _check_slack(support.rotation, f"supports[{k}].rotation.slack")
+            found.supports[k] = replace(support, rotation="free")
+            name = f"rotation of {k if support.name is None else visible(support.name)}"
+            made = _held(support.rotation, support.rotation.stiffness, direction="rotational", name=name)
+            found.of_support[k] = found.add(replace(made, node=support.node, x=support.x))
+    for k, hinge in enumerate(scene.hinges):
+        if _is_more(hinge):
+            _check_slack(hinge, f"hinges[{k}].slack")
+            made = _held(hinge, float("inf") if hinge.stiffness is None else hinge.stiffness, direction="hinge")
+            found.add(replace(made, node=hinge.node, x=hinge.x, name=f"hinge {k}" if hinge.name is None else hinge.name))
+    scene.hinges = [hinge for hinge in scene.hinges if not _is_more(hinge)]
+    scene.supports = [_with_slack(one) if turns(one) else one for one in found.supports]
+    scene.loads = _on_rotations(scene, found.of_support)
+
+
+def _is_more(hinge: Hinge) -> bool:
+    """Whether a hinge is more than a stiffness."""
+    return bool(hinge.slack) or hinge.side != "both" or hinge.law is not None or hinge.unloading != "elastic"
+
+
+def _check_slack(of: Hinge | Rotation, place: str) -> None:
+    """Refuse a slack below zero of what holds both ways; one way it is a lack of fit."""
+    if of.side == "both" and not of.slack >= 0.0:
+        raise SceneError(place, f"expected a number, 0 or more, got {number(of.slack)}")
+
+
+def _held(of: Hinge | Rotation, stiffness: float, **keys: str) -> Support:
+    law = list(of.law) if isinstance(of.law, list) else of.law
+    return Support(side=of.side, stiffness=stiffness, gap=of.slack, law=law, unloading=of.unloading, **keys)
+
+
+def _with_slack(support: Support) -> Support:
+    """Give a support that turns freely within a slack both ways a law: only such a one has a gap."""
+    if support.side != "both" or not support.gap or support.law is not None:
+        return support
+    point = (1.0, support.stiffness) if isfinite(support.stiffness) else (0.0, 1.0)
+    return replace(support, stiffness=float("inf"), law=[point])
+
+
+def _on_rotations(scene: Scene, of_support: dict[int, int]) -> list:
+    """Let rotations of supports turn what has become of their restraints."""
+    if not of_support or isinstance(scene.loads, Table):
+        return scene.loads
+    names = {support.name: k for k, support in enumerate(scene.supports) if support.name is not None}
+    loads = list(scene.loads)
+    for i, load in enumerate(loads):
+        if isinstance(load, MovementLoad) and load.rotation is not None and load.value is None:
+            k = names.get(load.support, load.support) if isinstance(load.support, str) else load.support
+            if k in of_support:
+                loads[i] = replace(load, support=of_support[k], rotation=None, value=load.rotation)
+    return loads

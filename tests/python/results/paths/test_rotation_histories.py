@@ -1,0 +1,87 @@
+"""Histories of restraints and hinges with laws, beside the same law of a deflection: at the tip of a rigid lever of length 1."""
+
+import math
+import random
+
+import gapbeam
+import pytest
+
+
+def law_of(rng, yields):
+    """Points of a law; one that yields gets flatter from piece to piece."""
+    points, d, f, slope = [], 0.0, 0.0, rng.choice([2.0, 4.0, 8.0, 16.0])
+    for _ in range(rng.randint(2, 4)):
+        width = rng.choice([0.03125, 0.0625, 0.125])
+        d, f = d + width, f + slope * width
+        points.append([d, f])
+        slope *= rng.choice([0.0, 0.25, 0.5] if yields else [0.0, 0.25, 0.5, 1.0, 2.0])
+    return points
+
+
+def pair_of(seed, unit=1.0):
+    """A beam with a law of a rotation, and one with the same law of a deflection; and the ratio of their displacements."""
+    rng = random.Random(seed)
+    yields = rng.random() < 0.7
+    law = {"law": [[d, f * unit] for d, f in law_of(rng, yields)], "unloading": "plastic" if yields else "elastic"}
+    history = [rng.choice([1.0, 0.5, 2.0, -0.5, -1.0, 0.0, 1.5]) for _ in range(rng.randint(1, 5))]
+    history = [factor for k, factor in enumerate(history) if k == 0 or factor != history[k - 1]]
+    about = {"loads": [{"type": "uniform", "q": unit * rng.choice([1.0, 2.0, 4.0]), "to": 2.0}],
+             "analysis": {"follow": "events", "history": history}}  # fmt: skip
+    if rng.random() < 0.5:
+        stop = {"x": 1.0, "side": rng.choice(["below", "above"]), "gap": rng.choice([0.0, 0.03125]),
+                "stiffness": rng.choice([math.inf, 8.0 * unit])}  # fmt: skip
+        stops = [stop] if rng.random() < 0.6 else []
+        turned = {"beam": {"spans": [2.0], "EI": unit}, "supports": [{"x": 0.0}, {"x": 2.0, "rotation": law}, *stops], **about}
+        lever = [{"x": 0.0}, {"x": 2.0}, *stops, {"x": 3.0, **law}]
+        return turned, {"beam": {"spans": [2.0, 1.0], "EI": [unit, math.inf]}, "supports": lever, **about}, 1.0
+    # The half of a symmetric beam, which does not turn at its middle, sees half of the rotation of a hinge there
+    clamped = {"rotation": "fixed"}
+    turned = {"beam": {"spans": [2.0], "EI": unit}, "supports": [{"x": 0.0, **clamped}, {"x": 2.0, **clamped}],
+              "hinges": [{"x": 1.0, **law}], **about}  # fmt: skip
+    half = {**law, "law": [[d / 2.0, f] for d, f in law["law"]]}
+    about = {**about, "loads": [{**about["loads"][0], "to": 1.0}]}
+    supports = [{"x": 0.0, **clamped}, {"x": 1.0, "direction": "rotational", **half}]
+    return turned, {"beam": {"spans": [1.0], "EI": unit}, "supports": supports, **about}, 2.0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_beside_a_lever_and_beside_half_the_beam(seed):
+    scene, other, ratio = pair_of(seed)
+    turned, known = gapbeam.solve(scene), gapbeam.solve(other)
+    assert turned.status == known.status
+    assert [event.event for event in turned.events] == [event.event for event in known.events]
+    for one, two in zip(turned.steps, known.steps, strict=True):
+        assert one.factor == pytest.approx(two.factor, abs=1e-13)
+        assert one.reaction[-1] == pytest.approx(two.reaction[-1], abs=1e-13)
+        assert one.deflection[-1] == pytest.approx(ratio * two.deflection[-1], abs=1e-13)
+        assert one.set[-1] == pytest.approx(ratio * two.set[-1], abs=1e-13)
+    for leg in range(1, len(scene["analysis"]["history"]) + 1):
+        for factor in (0.3, 0.77):
+            try:
+                found = turned.at(0.5, factor=factor, leg=leg)
+            except (ValueError, gapbeam.GapbeamError):
+                continue  # not on this leg
+            assert found.moment == pytest.approx(known.at(0.5, factor=factor, leg=leg).moment, abs=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(0, 40, 8))
+def test_in_other_units(seed):
+    """Forces far from 1: sets and couples are scaled."""
+    scene, _, _ = pair_of(seed)
+    scaled, _, _ = pair_of(seed, 2.0**80)
+    for one, two in zip(gapbeam.solve(scene).steps, gapbeam.solve(scaled).steps, strict=True):
+        assert two.reaction[-1] == pytest.approx(2.0**80 * one.reaction[-1], rel=1e-13)
+        assert two.set[-1] == pytest.approx(one.set[-1], abs=1e-13)
+
+
+def test_a_loop_closes_and_its_energy_is_that_of_its_area():
+    """A joint 1 000 that yields at 10, turned to and fro by couples: elastic-plastic, area 4 F (u - u_y)."""
+    joint = {"law": [[0.01, 10.0], [1.0, 10.0]], "unloading": "plastic"}
+    scene = {"beam": {"spans": [1.0], "EI": 100.0}, "supports": [{"node": 0, "rotation": joint}, {"node": 1}],
+             "loads": [{"type": "moment", "node": 0, "M": 14.0}],
+             "analysis": {"follow": "events", "history": [1.0, -1.0, 1.0, -1.0, 1.0]}}  # fmt: skip
+    loop = gapbeam.solve(scene).loop("rotation of 0")
+    most = 4.0 / 300.0  # what the joint leaves of the couple turns the beam with 3 EI/L
+    assert max(loop.movement) == pytest.approx(most, rel=1e-14)
+    assert loop.cycles[1].energy == pytest.approx(4.0 * 10.0 * (most - 0.01), rel=1e-12)
+    assert loop.cycles[1].closed
