@@ -12,8 +12,8 @@ from . import calls as _engine
 from .arrays import Columns, Places
 from .laws import CurveValues
 
-AXIAL = 1
-"""Direction of a support along the beam, as in gapbeam_scene."""
+AXIAL, ROTATIONAL, RELATIVE = 1, 2, 3
+"""Directions of supports along the beam, of its rotation, and of a hinge, as in gapbeam_scene."""
 
 
 class Curve(Protocol):

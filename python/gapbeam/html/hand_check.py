@@ -11,6 +11,7 @@ from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.equilibrium import resultants_of_loads
 from ..scene.names import label
+from ..scene.rotations import turns
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -59,7 +60,7 @@ def terms_of(result: Result, step: Step) -> list[Term]:
         name, reaction, couple = f"reaction {label(scene.supports, k)}", float(step.reaction[k]), float(step.couple[k])
         if scene.supports[k].direction == "axial":
             continue
-        if reaction:
+        if reaction and not turns(scene.supports[k]):
             found.append(Term(name, -reaction, x, -reaction * x))
         if couple:
             found.append(Term(f"couple of support {label(scene.supports, k)}", 0.0, None, couple))

@@ -14,11 +14,13 @@ from ..results.event_words import state_in_words
 from ..results.state.ground import joined
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import label, labels
+from ..scene.rotations import turns
 
 if TYPE_CHECKING:
     from ..results.envelopes.envelope import Envelope
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
+    from ..scene import Scene
 
 MOST_ROWS = 200
 """Rows of a table; all are in the JSON output."""
@@ -83,6 +85,14 @@ def _shown(result: Result, quantity: str, value: float) -> Cell:
     return _number(value, fmt.shown(result.scene, quantity, value)) if np.isfinite(value) else Cell("")
 
 
+def _with_units(scene: Scene, k: int, name: str) -> str:
+    """Name a support; one that holds a rotation with the units of its couple and its angles, for which the columns have no room."""
+    if not turns(scene.supports[k]):
+        return name
+    angle = "mrad" if fmt.shown_unit(scene, "deflection")[1] == 1000.0 else "rad"
+    return f"{name} [{', '.join(filter(None, (fmt.unit(scene, 'couple'), angle)))}]"
+
+
 def _supports(result: Result) -> TableData:
     """The supports in the state that is drawn: the page fills in its numbers."""
     scene = result.scene
@@ -96,7 +106,8 @@ def _supports(result: Result) -> TableData:
     for k, (name, x, support) in enumerate(rows):
         side = "axial" if support.direction == "axial" else support.side
         values = [Cell("", 0.0) if step is None else _shown(result, of, quiet[of][k]) for of in quantities]
-        table.append([Cell(name), _number(x), Cell(side), Cell("" if step is None else state_in_words(step.state[k])), *values])
+        state = Cell("" if step is None else state_in_words(step.state[k]))
+        table.append([Cell(_with_units(scene, k, name)), _number(x), Cell(side), state, *values])
     return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
 
 
@@ -122,7 +133,7 @@ def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> Tab
     found = [[support[quantity][kind] for quantity, kind in chosen] for support in envelope.supports]
     quiet = [fmt.without_noise(np.nan if one is None else one.value for one in column) for column in zip(*found, strict=True)]
     for k, name in enumerate(names):
-        row = [Cell(name)]
+        row = [Cell(_with_units(result.scene, k, name))]
         for i, (quantity, _) in enumerate(chosen):
             row.append(_shown(result, quantity, quiet[i][k]))
             row.append(Cell(source_in_words(found[k][i], result.scene) if found[k][i] is not None and quiet[i][k] else ""))

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..results import formatting as fmt
+from ..scene.rotations import which_turn
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -66,7 +69,7 @@ def bounds_in_words(result: Result, step: Step) -> list[str]:
     """
     found, scene = [], result.scene
     largest = {name: float(abs(step.solution.extremes()[0][:, k]).max()) for name, k in result._beam.fields.items()}
-    largest["reaction"] = max(map(abs, step.reaction.tolist()), default=0.0)
+    largest["reaction"] = float(np.abs(step.reaction[~which_turn(scene.supports)]).max(initial=0.0))
     for name, bound in step.error_bounds.items():
         if name == "reaction" and not scene.supports:
             continue

@@ -13,6 +13,7 @@ from ..results.envelopes.lifted import NONE
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
+from ..scene.rotations import at_support, which_turn
 from .ground import free_span_headings
 from .over_path import write_over_path
 from .signs import positive_fields
@@ -130,9 +131,10 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
         return
     envelope, up = result.envelope(), "^" if say.plain else "\u2191"
     reaction, opening = (envelope.at_supports[:, AT_SUPPORTS.index(name)] for name in ("reaction", "opening"))
-    deflection = np.nanmax(np.abs(envelope.at_supports[:, AT_SUPPORTS.index("deflection")]))
-    lifted = opening > NONE * deflection
-    supports = _columns_of(reaction, lifted)
+    turning = which_turn(scene.supports)
+    deflection = np.nanmax(np.abs(envelope.at_supports[:, AT_SUPPORTS.index("deflection")][:, ~turning]), initial=0.0)
+    lifted = (opening > NONE * deflection) & ~turning
+    supports = [i for i in _columns_of(np.where(turning, 0.0, reaction), lifted) if not turning[i]]
     shown = _rows_of(reaction, opening, supports)
     rows = []
     for k in shown:
@@ -160,12 +162,27 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     words = [f"Upward positive{mark}."]
     if hidden := len(envelope.sources) - len(shown):
         words.append(f"{hidden:,} combinations are left out here, which neither govern nor lift a support more; --json has all.")
-    if hidden := len(names) - len(supports):
+    if hidden := int((~turning).sum()) - len(supports):
         lost = [i for i in np.flatnonzero(lifted.any(axis=0)).tolist() if i not in supports]
         words.append(f"{hidden:,} supports are left out here{f'; no contact at {fmt.ranges(lost)}' if lost else ''}.")
     if scene.foundation:
         words.append("The sum has the ground in it.")
     say.line(" ".join(words), "dim")
+    if turning.any():
+        _couples(say, result, reaction, [k for k in shown if envelope._result_of(k).status == "solved"])
+
+
+def _couples(say: Writer, result: "CombinedResult", couple: np.ndarray, shown: list[int]) -> None:
+    """Tabulate couples of what holds rotations by combination."""
+    scene, envelope = result.scene, result.envelope()
+    which = np.flatnonzero(which_turn(scene.supports))[:MOST_SUPPORTS].tolist()
+    say.heading(fmt.with_unit(scene, "couple", "Couples by combination"))
+    rows = [
+        [visible(envelope.sources[k].combination or ""), *(fmt.number(value, fmt.DIGITS) for value in couple[k, which].tolist())]
+        for k in shown
+    ]
+    say.table_by_name(["", *(fmt.support(scene, i) for i in which)], rows)
+    say.line("Counterclockwise positive; of a hinge its sagging moment.", "dim")
 
 
 def _rows_of(reaction: np.ndarray, opening: np.ndarray, supports: list[int]) -> list[int]:
@@ -205,19 +222,21 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
         return
     say.heading(f"Supports, {of}")
     one_sided = any(support.side != "both" for support in scene.supports)
-    rows, names = [], fmt.numbered(scene.supports)
+    rows, names, turning, couple = [], fmt.numbered(scene.supports), which_turn(scene.supports), fmt.unit(scene, "couple")
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
     for k in chosen(len(names), lifted, MOST_ROWS):
         if k is None:
             rows.append(["..."] * (6 if one_sided else 4))
             continue
-        name, row = names[k], envelope.supports[k]
+        row, units = envelope.supports[k], "" if not turning[k] else f" [{', '.join(filter(None, (couple, 'rad')))}]"
+        name = names[k] + units
         for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
             texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
             if one_sided:
                 opening = row["opening"][kind]
-                texts += [fmt.shown(scene, "opening", opening.value), _source(opening) if opening.value else ""]
+                far = fmt.shown(scene, at_support(scene, "opening", k), opening.value)
+                texts += [far, _source(opening) if opening.value else ""]
             rows.append(texts)
     headings = ["", "", fmt.stacked(scene, "reaction"), "combination"]
     if one_sided:
@@ -281,9 +300,9 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
     names = labels(scene.supports)
     rows = [
         [
-            _of(hint, names, scene), IN_WORDS[hint.kind], fmt.shown(scene, hint.quantity, hint.value),
+            _of(hint, names, scene), IN_WORDS[hint.kind], fmt.shown(scene, _unit_of(hint, scene), hint.value),
             fmt.number(hint.x, fmt.DIGITS), visible(hint.combination or ""), fmt.number(hint.factor, fmt.DIGITS),
-            fmt.shown(scene, hint.quantity, largest[hint.quantity, hint.support, hint.kind]),
+            fmt.shown(scene, _unit_of(hint, scene), largest[hint.quantity, hint.support, hint.kind]),
         ]
         for hint in found
     ]  # fmt: skip
@@ -293,9 +312,14 @@ def _factors_between(say: Writer, result: "CombinedResult") -> None:
              "(all but the dead ones) have that part of their factors.")  # fmt: skip
 
 
+def _unit_of(hint: "Hint", scene: "Scene") -> str:
+    """Give the quantity by whose unit a hint is told."""
+    return hint.quantity if hint.support is None else at_support(scene, hint.quantity, hint.support)
+
+
 def _of(hint: "Hint", names: list[str], scene: "Scene") -> str:
     """Name the quantity of a hint, with its unit."""
-    return fmt.shown_heading(scene, hint.quantity) + ("" if hint.support is None else f" of {names[hint.support]}")
+    return fmt.shown_heading(scene, _unit_of(hint, scene)) + ("" if hint.support is None else f" of {names[hint.support]}")
 
 
 def _list(say: Writer, result: "CombinedResult") -> None:

@@ -11,6 +11,7 @@ from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import CLOSE
 from ..results.envelopes.over_path import is_followed
 from ..results.views.extreme import IN_WORDS
+from ..scene.rotations import at_support
 from .writer import Writer
 
 if TYPE_CHECKING:
@@ -73,7 +74,8 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
         for k, what, kind in shown:
             one = found.supports[k][what][kind]
             name, before = "" if k == before else names[k], k
-            rows.append([name, f"{IN_WORDS[kind]} {what}", fmt.shown(scene, what, one.value), *_where(one.source, legs)])
+            unit = at_support(scene, what, k)
+            rows.append([name, f"{IN_WORDS[kind]} {what}", fmt.shown(scene, unit, one.value), *_where(one.source, legs)])
         if not only_at_end:
             say.line()
         say.table(["support", "", "value", *_headings(result, legs)], rows, left=(0, 1))

@@ -27,6 +27,8 @@ LEFT_OUT = {
 MOST_CASES = 8
 """Load cases that are named in one line."""
 
+OTHERS = {"axial": "axial", "rotational": "of a rotation with a law", "hinge": "hinges with a law"}
+"""Kinds of supports that are not across the beam, by their direction."""
 
 def write_system(say: "Writer", result: "Result") -> None:
     """Print what was solved: beam, supports, loads, equations, and what was left out."""
@@ -74,7 +76,7 @@ def _supports(scene: Scene) -> str:
         (sum(support.side == "both" for support in normal), "two-way"),
         (sum(support.side == "below" for support in normal), "one-sided from below"),
         (sum(support.side == "above" for support in normal), "one-sided from above"),
-        (len(scene.supports) - len(normal), "axial"),
+        *((sum(support.direction == way for support in scene.supports), kind) for way, kind in OTHERS.items()),
         (sum(support.gap > 0 for support in normal), "with a gap"),
         (sum(support.gap < 0 for support in normal), "set high (negative gap)"),
         (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),

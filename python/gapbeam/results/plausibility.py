@@ -133,6 +133,7 @@ def _soft(result: Result, longest: float, deflection: float, envelope: Envelope 
     springs = np.array(column_of(scene.supports, "stiffness"), dtype=float)
     if len(springs):
         reactions = np.max([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS], axis=0)
+        reactions[which_turn(scene.supports)] = 0.0
         with np.errstate(divide="ignore", invalid="ignore"):
             given = np.nan_to_num(reactions / springs, nan=0.0, posinf=0.0)
         if given.max() > limit:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..scene.rotations import which_turn
 from .views.extreme import KINDS
 
 if TYPE_CHECKING:
@@ -70,7 +71,8 @@ def find_utilisations(result: Result, envelope: Envelope | TrainEnvelope) -> dic
     x, found = scene.positions(scene.supports), {}
     for name, limit in scene.limits.given().items():
         if name in ("reaction", "opening"):
-            ones = [row[name][kind] for row in envelope.supports for kind in KINDS]
+            turning = which_turn(scene.supports)  # couples and angles
+            ones = [row[name][kind] for k, row in enumerate(envelope.supports) if not turning[k] for kind in KINDS]
         else:
             ones = list(envelope.extremes.get(name, {}).values())
         ones = [one for one in ones if one is not None]

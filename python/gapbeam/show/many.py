@@ -14,6 +14,7 @@ from ..batches.summary import Summary, distribution
 from ..results import formatting as fmt
 from ..results.cases.solved_cases import Cases
 from ..results.envelopes.lifted import Lifted
+from ..scene.rotations import at_support
 from ..scene.structs import Scene
 
 MOST_NAMED = 8
@@ -73,9 +74,9 @@ def lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
         return ["No support lifts off in any case."]
     lines = []
     for one in sorted(sorted(lifted, key=lambda one: -one.share)[:MOST_NAMED]):
-        name = fmt.support(scene, one.support)
+        name, far = fmt.support(scene, one.support), fmt.value(scene, at_support(scene, "opening", one.support), one.opening)
         lines.append(f"{name[0].upper()}{name[1:]} has no contact in {100 * one.share:.3g} % of the cases, "
-                     f"opening up to {fmt.value(scene, 'opening', one.opening)} (case {one.case}).")  # fmt: skip
+                     f"opening up to {far} (case {one.case}).")  # fmt: skip
     if len(lifted) > MOST_NAMED:
         lines.append(f"{len(lifted) - MOST_NAMED:,} more have no contact in fewer cases.")
     return lines

@@ -23,6 +23,7 @@ from ..base.errors import SceneError
 from ..scene.columns import SIDES
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
+from ..scene.rotations import which_turn
 from ..scene.structs import Scene
 from ..scene.tapers import is_tapered
 from ..scene.temperature import as_curvatures
@@ -61,6 +62,9 @@ class Reference:
             raise SceneError("sections", "the exact solution of the study does not know sections that taper; leave them out")
         if any(one.stiffness for one in scene.hinges):
             raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
+        if which_turn(scene.supports).any():
+            what = "restraints and hinges with laws, a slack or a side"
+            raise SceneError("supports", f"the exact solution of the study does not know {what}; leave them out")
         scene = as_curvatures(scene)
         ends = scene.span_ends()
         exact_ends = [Fraction(0)]

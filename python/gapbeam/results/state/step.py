@@ -268,7 +268,8 @@ class Step(Pickled):
         None for what there is not.
         """
         fields = self.solution.largest_fields().tolist()
-        largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction).max(initial=0.0))], strict=True))
+        across = self._beam.across[self._beam.numbers]
+        largest = dict(zip(BOUNDED, [*fields, float(np.abs(self.solution.reaction[across]).max(initial=0.0))], strict=True))
         relative = {kind: _relative(bound, largest[kind]) for kind, bound in self._inner_bounds.items()}
         return {
             **{name: residual if np.isfinite(residual) else None for name, residual in self.residuals.items()},

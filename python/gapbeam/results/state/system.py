@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from ...engine.beam import METHODS
+from ...engine.layout import RELATIVE, ROTATIONAL
 
 if TYPE_CHECKING:
     from ..paths.compression import Compression
@@ -75,12 +76,13 @@ def system_of(result: Result) -> System:
     ground = steps[-1].solution.ground if steps else None
     nodes = 1 + (beam.links if ground is None else ground.stretches)
     three_moment = METHODS[method] == "three-moment"
+    directions = beam.columns.support_codes[1, :-1]
     needed = {
         "axial": beam.bars >= 0,
         "shear": beam.has_shear,
         "foundation": beam.ground_layers > 0,
-        "hinges": beam.has_hinges,
-        "rotational restraints": beam.has_restraints,
+        "hinges": beam.has_hinges or (directions == RELATIVE).any(),
+        "rotational restraints": beam.has_restraints or (directions == ROTATIONAL).any(),
         "iteration": beam.is_one_sided or beam.has_one_sided_ground,
         "deflections": not three_moment,
         "second order": result.compression is None,
