@@ -168,7 +168,7 @@ contains
         integer :: last
 
         last = first
-        do while (last < ubound(work%nodes, 1))
+        do while (last < ubound(work%proximal_weight, 1))
             associate (node => work%nodes(last))
                 if (node%held .or. abs(node%stiffness) > work%proximal_weight(last) .or. node%kind == restrained) return
             end associate

@@ -161,7 +161,7 @@ contains
 
         if (checked) then
             call require(size(acting) == size(beam%supports), "apply_scheme: acting")
-            call require(ubound(work%nodes, 1) == size(beam%links), "apply_scheme: workspace of another beam")
+            call require(ubound(work%nodes, 1) == last_place(beam), "apply_scheme: workspace of another beam")
         end if
         do from = range(1), range(2), support_block
             to = min(from + support_block - 1, range(2))

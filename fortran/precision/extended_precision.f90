@@ -169,8 +169,8 @@ contains
         if (size(work%reaction) > 0) lost = maxval(work%reaction_error) > worst_digits*maxval(abs(work%reaction))
         if (lost .or. work%method == method_pivoting .or. allocated(work%end_shear)) return
         ! Elimination loses what springs hold that are next to nothing beside the links: the correction tells
-        associate (change => abs(work%correction%deflection))
-            lost = maxval(change, change > sign_width*epsilon(1.0_wp)*work%deflection_size) &
+        associate (change => abs(work%correction%deflection), own => work%deflection_size(:ubound(work%correction, 1)))
+            lost = maxval(change, change > sign_width*epsilon(1.0_wp)*own) &
                 > worst_correction*maxval(abs(work%answers%deflection))
         end associate
     end function digits_lost

@@ -4,7 +4,8 @@ program test_chain
     use beams, only: infinite
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
-    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, hinge, restrained
+    use gapbeam_band, only: node_type, rhs_type, answer_type, pivot_type, factor_chain, band_ok, plain, hinge, restrained, jointed
+    use gapbeam_band_substitution, only: solve_chain
     use gapbeam_plain, only: plain_type, is_plain, ends_hold, prepare_plain, solve_plain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
     use gapbeam_pivoting, only: solve_pivoting
@@ -18,6 +19,7 @@ program test_chain
     call three_moments()
     call free_tips()
     call rigid_links()
+    call joints()
     call along_the_axis()
     call not_along_the_axis()
     call finish(status)
@@ -118,6 +120,61 @@ contains
         call check_close(answers%moment_right, 6*7*0.1_wp/4*[-1.0_wp, 1.0_wp, 0.0_wp], "settlement between clamps")
         call check_close(answers%deflection, [0.0_wp, 0.1_wp, 0.0_wp], "of this size")
     end subroutine from_both_ends
+
+    !> Compliant joints and hinges with a known moment by elimination, once and without a correction, as with pivoting: beams on
+    !> springs, with and without a free end at the left, through which moments come to the joint by statics
+    subroutine joints()
+        type(node_type), allocatable :: nodes(:)
+        type(link_type), allocatable :: links(:)
+        type(rhs_type), allocatable :: rhs(:), work(:)
+        type(pivot_type) :: pivots(0:6)
+        type(answer_type) :: answers(0:6), other(0:6)
+        logical :: regular
+        integer :: free, first, second, state, place
+
+        do free = 0, 2
+            do first = 1, 3
+                do second = 1, 3
+                    call make(6, 7.0_wp, 3.0_wp, nodes, links, rhs)
+                    nodes%held = .false.
+                    nodes%stiffness = 5.0_wp
+                    nodes(:free - 1)%stiffness = 0.0_wp
+                    call join(first, nodes(1), rhs(1))
+                    call join(second, nodes(4), rhs(4))
+                    call factor_chain(nodes, links, pivots, state, place)
+                    call solve_pivoting(nodes, links, rhs, other, regular)
+                    ! Part of a beam that hangs on a hinge alone turns about it
+                    call check((state == band_ok) .eqv. (free == 0 .or. first /= 2), "whether it is held")
+                    if (state /= band_ok) cycle
+                    call check(regular, "regular")
+                    work = rhs
+                    call solve_chain(nodes, links, pivots, work, answers)
+                    call check_close(answers%moment_left, other%moment_left, "moments left of joints", 1e-12_wp)
+                    call check_close(answers%moment_right, other%moment_right, "moments right of joints", 1e-12_wp)
+                    call check_close(answers%deflection, other%deflection, "deflections beside joints", 1e-12_wp)
+                end do
+            end do
+        end do
+    end subroutine joints
+
+    !> A node with a compliant joint that is bent from the start, a hinge with a known moment, or neither
+    subroutine join(how, node, r)
+        integer, intent(in) :: how
+        type(node_type), intent(inout) :: node
+        type(rhs_type), intent(inout) :: r
+
+        select case (how)
+        case (1)
+            node%kind = jointed
+            node%compliance = 0.3_wp
+            r%right = r%right + 0.02_wp
+        case (2)
+            node%kind = hinge
+            r%couple = 1.5_wp
+        case default
+            node%kind = plain
+        end select
+    end subroutine join
 
     !> Deflections must be known but at free tips
     subroutine what_fits_three_moments()
