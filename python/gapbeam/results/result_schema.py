@@ -299,8 +299,8 @@ def result_schema() -> dict[str, Any]:
 
     Examples
     --------
-    >>> result_schema()["$defs"]["SupportState"]["properties"]["reaction"]["description"]
-    'Force of the support on the beam (force), positive upward; of an axial one to the right.'
+    >>> result_schema()["$defs"]["SupportState"]["properties"]["side"]["description"]
+    'Side on which it holds the beam, as in the scene.'
     """
     tables = {
         name: {

@@ -61,7 +61,7 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
         table = type(scene.supports[rest[0]].law).__name__
     if table == "Support" and keys[:1] == ["rotation"] and len(keys) == 2:
         table = "Rotation"
-    elif table == "Support" and turns(scene.supports[rest[0]]):
+    elif table == "Support" and rest[0] < len(scene.supports) and turns(scene.supports[rest[0]]):
         table, keys = "Rotation", ["slack" if keys[-1] in ("gap", "settlement") else keys[-1]]
     pair = _units().get((table, keys[-1] if keys else ""), ())
     if not pair:
