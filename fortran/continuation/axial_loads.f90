@@ -12,7 +12,7 @@ module gapbeam_axial_loads
     use gapbeam_path_states, only: solve_on_path
     implicit none
     private
-    public :: make_chain, set_loads, set_limits, find_reactions, zeros_between
+    public :: make_chain, movement_of, set_loads, set_limits, find_reactions, zeros_between
 
 contains
 

@@ -8,7 +8,7 @@ module gapbeam_axial_path
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_axial_loads, only: make_chain, set_loads, set_limits, find_reactions, zeros_between
+    use gapbeam_axial_loads, only: make_chain, movement_of, set_loads, set_limits, find_reactions, zeros_between
     use gapbeam_axial_chain, only: chain_type, next_change, find_reach
     use gapbeam_axial_progress, only: advance, change_pieces, settle, note_rates, values_of
     use gapbeam_axial_rates, only: find_rates, moves_at_once, not_told
@@ -35,6 +35,8 @@ module gapbeam_axial_path
         integer :: most = 0, idle = 0
         !> Values at the start of the stretch at hand
         real(wp), allocatable :: start(:)
+        !> Contacts of the laws there, if some keep a set, shape (size(chain%laws))
+        real(wp), allocatable :: contact(:)
         !> Does the chain move without end
         logical :: lost = .false.
     end type walk_type
@@ -115,7 +117,7 @@ contains
                                      "followed: give laws that do not fall, or no friction")
                     return
                 end if
-                walk%start = values_of(chain)
+                call begin_stretch(walk)
                 call keep(walk, s, s%from, s%to, error)
                 return
             end if
@@ -130,7 +132,7 @@ contains
                 ends = [zeros_between(s%from, s%to, from_force, to_force), ends]
             end if
             at = s%from
-            walk%start = values_of(chain)
+            call begin_stretch(walk)
             do i = 1, size(ends)
                 if (any(chain%rubs)) then
                     call limits_at(at, from_limit)
@@ -188,7 +190,7 @@ contains
                 if (outcome == not_told) exit
             end do
             call note_rates(walk%chain, reach)
-            walk%start = values_of(walk%chain)
+            call begin_stretch(walk)
             if (outcome == not_told) then
                 call refuse_shared(walk, place, real(at, wp), error)
                 return
@@ -253,6 +255,23 @@ contains
 
     end subroutine go_to
 
+    !> Begin a stretch: the numbers of the chain, and where laws that keep a set have gone, dead movements of supports included
+    pure subroutine begin_stretch(walk)
+        type(walk_type), intent(inout) :: walk
+        integer :: l
+
+        walk%start = values_of(walk%chain)
+        if (.not. any(walk%chain%keeps_set)) return
+        if (.not. allocated(walk%contact)) allocate (walk%contact(size(walk%chain%laws)))
+        associate (chain => walk%chain)
+            do l = 1, size(walk%support)
+                associate (k => chain%first(l), last => chain%last(l))
+                    walk%contact(k:last) = real(chain%laws(k:last)%contact + movement_of(walk%assembled, walk%support(l)), wp)
+                end associate
+            end do
+        end associate
+    end subroutine begin_stretch
+
     !> Keep a stretch of the path, and the numbers of the chain at its ends
     subroutine keep(walk, s, from, to, error)
         type(walk_type), intent(inout) :: walk
@@ -272,6 +291,7 @@ contains
         kept%to = to + 0.0_wp
         allocate (kept%along, source=walk%chain%closed)
         kept%loose = walk%chain%loose
+        if (allocated(walk%contact)) kept%along_contact = walk%contact
         associate (along => walk%path%along)
             ends(1) = along%number
             if (ends(1) > 0) then
@@ -283,7 +303,7 @@ contains
         if (allocated(error)) return
         kept%ends = ends
         call add_stretch(kept, walk%path, error)
-        walk%start = values_of(walk%chain)
+        call begin_stretch(walk)
 
     contains
 

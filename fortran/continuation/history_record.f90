@@ -39,6 +39,8 @@ module gapbeam_history_record
         !> Of links along the beam: their scheme, and which numbers of the chain are at the ends
         logical, allocatable :: along(:)
         integer :: ends(2) = 0
+        !> Contacts of their laws as they are at its beginning, where some keep a set, shape (size(axial%laws))
+        real(wp), allocatable :: along_contact(:)
         !> Is the chain free there, so that forces are unique and its position is not
         logical :: loose = .false.
     end type stretch_type
@@ -168,6 +170,7 @@ contains
         call move_alloc(from%closed, to%closed)
         call move_alloc(from%laws, to%laws)
         call move_alloc(from%along, to%along)
+        call move_alloc(from%along_contact, to%along_contact)
         to%ends = from%ends
         to%loose = from%loose
         to%leg = from%leg

@@ -95,6 +95,8 @@ contains
             state%displacement(:) = values(:n + 1)
             state%tension(:) = values(n + 2:2*n + 1)
             state%along = s%along
+            if (allocated(state%along_contact)) deallocate (state%along_contact)
+            if (allocated(s%along_contact)) state%along_contact = s%along_contact
             state%indifferent = state%indifferent .or. s%loose
             state%axial_reaction(:) = 0.0_wp
             if (allocated(state%along_force)) deallocate (state%along_force)

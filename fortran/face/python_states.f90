@@ -257,22 +257,23 @@ subroutine gbslop(beam, state, n, slope)
     end associate
 end subroutine gbslop
 
-! Elastic energies of the supports that yield, in a state on a loading history, in the scene's units
-subroutine gbstor(beam, state, nm, energy)
+! What the supports that yield keep, in a state on a loading history; 0 of others
+subroutine gbyiel(beam, state, nm, values)
     use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_support_values, only: stored_energies
+    use gapbeam_yielded_supports, only: yielded_supports
     implicit none
     integer(8), intent(in) :: beam, state
     ! Supports of the scene
     integer, intent(in) :: nm
-    double precision, intent(out) :: energy(nm + 1)
+    ! Elastic energies, permanent sets, and displacements less what they have moved themselves, in the scene's units
+    double precision, intent(out) :: values(nm + 1, 3)
     type(handle_type), pointer :: handle, solved
 
     handle => behind(beam)
     solved => behind(state)
-    energy(nm + 1) = 0.0d0
-    call stored_energies(handle%beam%lowered, solved%result%state, energy(:nm))
-end subroutine gbstor
+    values(nm + 1, :) = 0.0d0
+    call yielded_supports(handle%beam%lowered, solved%result%state, values(:nm, 1), values(:nm, 2), values(:nm, 3))
+end subroutine gbyiel
 
 ! Largest absolute values of deflection, rotation, moment, shear, in the engine's units; not on the ground
 subroutine gblarg(beam, state, fields, value)

@@ -7,6 +7,7 @@ module gapbeam_solution
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range
     use gapbeam_ground_solver, only: ground_solution_type
+    use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type, growth_of, turns, way_unit, push_unit, point_x
     use gapbeam_model, only: last_place
@@ -15,7 +16,7 @@ module gapbeam_solution
     implicit none
     private
     public :: state_type, new_state, close_all, forget, check_range, couple_at_node, displacement_at, way_to_contact, &
-        has_own_laws, laws_in
+        has_own_laws, laws_in, laws_along
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -46,6 +47,8 @@ module gapbeam_solution
         !> With links along the beam: their scheme, and the force on the beam, to the right, of every support of the model
         logical, allocatable :: along(:)
         real(wp), allocatable :: along_force(:)
+        !> Contacts of their laws as they have become, where some keep a set, shape (size(axial%laws))
+        real(wp), allocatable :: along_contact(:)
         !> On the ground, what is in its stretches
         type(ground_solution_type), allocatable :: ground
         !> Fields at the left end of every piece; made when first asked for
@@ -149,7 +152,7 @@ contains
                 associate (point => assembled%support_point(k))
                     if (j > 0) call check_finite(sum(state%reaction(j:last_breakpoint(assembled%beam%supports, j))), &
                                                  push_unit(assembled, k), "reaction of the support", "force", point)
-                    if (assembled%model%supports(k)%side == 0) cycle
+                    if (assembled%model%supports(k)%side == 0 .or. assembled%model%supports(k)%direction == gapbeam_axial) cycle
                     call check_finite(way_to_contact(assembled, state, k), way_unit(assembled, k), "opening of the support", &
                                       "length", point)
                 end associate
@@ -269,5 +272,22 @@ contains
             laws%contact = laws%contact + state%factor*growth_of(assembled)
         end if
     end function laws_in
+
+    !> The law of a link along the beam, its contacts where they have gone and are in a state
+    pure function laws_along(assembled, state, first, last) result(laws)
+        !> With such links
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> Its first and last breakpoint
+        integer, intent(in) :: first, last
+        type(node_support_type) :: laws(last - first + 1)
+
+        associate (axial => assembled%axial)
+            laws(:) = axial%laws(first:last)
+            if (allocated(state%along_contact)) laws%contact = state%along_contact(first:last)
+            if (.not. allocated(assembled%growth)) return
+            laws%contact = laws%contact + state%factor*scale(assembled%growth(axial%support(first)), -axial%units%deflection)
+        end associate
+    end function laws_along
 
 end module gapbeam_solution

@@ -1,18 +1,18 @@
-!> Reactions, openings, states and elastic energies of the supports in a solved state, in the user's units.
+!> Reactions, openings and states of the supports in a solved state, in the user's units.
 module gapbeam_support_values
     use gapbeam_kinds, only: wp
     use gapbeam_model, only: node_support_type, both
     use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_normal, gapbeam_rotational, gapbeam_relative, gapbeam_plastic
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_normal, gapbeam_rotational, gapbeam_relative
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit
     use gapbeam_smooth_laws, only: past_the_gap
-    use gapbeam_solution, only: state_type, couple_at_node, displacement_at, way_to_contact, laws_in
+    use gapbeam_solution, only: state_type, couple_at_node, displacement_at, way_to_contact, laws_in, laws_along
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_branch
     implicit none
     private
-    public :: support_values, friction_values, stored_energies, find_undecided
+    public :: support_values, friction_values, find_undecided
 
 contains
 
@@ -143,14 +143,8 @@ contains
             condition = acting%condition
             opening = 0.0_wp
             if (condition /= gapbeam_open) return
-            opening = state%displacement(axial%node(k))
-            if (allocated(assembled%growth)) opening = opening - state%factor*scale(assembled%growth(k), -axial%units%deflection)
-            if (axial%laws(first)%breakpoint > 0) then
-                opening = way_to_law(axial%laws(first:last), s%side, opening)
-            else
-                opening = max(0.0_wp, s%side*(axial%laws(first)%contact - opening))
-            end if
-            opening = scale(opening, axial%units%deflection)
+            opening = scale(way_to_law(laws_along(assembled, state, first, last), s%side, state%displacement(axial%node(k))), &
+                            axial%units%deflection)
         end associate
     end subroutine value_along
 
@@ -226,58 +220,5 @@ contains
             undecided(assembled%normal(j)) = undecided(assembled%normal(j)) .or. state%undecided(j)
         end do
     end subroutine find_undecided
-
-    !> Elastic energies of the supports with plastic unloading, 0 of others
-    pure subroutine stored_energies(assembled, state, energy)
-        !> The beam, and its solved state on a loading history
-        type(assembled_type), intent(in) :: assembled
-        type(state_type), intent(in) :: state
-        !> Force times length, or couple times angle, in the user's units, shape (nsupport)
-        real(wp), intent(out) :: energy(:)
-        type(node_support_type), allocatable :: now(:)
-        integer :: j, k, last
-
-        energy(:) = 0.0_wp
-        if (.not. any(assembled%with_law)) return
-        allocate (now, source=laws_in(assembled, state))
-        associate (given => assembled%model%supports)
-            do k = 1, size(energy)
-                j = assembled%beam_support(k)
-                if (j == 0 .or. .not. assembled%with_law(k) .or. given(k)%unloading /= gapbeam_plastic) cycle
-                last = last_breakpoint(now, j)
-                if (given(k)%side == both) then
-                    energy(k) = energy_of_sliders(now(j:last), displacement_at(assembled, state, k), sum(state%reaction(j:last)))
-                else if (now(j)%stiffness <= huge(1.0_wp)) then
-                    ! It goes back parallel to its first piece
-                    energy(k) = sum(state%reaction(j:last))**2/(2*now(j)%stiffness)
-                end if
-                energy(k) = scale(energy(k), push_unit(assembled, k) + way_unit(assembled, k))
-            end do
-        end associate
-    end subroutine stored_energies
-
-    !> Of springs with sliders side by side (Iwan 1966): spring i has the stiffness by which piece i is steeper than the next, and
-    !> its slider yields where the law bends; the last piece is a spring without slider
-    pure function energy_of_sliders(law, displacement, force) result(energy)
-        !> Breakpoints as they are now: where each spring yields one way, and in the opposite order the other way
-        type(node_support_type), intent(in) :: law(:)
-        !> Displacement of the support, and its force
-        real(wp), intent(in) :: displacement, force
-        real(wp) :: energy, stiffness, reach, stretch, rest
-        integer :: i, n
-
-        n = size(law)/2
-        energy = 0.0_wp
-        rest = force
-        do i = n + 1, 2*n
-            stiffness = law(i)%before - law(i)%stiffness
-            ! Half of the way from yielding one way to yielding the other, which never changes
-            reach = (law(i)%contact - law(2*n + 1 - i)%contact)/2
-            stretch = max(-reach, min(reach, reach - (law(i)%contact - displacement)))
-            energy = energy + stiffness*stretch**2/2
-            rest = rest - stiffness*stretch
-        end do
-        if (law(2*n)%stiffness > 0.0_wp) energy = energy + rest**2/(2*law(2*n)%stiffness)
-    end function energy_of_sliders
 
 end module gapbeam_support_values

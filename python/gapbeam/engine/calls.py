@@ -275,7 +275,7 @@ gbextr = interruptible(
 )
 gblarg = interruptible(lambda beam, pieces, *about: _engine.gblarg(beam, *about), lambda beam, pieces, *_: pieces)
 gbslop = _engine.gbslop
-gbstor = _engine.gbstor
+gbyiel = _engine.gbyiel
 gbgrun = interruptible(_engine.gbgrun, lambda beam, state, stretches, layers: _on_ground(beam, stretches))
 gbcomb = interruptible(_engine.gbcomb)
 gbcext = interruptible(_engine.gbcext, lambda beam, factors, *_: SHORT * (factors.shape[1] > FEW_CASES))

@@ -249,15 +249,16 @@ class Solution(Record):
         beam = self.state.beam
         return _engine.gbslop(beam.handle, self.state.handle, len(beam.curves) + 1)[:-1]
 
-    def stored(self) -> np.ndarray:
-        """Give the elastic energies of the supports that yield, on a loading history, in the scene's units; 0 of others.
+    def yielded(self) -> np.ndarray:
+        """Give what supports with plastic unloading keep on a loading history, in the scene's units; 0 of others.
 
         Returns
         -------
         numpy.ndarray
+            Elastic energies, permanent sets, and displacements less what the supports have moved themselves, shape (3, nsupport).
         """
         beam = self.state.beam
-        return _engine.gbstor(beam.handle, self.state.handle, beam.scene_supports)[:-1]
+        return _engine.gbyiel(beam.handle, self.state.handle, beam.scene_supports)[:-1].T
 
     @property
     def deflection(self) -> np.ndarray:

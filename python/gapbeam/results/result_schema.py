@@ -81,7 +81,8 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "couple": ("number", "Moment of its rotational restraint on the beam (force*length), positive clockwise."),
         "state": ("string", "closed, open, bilateral, or of a support with a curve the segment of it: branch 1, branch 2, ..."),
         "opening": ("number", "Distance of the beam from its seat, the gap included (length); 0 in contact."),
-        "set?": ("number", "Displacement that is left without force (length); only with plastic unloading."),
+        "set?": ("number", "Displacement that is left without force (length, of a rotation rad): of one side where it gives way, "
+                 "else as deflections are positive; only with plastic unloading."),
         "dissipated?": ("number", "Energy lost up to here on a loading history (force*length); only with plastic unloading, and "
                                   "with friction."),
         "axial?": ("Friction", "Along the beam; only of a support with friction."),

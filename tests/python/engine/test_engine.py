@@ -28,7 +28,7 @@ def test_all_routines_are_there():
         "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gbhaxi gbhend gbhten gbhlin gbheng gblaws "
         "gbsget gbcert gbreco gbfind gbvalu gbextr gblarg "
         "gbshar gbroom gbcase gbone gbgget gbgrun gbgpth gbgpte gbcomb gbcext gbccrt "
-        "gbtmak gbtget gbtenv gbtcur gbtinf gbtprt gbrmak gbrget gbrext gbrcur gbstop gbtole gblawv gblawp gbslop gbstor"
+        "gbtmak gbtget gbtenv gbtcur gbtinf gbtprt gbrmak gbrget gbrext gbrcur gbstop gbtole gblawv gblawp gbslop gbyiel"
     )
     assert set(ROUTINES) == set(names.split())
 

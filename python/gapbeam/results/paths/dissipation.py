@@ -56,17 +56,17 @@ def dissipated(result: Result) -> np.ndarray | None:
     way = np.where(np.array(column_of(scene.supports, "direction")) == "axial", -1.0, 1.0)
 
     def at(state: Step) -> _Moment:
-        return _Moment(way * state.reaction, state.deflection, -state.friction, state.slip)
+        return _Moment(way * state.reaction, state.solution.yielded()[2], -state.friction, state.slip)
 
     def between(one: _Moment, other: _Moment) -> np.ndarray:
-        of_law = np.where(yields, (one.force + other.force) / 2 * (other.movement - one.movement), 0.0)
+        of_law = (one.force + other.force) / 2 * (other.movement - one.movement)
         return of_law + (one.friction + other.friction) / 2 * (other.slip - one.slip)
 
     taken, last, starts = np.zeros(len(scene.supports)), None, []
     for segment in path.segments:
         states = path.along(segment)
         first = at(states[0])
-        taken = taken + between(last, first) if last is not None else np.where(yields, states[0].solution.stored(), 0.0)
+        taken = taken + between(last, first) if last is not None else states[0].solution.yielded()[0]
         starts.append((first, taken))
         last = first
         for state in states[1:]:
@@ -77,6 +77,6 @@ def dissipated(result: Result) -> np.ndarray | None:
     found = []
     for k, step in enumerate(result.steps):
         first, before = starts[numbers[result.steps.segment(k).number]]
-        lost = before + between(first, at(step)) - step.solution.stored()
+        lost = before + between(first, at(step)) - step.solution.yielded()[0]
         found.append(np.where(yields | rubs, lost, 0.0))
     return np.array(found).reshape(-1, len(scene.supports))

@@ -19,7 +19,7 @@ from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LIN
 from ...engine.case_certificates import BOUNDED
 from ...engine.quantities import FIELDS
 from ...engine.states import Along, Solution
-from ...engine.units import bound_in_scene, scaled
+from ...engine.units import bound_in_scene
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
@@ -169,21 +169,15 @@ class Step(Pickled):
 
     @cached_property
     def set(self) -> np.ndarray:
-        """Permanent set of each support with plastic unloading (length, angle), in the direction in which it gives way; else 0."""
+        """Permanent set of each support with plastic unloading (length, angle), 0 of others: its displacement without force.
+
+        Of one side positive in the direction in which it gives way, else as deflections are: what is left if it is unloaded
+        parallel to its first segment.
+        """
         beam = self._beam
-        found = np.zeros(beam.scene_supports)
-        which = np.flatnonzero((beam.columns.support_codes[3, :-1] == PLASTIC) & beam.bends)
-        if len(which):
-            first = np.searchsorted(beam.numbers, which)
-            side, (_, gap, settlement) = beam.sides[which], beam.columns.support[1:4, which]
-            arm = np.where(beam.across[which], 0, beam.units.length)  # of what holds rotations, angles and couples
-            contact = scaled(beam.breakpoints[0, first], beam.units.deflection - arm)
-            slope = scaled(beam.breakpoints[2, first], beam.units.force - beam.units.deflection + 2 * arm)
-            yielded = self.closed[first] + self.closed[np.minimum(first + 1, len(self.closed) - 1)] > 1
-            back = np.divide(self.reaction[which], slope, out=np.zeros(len(which)), where=slope > 0.0)
-            now = np.where(yielded, self.deflection[which] - back, contact)
-            found[which] = side * (now - settlement) - gap
-        return read_only(found + 0.0)
+        if not (beam.columns.support_codes[3, :-1] == PLASTIC).any():
+            return read_only(np.zeros(beam.scene_supports))
+        return read_only(self.solution.yielded()[1])
 
     @cached_property
     def state(self) -> tuple[str, ...]:

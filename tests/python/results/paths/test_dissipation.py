@@ -72,6 +72,67 @@ def test_a_plateau_times_the_set():
     assert supports[2]["dissipated"] == pytest.approx(result.steps[-1].set[2], abs=1e-13)
 
 
+@pytest.mark.parametrize("settlement", [0.0, 0.002])
+@pytest.mark.parametrize("held", ["normal", "axial", "rotational"])
+def test_sets_of_what_yields_both_ways(held, settlement):
+    """A spring 50/99 beside one with a slider, together 100: under 1.2 times the factor its slider slips to and fro."""
+    support = {"x": 2.0, "direction": held, "law": [[0.01, 1.0], [1.0, 1.5]], "unloading": "plastic", "settlement": settlement}
+    load = {"normal": {"type": "force", "x": 2.0, "F": 1.2}, "axial": {"type": "axial", "x": 2.0, "F": 1.2},
+            "rotational": {"type": "moment", "x": 2.0, "M": 1.2}}[held]  # fmt: skip
+    others = [{"x": 0.0}] if held == "normal" else [{"x": 0.0}, {"x": 2.0}] if held == "axial" else [{"x": 2.0}]
+    if held == "rotational":
+        del support["settlement"]
+    scene = {"beam": {"spans": [1.0, 1.0], "EI": 100.0, "EA": 100.0}, "supports": [*others, support], "loads": [load],
+             "analysis": {"follow": "events", "history": [1.0, 0.5, 0.0, -1.0, 0.2, 1.0]}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    # Where nothing happens on the way, the ends of the legs; the first yield, at 1/1.2, and two later ones are events
+    sets = [float(step.set[-1]) for step in result.steps]
+    assert sets == pytest.approx([0.0, 0.394, 0.394, 0.394, 0.394, -0.394, -0.394, -0.394, 0.394], abs=1e-13)
+    slip = (1.0 - 0.5 / 99.0) * 0.396
+    lost = [0.0, slip, slip, slip, slip, 3 * slip, 3 * slip, 3 * slip, 5 * slip]
+    assert dissipated(result)[:, -1].tolist() == pytest.approx(lost, abs=1e-13)
+    for segment in result.path.segments:
+        inside = result.path.step(segment, (segment.start + 2 * segment.stop) / 3)
+        energy, left, way = inside.solution.yielded()[:, -1].tolist()
+        force = 100.0 * (way - left)
+        assert abs(inside.reaction[-1]) == pytest.approx(abs(force), abs=1e-13)
+        # Of the spring without slider, and of the other
+        assert energy == pytest.approx(way**2 / 2 / 1.98 + (force - way / 1.98) ** 2 / 2 / (100.0 - 1 / 1.98), abs=1e-13)
+
+
+def test_an_axial_stop_keeps_its_set():
+    """A stop that yielded is reached later by its set, and has lost what it took up less what it gave back."""
+    stop = {"x": 1.0, "direction": "axial", "side": "right", "gap": 0.1, "law": [[0.01, 1.0], [1.0, 1.5]], "unloading": "plastic"}
+    scene = {"beam": {"spans": [1.0, 1.0], "EI": 100.0, "EA": 100.0},
+             "supports": [{"x": 0.0}, {"x": 2.0}, {"x": 0.0, "direction": "axial"}, stop],
+             "loads": [{"type": "axial", "x": 1.0, "F": -25.0}],
+             "analysis": {"follow": "events", "history": [1.0, -0.2, 1.1]}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    # 25 = 100 u + R, R = 1 + (u - 0.11)/1.98
+    u = (25.0 - 1.0 + 0.11 / 1.98) / (100.0 + 1 / 1.98)
+    reaction = 25.0 - 100.0 * u
+    left = u - 0.1 - reaction / 100.0
+    lost = 0.005 + (1.0 + reaction) / 2 * (u - 0.11) - reaction**2 / 200.0
+    first = next(k for k, step in enumerate(result.steps) if step.factor == 1.0)
+    back = next(k for k, step in enumerate(result.steps) if step.factor == -0.2)
+    for k in (first, back):
+        assert result.steps[k].set[-1] == pytest.approx(left, abs=1e-13)
+        assert dissipated(result)[k, -1] == pytest.approx(lost, abs=1e-13)
+    assert result.steps[back].opening[-1] == pytest.approx(0.1 + left + 0.05, abs=1e-13)
+
+
+def test_what_a_support_moves_itself_is_no_work_of_its_law():
+    """A prop that is jacked up against a beam without yielding keeps nothing and loses nothing."""
+    prop = {"x": 1.0, "side": "below", "law": [[0.01, 1.0], [1.0, 1.5]], "unloading": "plastic", "name": "prop"}
+    scene = {"beam": {"spans": [2.0], "EI": 1.0}, "supports": [{"x": 0.0}, {"x": 2.0}, prop],
+             "loads": [{"type": "movement", "support": "prop", "value": -0.05}],
+             "analysis": {"follow": "events", "history": [1.0, 0.5]}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    assert result.steps[-1].reaction[2] > 0.0
+    assert [float(step.set[2]) for step in result.steps] == pytest.approx([0.0] * len(result.steps), abs=1e-15)
+    assert dissipated(result)[:, 2].tolist() == pytest.approx([0.0] * len(result.steps), abs=1e-15)
+
+
 def test_friction_takes_force_times_slip():
     result = gapbeam.solve(tomllib.loads((EXAMPLES / "pipe_rack_hot.toml").read_text()))
     lost = dissipated(result)
