@@ -4,7 +4,7 @@ Python hears signals between its own instructions only, and a call of compiled c
 engine lets Python hear them between linear solves (face/python_signals.c), which is enough where these are short. What is long
 by itself is called in a thread beside the main one, which waits where signals are heard; Ctrl-C then ends the work there between
 two linear solves too. A thread whose solve is longer than that is left behind: it goes on to the end of it, with arrays that
-nobody else has, and is not heard of again.
+nobody else has, and is not heard of again; only the next call with the same beam waits for it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from __future__ import annotations
 import mmap
 import os
 import threading
-from _thread import allocate_lock, start_new_thread
+from _thread import LockType, allocate_lock, start_new_thread
 from collections.abc import Callable, Iterator
 from functools import partial
 from queue import SimpleQueue
@@ -57,18 +57,21 @@ class _Call:
             self.result = self.routine(*self.arguments)
         except BaseException as error:
             self.error = error
-        self.done.release()
         if self.is_left:
             go_on(self.arguments)
+        self.done.release()
 
     def end(self) -> bool:
         """Let it end where it looks whether it may go on, and wait for that a little; tell whether it has."""
-        if not isinstance(self.arguments[0] if self.arguments else None, Handle):
+        if not _has_beam(self.arguments):
             return False
+        beam = self.arguments[0]
+        beam.left = os.getpid(), self.done
         self.is_left = True
-        _engine.gbstop(self.arguments[0], 1)
+        _engine.gbstop(beam, 1)
         ended = self.done.acquire(timeout=PATIENCE)
         if ended:
+            beam.left = None
             go_on(self.arguments)
         return ended
 
@@ -131,8 +134,25 @@ def go_on(arguments: tuple) -> None:
     arguments : tuple
         Of the call that was ended; the beam is the first, if it has one.
     """
-    if arguments and isinstance(arguments[0], Handle):
+    if _has_beam(arguments):
         _engine.gbstop(arguments[0], 0)
+
+
+def _has_beam(arguments: tuple) -> bool:
+    return bool(arguments) and isinstance(arguments[0], Handle)
+
+
+def _wait_for_what_is_left(arguments: tuple) -> None:
+    """Wait, where signals are heard, for a call with the same beam that is left behind: the next one would be ended with it."""
+    if not _has_beam(arguments) or arguments[0].left is None:
+        return
+    process, done = arguments[0].left
+    if process == os.getpid():  # in a forked process there is no thread that goes on
+        while not done.acquire(timeout=SECONDS):
+            pass
+        done.release()  # others may wait too
+    arguments[0].left = None
+    go_on(arguments)
 
 
 _BESIDE = _Beside()
@@ -158,6 +178,7 @@ def interruptible(routine: Callable, size: Callable[..., int] = lambda *_: SHORT
     """
 
     def call(*arguments: Any) -> Any:
+        _wait_for_what_is_left(arguments)
         if size(*arguments) < SHORT or threading.current_thread() is not threading.main_thread():
             try:
                 return routine(*arguments)
@@ -187,9 +208,13 @@ class Handle(Owned):
     ----------
     has_curves : bool
         Whether there is ground under it whose law is a curve: then even a few nodes may take long between two linear solves.
+    left : tuple of int and lock, optional
+        Of a call with it that a signal has ended and that goes on to its next look: the process, and a lock that is free when
+        that is over.
     """
 
     has_curves = False
+    left: tuple[int, LockType] | None = None
 
 
 def parts(count: int) -> Iterator[slice]:

@@ -225,6 +225,27 @@ def test_the_thread_that_is_left_ends_with_its_call():
     assert ended.wait(5)
 
 
+def test_the_next_call_with_a_beam_waits_for_the_one_that_is_left(monkeypatch):
+    """It would be ended with it, and told of a signal that is long past."""
+    solution = gapbeam.solve(gapped_spans(300)).steps[-1].solution
+    certified, begun, ended = solution.certify(), threading.Event(), threading.Event()
+
+    def stubborn(_):
+        """Look at nothing for longer than is waited for."""
+        begun.set()
+        time.sleep(4 * calls.PATIENCE)
+        ended.set()
+
+    threading.Thread(target=lambda: begun.wait() and _thread.interrupt_main()).start()
+    with pytest.raises(KeyboardInterrupt):
+        calls.interruptible(stubborn)(solution.state.beam.handle)
+    assert not ended.is_set()
+    again = solution.certify()
+    assert ended.is_set()
+    assert all(np.array_equal(one, other) for one, other in zip(certified, again, strict=True))
+    assert solution.state.beam.handle.left is None
+
+
 def test_errors_and_results_come_back():
     assert calls.interruptible(divmod)(7, 2) == (3, 1)
     with pytest.raises(ZeroDivisionError):
