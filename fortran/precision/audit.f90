@@ -138,12 +138,12 @@ contains
             type(rhs_type), allocatable :: rhs(:)
             type(answer_type), allocatable :: turned(:)
             real(wp), allocatable :: level(:), turn_size(:), couple(:), couple_size(:)
-            integer :: v
+            real(wp) :: hidden_couple, left_out, hidden_rotation
+            integer :: r, v
 
+            r = size(beam%turning)
             farthest = maxval(abs(answers(:n)%deflection))
-            allocate (nodes(0:n + size(beam%turning)), rhs(0:n + size(beam%turning)), turned(0:n + size(beam%turning)))
-            allocate (level(0:n + size(beam%turning)))
-            allocate (turn_size(size(beam%turning)), couple(size(beam%turning)), couple_size(size(beam%turning)))
+            allocate (nodes(0:n + r), rhs(0:n + r), turned(0:n + r), level(0:n + r), turn_size(r), couple(r), couple_size(r))
             nodes(0:n)%kind = beam%kind
             nodes(0:n)%compliance = beam%compliance
             rhs(0:n) = work%loads(0:n)
@@ -158,18 +158,22 @@ contains
             loaded = work
             loaded%loads(0:n) = rhs(0:n)
             call audit_beam(without, closed, undecided, floats, leeway, answers(0:n), shear, reaction, loaded, ledger, measured)
-            do v = n + 1, n + size(beam%turning)
+            hidden_couple = everywhere*maxval(abs(answers(:n)%moment_left))
+            left_out = maxval(work%load_size)*maxval(beam%links%length)
+            hidden_rotation = everywhere*maxval(abs(answers(:n)%deflection))*maxval(beam%links%inverse)
+            do v = n + 1, n + r
                 call audit_rotation(beam%turning(v - n), beam%order(beam%first(v):beam%first(v + 1) - 1), turned(v)%deflection, &
-                                    turn_size(v - n), couple(v - n), couple_size(v - n))
+                                    turn_size(v - n) + hidden_rotation, couple(v - n), couple_size(v - n) + hidden_couple, left_out)
             end do
         end subroutine audit_turning
 
         !> Are the supports of a rotation on their laws, in the right states, and is the couple theirs
-        subroutine audit_rotation(at, numbers, rotation, rotation_size, couple, couple_size)
+        subroutine audit_rotation(at, numbers, rotation, of_rotation, couple, couple_size, left_out)
             !> Node of the beam, and the numbers of the supports
             integer, intent(in) :: at, numbers(:)
-            real(wp), intent(in) :: rotation, rotation_size, couple, couple_size
-            real(wp) :: force, rounding, margin, of_couple, of_rotation, bent
+            !> The rotation and the couple, each with the size of its terms, and the couple that the largest load can make
+            real(wp), intent(in) :: rotation, of_rotation, couple, couple_size, left_out
+            real(wp) :: force, rounding, margin, of_couple, bent
             logical :: acts, rigid, by_force
             integer :: j, k
 
@@ -177,11 +181,10 @@ contains
             bent = 0.0_wp
             if (at > 0) bent = forced(at)*beam%links(at)%length
             if (at < n) bent = bent + forced(at + 1)*beam%links(at + 1)%length
-            of_couple = couple_size + everywhere*(maxval(abs(answers(:n)%moment_left)) + bent)
+            of_couple = couple_size + everywhere*bent
             if (.not. abs(sum(reaction(numbers))) > 0.0_wp) then
-                of_couple = of_couple + most_left_out/epsilon(1.0_wp)*(maxval(work%load_size)*maxval(beam%links%length) + bent)
+                of_couple = of_couple + most_left_out/epsilon(1.0_wp)*(left_out + bent)
             end if
-            of_rotation = rotation_size + everywhere*maxval(abs(answers(:n)%deflection))*maxval(beam%links%inverse)
             call note(ledger, of_equilibrium, moments, couple - sum(reaction(numbers)), of_couple + sum(abs(reaction(numbers))), &
                       at, 0.0_wp)
             do j = 1, size(numbers)

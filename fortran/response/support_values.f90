@@ -97,14 +97,18 @@ contains
     pure subroutine give_couples(assembled, couple)
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(inout) :: couple(:)
-        integer :: host, k
+        integer, allocatable :: host(:)
+        integer :: k
 
+        if (.not. any(assembled%model%supports%direction == gapbeam_rotational)) return
+        allocate (host(0:maxval(assembled%support_point)), source=0)
         associate (s => assembled%model%supports, at => assembled%support_point)
+            do k = size(couple), 1, -1
+                if (s(k)%direction == gapbeam_normal) host(at(k)) = k
+            end do
             do k = 1, size(couple)
-                if (s(k)%direction /= gapbeam_rotational) cycle
-                host = findloc(s%direction == gapbeam_normal .and. at == at(k), .true., 1)
-                if (host == 0) cycle
-                couple(host) = couple(host) + couple(k)
+                if (s(k)%direction /= gapbeam_rotational .or. host(at(k)) == 0) cycle
+                couple(host(at(k))) = couple(host(at(k))) + couple(k)
                 couple(k) = 0.0_wp
             end do
         end associate

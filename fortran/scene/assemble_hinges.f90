@@ -1,16 +1,17 @@
-!> Hinges: where they are, those that supports with laws make, and elastic ones as compliances at the left ends of pieces.
+!> Hinges: where they are, those that supports with laws make, and elastic ones as compliances at the left ends of pieces; and the
+!> rotations that supports hold.
 module gapbeam_assemble_hinges
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: softest_hinge
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
-    use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_scene, only: gapbeam_relative
+    use gapbeam_assembled_model, only: assembled_type, turns
+    use gapbeam_scene, only: support_type, gapbeam_relative
     use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law
     implicit none
     private
-    public :: find_hinges, make_hinges, assemble_hinges
+    public :: find_hinges, make_hinges, number_rotations, kind_of_rotation, assemble_hinges
 
 contains
 
@@ -46,14 +47,14 @@ contains
         type(assembled_type), intent(inout) :: assembled
         !> A hinge is there already, or the end of the beam
         type(error_type), allocatable, intent(out) :: error
+        logical, allocatable :: made(:)
         integer :: k
 
+        allocate (made(0:ubound(assembled%point_span, 1)), source=.false.)
         do k = 1, size(assembled%model%supports)
             if (assembled%model%supports(k)%direction /= gapbeam_relative) cycle
-            associate (at => assembled%support_point(k), m => size(assembled%model%supports), &
-                       others => assembled%model%supports(:k - 1)%direction == gapbeam_relative)
-                if ((assembled%hinged(at) .or. assembled%joint(at) > 0.0_wp) &
-                    .and. .not. any(others .and. assembled%support_point(:k - 1) == at)) then
+            associate (at => assembled%support_point(k), m => size(assembled%model%supports))
+                if ((assembled%hinged(at) .or. assembled%joint(at) > 0.0_wp) .and. .not. made(at)) then
                     call refuse(error, of_supports, k, m, bad_law, "", "there is a hinge at its place already; remove one of them")
                 else if (at == 0 .or. at == ubound(assembled%point_span, 1)) then
                     call refuse(error, of_supports, k, m, bad_law, "", "a hinge at an end of the beam has nothing on its other "// &
@@ -61,9 +62,45 @@ contains
                 end if
                 if (allocated(error)) return
                 assembled%hinged(at) = .true.
+                made(at) = .true.
             end associate
         end do
     end subroutine make_hinges
+
+    !> Number the rotations that supports hold, in the order of the supports
+    pure subroutine number_rotations(assembled, number)
+        !> With its nodes and supports; its turning and relative out
+        type(assembled_type), intent(inout) :: assembled
+        !> 0 where none is held, shape (0:n, 2)
+        integer, allocatable, intent(out) :: number(:, :)
+        integer :: k, r
+
+        associate (beam => assembled%beam, given => assembled%model%supports)
+            allocate (number(0:ubound(assembled%node_point, 1), 2), source=0)
+            allocate (beam%turning(count(turns(given))), beam%relative(count(turns(given))))
+            r = 0
+            do k = 1, size(given)
+                if (.not. turns(given(k))) cycle
+                associate (node => assembled%node_of_point(assembled%support_point(k)), kind => kind_of_rotation(given(k)))
+                    if (number(node, kind) > 0) cycle
+                    r = r + 1
+                    number(node, kind) = r
+                    beam%turning(r) = node
+                    beam%relative(r) = given(k)%direction == gapbeam_relative
+                end associate
+            end do
+            beam%turning = beam%turning(:r)
+            beam%relative = beam%relative(:r)
+        end associate
+    end subroutine number_rotations
+
+    !> 1 of a node, 2 of the two sides of a hinge
+    pure function kind_of_rotation(support) result(kind)
+        type(support_type), intent(in) :: support
+        integer :: kind
+
+        kind = merge(2, 1, support%direction == gapbeam_relative)
+    end function kind_of_rotation
 
     !> Compliances of the elastic hinges, if there are any
     subroutine assemble_hinges(assembled, error)

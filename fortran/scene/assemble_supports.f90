@@ -8,6 +8,7 @@ module gapbeam_assemble_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type, turns
+    use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge, bad_law
@@ -64,15 +65,21 @@ contains
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 3 clamp, along the beam, elastic ones
         !> too, 5 and for those that push one way 4 and 6, of a rotation 7 to 9, of a hinge 10 to 12
         integer, allocatable :: rigid(:, :)
+        !> Do supports hold the rotation of a point by a stiffness
+        logical, allocatable :: restrained(:)
         integer :: k, m, stat, point, centre
 
         m = size(assembled%model%supports)
-        allocate (rigid(-1:12, 0:ubound(assembled%point_span, 1)), stat=stat)
+        allocate (rigid(-1:12, 0:ubound(assembled%point_span, 1)), restrained(0:ubound(assembled%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         rigid(:, :) = 0
+        restrained(:) = .false.
+        do k = 1, m
+            if (assembled%model%supports(k)%rotation > 0.0_wp) restrained(assembled%support_point(k)) = .true.
+        end do
         do k = 1, m
             point = assembled%support_point(k)
             associate (s => assembled%model%supports(k))
@@ -85,11 +92,11 @@ contains
                     if (s%direction /= gapbeam_relative .and. assembled%hinged(point)) then
                         call refuse(error, of_supports, k, m, at_hinge, "rotation", &
                                     "there is a hinge here, so it is unclear which side is held; move one aside")
-                    else if (sum(assembled%model%supports%rotation, assembled%support_point == point) > 0.0_wp) then
+                    else if (restrained(point)) then
                         call refuse(error, of_supports, k, m, bad_law, "rotation", "another support holds the rotation here "// &
                                     "by a stiffness; leave one of them out")
                     else if (s%stiffness > huge(s%stiffness) .and. .not. assembled%with_law(k)) then
-                        call note(merge(11, 8, s%direction == gapbeam_relative) + s%side, "side", "hold the rotation rigidly")
+                        call note(centre_of(s) + s%side, "side", "hold the rotation rigidly")
                     end if
                 else if (s%stiffness > huge(s%stiffness)) then
                     ! A law is no stiffness; what it holds rigidly depends on its piece
@@ -103,8 +110,7 @@ contains
         end do
         do k = 1, m
             point = assembled%support_point(k)
-            centre = 0
-            if (turns(assembled%model%supports(k))) centre = merge(11, 8, assembled%model%supports(k)%direction == gapbeam_relative)
+            centre = centre_of(assembled%model%supports(k))
             if (rigid(centre + gapbeam_below, point) == k) then
                 call check_order(k, rigid(centre + gapbeam_above, point), .false.)
                 if (.not. allocated(error)) call check_order(k, rigid(centre + gapbeam_both, point), .true.)
@@ -147,6 +153,15 @@ contains
         end subroutine check_order
 
     end subroutine check_neighbours
+
+    !> Kind in check_neighbours of a support that holds both ways, beside which are those that push one way
+    pure function centre_of(support) result(kind)
+        type(support_type), intent(in) :: support
+        integer :: kind
+
+        kind = 0
+        if (turns(support)) kind = 5 + 3*kind_of_rotation(support)
+    end function centre_of
 
     !> Is there room between two rigid supports at a place
     elemental function is_room(stop_at, start_at, strictly) result(there)
@@ -225,6 +240,8 @@ contains
         type(node_support_type), allocatable :: supports(:)
         logical, allocatable :: clamped(:)
         integer, allocatable :: first(:), last(:)
+        !> Numbers of the rotations that supports hold, of nodes and of hinges, shape (0:n, 2)
+        integer, allocatable :: rotation(:, :)
         integer :: k, j, m, n, place, stat
 
         n = ubound(assembled%node_point, 1)
@@ -252,7 +269,7 @@ contains
             clamped(:) = .false.
             assembled%beam_support(:) = 0
             beam%kind(:) = merge(hinge, plain, assembled%hinged(assembled%node_point))
-            if (any(turns(given))) allocate (beam%turning(0), beam%relative(0))
+            if (any(turns(given))) call number_rotations(assembled, rotation)
             j = 0
             do k = 1, size(given)
                 if (given(k)%direction == gapbeam_axial) cycle
@@ -262,10 +279,7 @@ contains
                     if (.not. can_carry(given(k))) cycle
                     assembled%beam_support(k) = j + 1
                     place = node
-                    if (turns(given(k))) then
-                        call find_rotation(node, given(k)%direction == gapbeam_relative, beam%turning, beam%relative, place)
-                        place = n + place
-                    end if
+                    if (turns(given(k))) place = n + rotation(node, kind_of_rotation(given(k)))
                     m = 1
                     if (assembled%with_law(k)) then
                         m = count_breakpoints(given(k), law(first(k):last(k)))
@@ -295,23 +309,6 @@ contains
             end do
         end associate
     end subroutine place_supports
-
-    !> The number of a rotation that a support holds
-    pure subroutine find_rotation(node, relative, turning, all_relative, place)
-        !> Node of the beam, and whether it is the rotation of its two sides against each other
-        integer, intent(in) :: node
-        logical, intent(in) :: relative
-        !> As of beam_type, longer by one where it is a new one
-        integer, allocatable, intent(inout) :: turning(:)
-        logical, allocatable, intent(inout) :: all_relative(:)
-        integer, intent(out) :: place
-
-        place = findloc(turning == node .and. (all_relative .eqv. relative), .true., 1)
-        if (place > 0) return
-        turning = [turning, node]
-        all_relative = [all_relative, relative]
-        place = size(turning)
-    end subroutine find_rotation
 
     !> Can a support carry: a one-sided one without stiffness only says where the beam is
     elemental function can_carry(support) result(yes)

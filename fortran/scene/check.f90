@@ -10,7 +10,7 @@ module gapbeam_check
         gapbeam_rotational, gapbeam_relative, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_live, gapbeam_dead
-    use gapbeam_assembled_model, only: is_of_support
+    use gapbeam_assembled_model, only: is_of_support, turns
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
@@ -196,7 +196,7 @@ contains
         else if (s%direction == gapbeam_axial .and. s%rotation > 0.0_wp) then
             call refuse_entry(error, here, "rotation", not_axial, &
                               "an axial support holds no rotation; a normal one here can do that")
-        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial]) .and. .not. s%stiffness > 0.0_wp) then
+        else if (turns(s) .and. .not. s%stiffness > 0.0_wp) then
             call refuse_number(error, here, "stiffness", s%stiffness, "a number above 0 (infinite: rigid)")
         else if (s%direction /= gapbeam_normal .and. s%rotation > 0.0_wp) then
             call refuse_entry(error, here, "rotation", bad_law, "it holds a rotation by its stiffness; leave it out")

@@ -2,7 +2,7 @@
 !> this version.
 module gapbeam_check_axial
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken
@@ -36,8 +36,17 @@ contains
         type(error_type), allocatable, intent(out) :: error
         character(len=*), parameter :: in_version = " is not available in this version"
         character(len=:), allocatable :: which, where
-        integer :: k
+        logical, allocatable :: falls(:)
+        logical :: curved, stiff
+        integer :: k, stat
 
+        call find_falling(law, size(model%supports), falls, stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        curved = any(is_smooth(model%supports%law))
+        stiff = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
         do k = 1, size(model%supports)
             associate (s => model%supports(k))
                 which = "along the beam"
@@ -58,7 +67,7 @@ contains
                     call say("law", "a force that falls "//where//in_version//"; give a law that rises or stays")
                 else if (turns(s)) then
                     call check_rest("direction", "a support that holds a rotation by a law, a slack or one way")
-                    if (.not. allocated(error) .and. is_stiff(model)) then
+                    if (.not. allocated(error) .and. stiff) then
                         call say("direction", "beside a rigid beam (infinite EI) it"//in_version//"; give EI")
                     end if
                 else if (with_law(k)) then
@@ -85,35 +94,35 @@ contains
 
             if (size(model%foundations) > 0) then
                 call say(key, what//" beside a foundation"//in_version//"; leave one of them out")
-            else if (any(is_smooth(model%supports%law))) then
+            else if (curved) then
                 call say(key, what//" beside a support whose law is a curve"//in_version//"; give the points of the curve")
             end if
         end subroutine check_rest
 
-        !> Does the force of a law fall anywhere
-        pure function falls(k)
-            integer, intent(in) :: k
-            logical :: falls
-            real(wp) :: before
-            integer :: i
-
-            falls = .false.
-            before = 0.0_wp
-            do i = 1, size(law)
-                if (law(i)%support /= k) cycle
-                falls = falls .or. law(i)%force < before
-                before = law(i)%force
-            end do
-        end function falls
-
     end subroutine check_along
 
-    !> Is a span or section rigid in bending
-    pure function is_stiff(model) result(it_is)
-        type(model_type), intent(in) :: model
-        logical :: it_is
+    !> Does the force of a law fall anywhere
+    pure subroutine find_falling(law, number, falls, stat)
+        type(law_point_type), intent(in) :: law(:)
+        !> Number of supports
+        integer, intent(in) :: number
+        !> Of every support
+        logical, allocatable, intent(out) :: falls(:)
+        !> Not 0 where there is no memory
+        integer, intent(out) :: stat
+        real(wp), allocatable :: before(:)
+        integer :: i
 
-        it_is = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
-    end function is_stiff
+        allocate (falls(number), before(number), stat=stat)
+        if (stat /= 0) return
+        falls(:) = .false.
+        before(:) = 0.0_wp
+        do i = 1, size(law)
+            associate (k => law(i)%support)
+                falls(k) = falls(k) .or. law(i)%force < before(k)
+                before(k) = law(i)%force
+            end associate
+        end do
+    end subroutine find_falling
 
 end module gapbeam_check_axial
