@@ -190,9 +190,9 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     quantities = {"reaction": reaction, "couple": step.couple, "deflection": deflection}
     if not step.couple[~turning].any():
         del quantities["couple"]
-    if any(state != "bilateral" for state in step.state):
+    if any(state != "bilateral" for state, turned in zip(step.state, turning, strict=True) if not turned):
         quantities["opening"] = step.opening
-    if any(step.set):
+    if step.set[~turning].any():
         quantities["set"] = step.set
     if any(step.sliding):
         quantities |= {"friction": step.friction, "slip": step.slip}
@@ -248,19 +248,21 @@ def _rotations(say: "Writer", result: "Result", at: str) -> None:
     if not which:
         return
     say.heading(f"Rotations {at}")
-    x, opening = scene.positions(scene.supports), any(step.state[k] == "open" for k in which)
+    x, opening, left = scene.positions(scene.supports), any(step.state[k] == "open" for k in which), step.set[which].any()
     rows = [
         [
             fmt.support(scene, k), fmt.number(x[k], fmt.DIGITS), scene.supports[k].side,
             f"{symbol(step.state[k], say.plain)} {state_in_words(step.state[k])}",
             fmt.shown(scene, "couple", step.reaction[k]), fmt.shown(scene, "rotation", step.deflection[k]),
             *([fmt.shown(scene, "rotation", step.opening[k])] if opening else []),
+            *([fmt.shown(scene, "rotation", step.set[k])] if left else []),
         ]
         for k in which[:LONGEST]
     ]  # fmt: skip
     heads = [fmt.shown_heading(scene, "couple"), fmt.shown_heading(scene, "rotation")]
     to_go = [fmt.with_unit(scene, "rotation", "to go")] if opening else []
-    say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go], rows, left=(0, 2, 3))
+    set_kept = [fmt.with_unit(scene, "rotation", "set")] if left else []
+    say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go, *set_kept], rows, left=(0, 2, 3))
     more = f" {len(which) - LONGEST:,} more are in the output of --json." if len(which) > LONGEST else ""
     say.line("Couple on the beam: counterclockwise; rotation of the beam: clockwise. Of a hinge: sagging moment, and rotation left "
              f"of it less that right of it.{more}", "dim")  # fmt: skip

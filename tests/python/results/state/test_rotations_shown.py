@@ -41,6 +41,23 @@ def test_report():
     assert re.search(r"rotation of A\s+0\s+both\s+1 segment 1\s+\S+\s+0\.001", table)
 
 
+def test_sets_and_slacks_of_rotations_are_told_with_rotations():
+    """A joint that has yielded keeps (14 - 10)/300 - 0.01; supports across the beam have no column of zeros for it."""
+    joint = {"law": [[0.01, 10.0], [1.0, 10.0]], "unloading": "plastic"}
+    text = report_text(gapbeam.solve({
+        "beam": {"spans": [1.0], "EI": 100.0},
+        "supports": [{"node": 0, "rotation": joint}, {"node": 1, "rotation": {"slack": 0.5}}],
+        "loads": [{"type": "moment", "node": 0, "M": 14.0}], "analysis": {"follow": "events", "history": [1.0, 0.0]},
+    }))  # fmt: skip
+    supports, rotations = text[text.index("Supports at") :].split("Rotations at")
+    heads = next(line for line in supports.splitlines() if "side" in line)
+    assert "set" not in heads
+    assert "opening" not in heads
+    heads, joint = (next(line for line in rotations.splitlines() if word in line) for word in ("side", "segment 1"))
+    assert heads.split()[-2:] == ["set", "[rad]"]
+    assert joint.split()[-1] == "0.0033333"
+
+
 def test_combinations_tell_couples_apart():
     combinations = [{"name": "a", "factors": {"dead": 1.0, "live": 1.0}}, {"name": "b", "factors": {"dead": 1.0, "live": -1.0}}]
     result = gapbeam.solve({**SCENE, "combinations": combinations})
