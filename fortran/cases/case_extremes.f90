@@ -8,7 +8,7 @@ module gapbeam_case_extremes
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
-    use gapbeam_law, only: has_laws
+    use gapbeam_model, only: has_other_supports
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit, quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
@@ -39,8 +39,7 @@ contains
         logical :: yes
 
         associate (beam => assembled%beam, units => assembled%units)
-            yes = .not. (allocated(beam%ground) .or. has_laws(beam%supports) .or. allocated(beam%turning) &
-                         .or. allocated(assembled%axial%point) &
+            yes = .not. (allocated(beam%ground) .or. has_other_supports(beam) .or. allocated(assembled%axial%point) &
                         .or. .not. all(is_prismatic(assembled%pieces)) &
                         .or. any(is_beside_point(assembled%model%loads))) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &

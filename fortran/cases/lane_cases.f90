@@ -9,7 +9,7 @@ module gapbeam_lane_cases
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type
-    use gapbeam_law, only: has_laws
+    use gapbeam_model, only: has_other_supports
     use gapbeam_units, only: moment_unit, stiffness_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
@@ -48,7 +48,7 @@ contains
             fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
-                .and. .not. (has_laws(beam%supports) .or. allocated(beam%turning)) .and. all(is_prismatic(assembled%pieces)) &
+                .and. .not. has_other_supports(beam) .and. all(is_prismatic(assembled%pieces)) &
                 .and. .not. any(is_beside_point(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power

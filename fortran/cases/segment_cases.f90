@@ -9,7 +9,8 @@ module gapbeam_segment_cases
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
-    use gapbeam_law, only: both, has_laws
+    use gapbeam_law, only: both
+    use gapbeam_model, only: has_other_supports
     use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
@@ -50,7 +51,7 @@ contains
             if (.not. fits) return
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
-                .and. .not. (has_laws(beam%supports) .or. allocated(beam%turning)) &
+                .and. .not. has_other_supports(beam) &
                 .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_beside_point(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
         end associate

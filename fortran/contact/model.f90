@@ -5,11 +5,11 @@ module gapbeam_model
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_foundation, only: stretch_link_type
-    use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support
+    use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support, has_laws
     use gapbeam_law_adapters, only: least_stiffness
     implicit none
     private
-    public :: beam_type, new_beam, order_supports, last_place, node_of_support, softest
+    public :: beam_type, new_beam, order_supports, last_place, node_of_support, has_other_supports, softest
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
 
@@ -126,6 +126,14 @@ contains
         node = beam%supports(k)%node
         if (node > size(beam%links)) node = beam%turning(node - size(beam%links))
     end function node_of_support
+
+    !> Has a beam supports that are no springs with a gap across it: laws, or what holds rotations
+    pure function has_other_supports(beam) result(it_has)
+        type(beam_type), intent(in) :: beam
+        logical :: it_has
+
+        it_has = has_laws(beam%supports) .or. allocated(beam%turning)
+    end function has_other_supports
 
     !> A stiffness far below all others: that of the whole beam in bending, or of its softest support
     pure function softest(beam) result(stiffness)

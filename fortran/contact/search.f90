@@ -24,8 +24,8 @@ module gapbeam_search
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
-    use gapbeam_law, only: separate_rigid_pairs, has_laws, open_from, advance_one_segment
-    use gapbeam_model, only: beam_type
+    use gapbeam_law, only: separate_rigid_pairs, open_from, advance_one_segment
+    use gapbeam_model, only: beam_type, has_other_supports
     use gapbeam_workspace, only: workspace_type
     use gapbeam_system, only: complete_scheme
     use gapbeam_evaluation, only: search_type, evaluate_active_set
@@ -77,7 +77,7 @@ contains
         search%carefully = any(work%proximal_weight > 0.0_wp)
         if (present(carefully)) search%carefully = search%carefully .or. carefully
         ! Parts and interior points know of ordinary supports only
-        search%with_laws = has_laws(beam%supports) .or. allocated(beam%turning)
+        search%with_laws = has_other_supports(beam)
         if (.not. (search%with_laws .or. allocated(beam%ground))) search%margin = least_margin(beam)
         settled = .false.
         if (rule == rule_single) call change_single(beam, closed, work, search, settled)

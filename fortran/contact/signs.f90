@@ -6,9 +6,9 @@ module gapbeam_signs
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: near_zero
     use gapbeam_require, only: checked, require
-    use gapbeam_law, only: has_laws, is_rigid
+    use gapbeam_law, only: is_rigid
     use gapbeam_law_margins, only: may_change
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, has_other_supports
     use gapbeam_workspace, only: workspace_type
     implicit none
     private
@@ -51,7 +51,7 @@ contains
         call take_group(beam, .true., signs%rigid)
         call take_group(beam, .false., signs%elastic)
         associate (nodes => signs%rigid%node)
-            signs%unclear = has_laws(beam%supports) .or. allocated(beam%turning)
+            signs%unclear = has_other_supports(beam)
             if (.not. signs%unclear) signs%unclear = any(beam%first(nodes + 1) - beam%first(nodes) > 1)
         end associate
         farthest = 0.0_wp

@@ -9,9 +9,9 @@ module gapbeam_ill_scaled_signs
     use gapbeam_limits, only: most_flips, most_tie_solves
     use gapbeam_tolerances, only: fine_width, least_force_share
     use gapbeam_band, only: band_ok
-    use gapbeam_model_quad, only: beam_type
+    use gapbeam_model_quad, only: beam_type, has_other_supports
     use gapbeam_workspace_quad, only: workspace_type
-    use gapbeam_law_quad, only: has_laws, separate_rigid_pairs
+    use gapbeam_law_quad, only: separate_rigid_pairs
     use gapbeam_law_margins_quad, only: is_watched_in, margin_of
     use gapbeam_system_quad, only: solve_and_refine
     implicit none
@@ -35,7 +35,7 @@ contains
         integer :: k, flips, ties, state, place
 
         known = .true.
-        if (has_laws(beam%supports) .or. allocated(beam%ground) .or. allocated(beam%turning)) return
+        if (has_other_supports(beam) .or. allocated(beam%ground)) return
         k = first_wrong(beam, closed, work)
         if (k == 0) return
         allocate (is_tie(size(closed)), flipped(size(closed)), other)

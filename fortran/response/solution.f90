@@ -16,7 +16,7 @@ module gapbeam_solution
     implicit none
     private
     public :: state_type, new_state, close_all, forget, check_range, couple_at_node, displacement_at, way_to_contact, &
-        has_own_laws, laws_in, laws_along
+        level_at, has_own_laws, laws_in, laws_along
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
     !> per node 0..n
@@ -224,15 +224,22 @@ contains
         type(state_type), intent(in) :: state
         integer, intent(in) :: support
         real(wp) :: way
-        real(wp) :: moved
 
-        moved = 0.0_wp
-        if (allocated(assembled%growth)) moved = state%factor*assembled%growth(support)
-        associate (s => assembled%model%supports(support))
-            way = s%side*(scale(contact_level(s) + moved, -way_unit(assembled, support)) &
-                          - displacement_at(assembled, state, support))
-        end associate
+        way = assembled%model%supports(support)%side*(scale(level_at(assembled, state, support), -way_unit(assembled, support)) &
+                                                      - displacement_at(assembled, state, support))
     end function way_to_contact
+
+    !> Where a support of the model begins to act, with what it has moved, before it has yielded, in the user's units
+    pure function level_at(assembled, state, support) result(level)
+        !> The beam, and its solved state
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: support
+        real(wp) :: level
+
+        level = contact_level(assembled%model%supports(support))
+        if (allocated(assembled%growth)) level = level + state%factor*assembled%growth(support)
+    end function level_at
 
     !> Deflection of the beam at a support of the model, or the rotation that it holds, in the engine's units
     pure function displacement_at(assembled, state, support) result(displacement)

@@ -4,9 +4,8 @@ module gapbeam_yielded_supports
     use gapbeam_model, only: node_support_type, both
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_scene, only: gapbeam_axial, gapbeam_plastic
-    use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assembled_model, only: assembled_type, way_unit, push_unit
-    use gapbeam_solution, only: state_type, displacement_at, laws_in, laws_along
+    use gapbeam_solution, only: state_type, displacement_at, level_at, laws_in, laws_along
     implicit none
     private
     public :: yielded_supports
@@ -39,8 +38,7 @@ contains
         do k = 1, size(energy)
             associate (s => assembled%model%supports(k), axial => assembled%axial)
                 if (.not. assembled%with_law(k) .or. s%unloading /= gapbeam_plastic) cycle
-                at_first = contact_level(s)
-                if (allocated(assembled%growth)) at_first = at_first + state%factor*assembled%growth(k)
+                at_first = level_at(assembled, state, k)
                 if (s%direction == gapbeam_axial) then
                     if (.not. allocated(state%along)) cycle
                     of_way = axial%units%deflection

@@ -549,9 +549,9 @@ def test_turned_supports_agree(library):
         np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
 
 
-def test_friction_agrees(library):
-    """Links along the beam: events, states of supports, forces and slips of friction have the digits of Python."""
-    scene = tomllib.loads((TOP / "examples" / "pipe_rack_hot.toml").read_text())
+def states_on_history(library, example):
+    """Follow the history of an example in all languages: the same events, and every state in Python, C and Fortran 77."""
+    scene = tomllib.loads((TOP / "examples" / f"{example}.toml").read_text())
     result = python_result(scene)
     beam, message = library.prepare(scene)
     assert not message
@@ -566,36 +566,30 @@ def test_friction_agrees(library):
     for step, number in zip(result.steps, numbers_of(result.path), strict=True):
         assert beam.solve_on_path(number, step.factor) == (0, "")
         assert f77.solve_on_path(number, step.factor) == 0
+        yield step, beam, f77
+
+
+def test_friction_agrees(library):
+    """Links along the beam: events, states of supports, forces and slips of friction have the digits of Python."""
+    for step, *beams in states_on_history(library, "pipe_rack_hot"):
         ways = [{"left": -1, "right": 1}.get(way, 0) for way in step.sliding]
-        for one in (beam, f77):
+        for one in beams:
             np.testing.assert_array_equal(one.at_supports()[0], step.reaction)
             for values, expected in zip(one.friction(), (step.friction, step.slip, ways), strict=True):
                 np.testing.assert_array_equal(values, expected)
-    assert result.steps[-1].friction.any()
+    assert step.friction.any()
 
 
 def test_restraints_and_hinges_with_laws_agree(library):
     """Supports that hold rotations, along a history: events, couples, rotations and fields have the digits of Python."""
-    scene = tomllib.loads((TOP / "examples" / "yielding_joints.toml").read_text())
-    result = python_result(scene)
-    beam, message = library.prepare(scene)
-    assert not message
-    f77 = F77Beam(library, scene)
-    assert f77.info_ == 0
-    history = scene["analysis"]["history"]
-    status, message, found = beam.follow_history(history, "stop")
-    info, found_f77 = f77.follow_history(history, "stop")
-    assert (status, message, info) == (0, "", 0)
-    assert_same_history(found, result.path)
-    assert_same_history(found_f77, result.path)
-    for step, number in zip(result.steps, numbers_of(result.path), strict=True):
-        assert beam.solve_on_path(number, step.factor) == (0, "")
-        assert f77.solve_on_path(number, step.factor) == 0
-        for one in (beam, f77):
+    states = []
+    for step, *beams in states_on_history(library, "yielding_joints"):
+        for one in beams:
             expected = step.reaction, step.deflection, step.opening, step.couple
             for values, known in zip(one.at_supports()[:4], expected, strict=True):
                 np.testing.assert_array_equal(values, known)
-    assert set(result.steps[1].state) == {"bilateral", "branch 1", "branch 2"}
+        states.append(set(step.state))
+    assert states[1] == {"bilateral", "branch 1", "branch 2"}
 
 
 def test_histories_on_curves_agree(library):
