@@ -9,7 +9,8 @@ module gapbeam_api_cases
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_words, only: shown, whole
     use gapbeam_input_error, only: named, of_supports, of_loads
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_both
+    use gapbeam_scene, only: load_type, gapbeam_axial, gapbeam_both, gapbeam_movement
+    use gapbeam_assemble_laws, only: laws_depend_on_path
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
@@ -28,7 +29,8 @@ contains
 
     !> Make ready for many cases of a beam: what every load does alone is worked out once
     subroutine prepare_cases(beam, cases, error)
-        !> Prepared, on no foundation, without laws that make the state depend on the loading history
+        !> Prepared, on no foundation, without laws that make the state depend on the loading history. Loads may move supports that
+        !> have no law
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases
@@ -38,7 +40,9 @@ contains
         integer :: n, m, stat
 
         call require_beam(beam, error)
-        if (.not. allocated(error)) call require_no_path(beam, error)
+        if (allocated(error)) return
+        ! A case has the movements of supports that its factors make, on whatever path
+        if (laws_depend_on_path(beam%lowered)) call require_no_path(beam, error)
         if (.not. allocated(error)) call require_no_curves(beam, error)
         if (allocated(error)) return
         associate (lowered => beam%lowered)
@@ -82,7 +86,7 @@ contains
         !> gapbeam_not_prepared, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
         !> Movement (down), gap and stiffness (above 0, infinite: rigid) of every support instead of those of the model, shape
-        !> (nsupport, ncase)
+        !> (nsupport, ncase). Loads that move supports add to it
         real(wp), intent(in), optional :: settlement(:, :), gap(:, :), stiffness(:, :)
         type(options_type), intent(in), optional :: options
         !> Force on the beam, up, shape (nsupport, ncase); of axial supports, and of cases that are not solved, not-a-number
@@ -111,7 +115,7 @@ contains
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
         supports = size(beam%lowered%model%supports)
         nodes = size(beam%lowered%node_point)
-        given = present(settlement) .or. present(gap) .or. present(stiffness)
+        given = present(settlement) .or. present(gap) .or. present(stiffness) .or. allocated(beam%lowered%given_settlement)
         if (given) call require_own_supports(beam%lowered, error)
         if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
         if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
@@ -131,11 +135,13 @@ contains
             do i = 1, merge(n, 0, given)
                 associate (own => beam%lowered%model%supports, values => cases%values(:, :, i), c => first + i - 1)
                     values(1, :) = own%settlement
+                    if (allocated(beam%lowered%given_settlement)) values(1, :) = beam%lowered%given_settlement
                     values(2, :) = own%gap
                     values(3, :) = own%stiffness
                     if (present(settlement)) values(1, :) = settlement(:, c)
                     if (present(gap)) values(2, :) = gap(:, c)
                     if (present(stiffness)) values(3, :) = stiffness(:, c)
+                    call move_supports(beam%lowered%model%loads, factors(:, c), values(1, :))
                 end associate
             end do
             cases%closed(:, :n) = spread(cases%start, 2, n)
@@ -195,6 +201,22 @@ contains
         call close_all(lowered, closed)
         start(:) = merge(1, 0, closed)
     end subroutine start_closed
+
+    !> Move supports by the loads of a case that do so
+    pure subroutine move_supports(loads, factors, settlement)
+        type(load_type), intent(in) :: loads(:)
+        real(wp), intent(in) :: factors(:)
+        !> Of every support
+        real(wp), intent(inout) :: settlement(:)
+        integer :: i
+
+        do i = 1, size(loads)
+            if (loads(i)%kind /= gapbeam_movement) cycle
+            associate (moved => settlement(loads(i)%node))
+                moved = moved + factors(i)*loads(i)%value
+            end associate
+        end do
+    end subroutine move_supports
 
     !> Refuse what prepare_cases has not made, or has made from another beam
     subroutine require_cases(lowered, cases, error)

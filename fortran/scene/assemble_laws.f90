@@ -13,7 +13,8 @@ module gapbeam_assemble_laws
     use gapbeam_input_error, only: refuse, of_supports, twice
     implicit none
     private
-    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path
+    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path, &
+        laws_depend_on_path
 
 contains
 
@@ -93,15 +94,24 @@ contains
 
     end subroutine check_rigid_pieces
 
-    !> Does a state depend on the loading history to it: a force may fall, or a support unloads otherwise than along its law. That
-    !> loads move supports is known on a path alone
+    !> Does a state depend on the loading history to it. That loads move supports is known on a path alone
     function depends_on_path(assembled) result(depends)
+        type(assembled_type), intent(in) :: assembled
+        logical :: depends
+
+        depends = allocated(assembled%given_settlement)
+        if (.not. depends) depends = laws_depend_on_path(assembled)
+    end function depends_on_path
+
+    !> The same, whatever loads move: a force may fall, a support unloads otherwise than along its law, or acts along the beam by
+    !> one
+    function laws_depend_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends
         type(motion_type), allocatable :: motions(:)
 
         depends = .true.
-        if (allocated(assembled%given_settlement) .or. allocated(assembled%axial%laws)) return
+        if (allocated(assembled%axial%laws)) return
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate
@@ -116,7 +126,7 @@ contains
         end associate
         call free_motions(assembled%beam, always_closed(assembled%beam%supports), motions)
         depends = size(motions) > 0
-    end function depends_on_path
+    end function laws_depend_on_path
 
     !> Number of breakpoints of a support: those of its law, or one
     pure function count_breakpoints(support, points) result(breakpoints)

@@ -66,12 +66,16 @@ def given_for(rng, scene, count):
 
 def test_cases_agree(library):
     """Random scenes, cases with and without other supports, also such as leave no room for each other."""
-    seen = {0: 0, 1: 0, 11: 0}
+    seen, moving = {0: 0, 1: 0, 11: 0}, 0
     library.c.gapbeam_free_cases.argtypes = [c.c_void_p]
     for seed in range(120):
         rng = random.Random(seed)
         scene = random_scene(rng)
         scene.pop("sections", None)
+        if seed % 3 == 0:  # loads that move supports
+            moved = [k for k, one in enumerate(scene["supports"]) if one.get("direction", "normal") == "normal"]
+            scene["loads"] += [{"type": "movement", "support": rng.choice(moved), "value": rng.uniform(-0.02, 0.02), "case": case}
+                               for case in ("dead", "live") if moved]  # fmt: skip
         beam, message = library.prepare(scene)
         try:
             prepared = gapbeam.prepare(scene)
@@ -97,8 +101,10 @@ def test_cases_agree(library):
         assert [one.tobytes() for one in in_f77] == [one.tobytes() for one in found]
         for one in found[0].tolist():
             seen[one] = seen.get(one, 0) + 1
+        moving += prepared._solver.movements is not None
         beam.close()
     assert min(seen.values()) > 3
+    assert moving > 9
 
 
 def test_cases_on_foundations_are_refused(library):

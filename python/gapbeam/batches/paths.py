@@ -206,7 +206,7 @@ def _put(old: Any, parts: tuple[str | int, ...], value: float) -> Any:
 
 
 def _times(load: dict[str, Any], factor: float) -> dict[str, Any]:
-    given = {key: load[key] for key in VALUES if key in load}
+    given = {key: load[key] for key in VALUES if load.get(key) is not None}
     made = {key: [factor * one for one in value] if isinstance(value, list) else factor * value for key, value in given.items()}
     return load | made
 

@@ -100,7 +100,7 @@ class PreparedCases(OnOneBeam):
         self._before: list[float] = []
         analysis = scene["analysis"]
         if (analysis["steps"] > 1 or analysis["follow"] == "events") and not is_held(scene):
-            if analysis["follow"] == "events":
+            if analysis["follow"] == "events" or self._solver.movements is not None:
                 raise SceneError("analysis.follow", "the beam may lose its hold at any share of the loads")
             self._before = shares_before(scene)
         self._sides = beam.sides
@@ -135,13 +135,14 @@ class PreparedCases(OnOneBeam):
         """
         factors, varied, fine = self._take(values)
         start = self._solver.start
-        found = self._solver.solve(factors, start, varied, self._names)
+        moved = self._solver.moved(factors, varied)
+        found = self._solver.solve(factors, start, moved, self._names)
         solved = fine & (found.status == Status.SOLVED)
         for share in self._before:
             part = factors * np.where(self._cases == DEAD, 1.0, share)
-            solved &= self._solver.solve(part, start, varied, ()).status == Status.SOLVED
+            solved &= self._solver.solve(part, start, self._solver.moved(part, varied), ()).status == Status.SOLVED
         if self._is_simple:
-            self._keep_simple(found, varied, solved, numbers)
+            self._keep_simple(found, moved, solved, numbers)
         for kind, bound in (found.error_bounds() if ERRORS in self._want else {}).items():
             numbers[f"{ERRORS}.{kind}"][solved] = bound[solved]
         states = found._combined() if len(self._rest) > len(self._fields) else None

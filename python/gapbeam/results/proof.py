@@ -16,8 +16,9 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..engine.beam import Beam
-from ..scene.combinations import plan_combinations, settle_movements, times
+from ..scene.combinations import plan_combinations, times
 from ..scene.laws import is_smooth, law_points
+from ..scene.movements import settle_movements
 from ..scene.places import same_place
 from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene

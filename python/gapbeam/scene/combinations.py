@@ -15,7 +15,7 @@ from ..base.errors import SceneError
 from ..base.records import read_only
 from .columns import SIDES
 from .cut_loads import Placement, check_parts, cut_loads
-from .loads import MovementLoad
+from .movements import replace_settlements
 from .names import cases_of, find
 from .structs import Combination, Scene, Support
 from .tables import Table
@@ -101,62 +101,6 @@ class Plan:
         return msgspec.structs.replace(scene, title=title, loads=loads, trains=trains, supports=supports, combinations=[])
 
 
-def replace_settlements(scene: Scene, moves: np.ndarray) -> Scene:
-    """Move supports further.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene; left as it is.
-    moves : numpy.ndarray
-        Further movement of every support.
-    """
-    return msgspec.structs.replace(
-        scene, supports=[_moved(one, by) for one, by in zip(scene.supports, moves.tolist(), strict=True)]
-    )
-
-
-def settle_movements(scene: Scene) -> Scene:
-    """Make loads that move supports settlements, as they are at full load.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene; left as it is.
-    """
-    moves, loads = np.zeros(len(scene.supports)), []
-    for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad) and load.value is not None:
-            moves[find(scene.supports, load.support, f"loads[{k}].support", "support")] += load.value
-        else:
-            loads.append(load)
-    return msgspec.structs.replace(replace_settlements(scene, moves), loads=loads) if moves.any() else scene
-
-
-def refuse_movements(scene: Scene, problem: str, and_rotations: bool = True) -> None:
-    """Refuse loads that move supports.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    problem : str
-        What cannot be had with them.
-    and_rotations : bool
-        Whether those that turn them are refused as well.
-
-    Raises
-    ------
-    SceneError
-        There is one.
-    """
-    for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad) and load.value is not None:
-            raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
-        if isinstance(load, MovementLoad) and and_rotations:
-            raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
-
-
 def times(load: Any, factor: float) -> Any:
     """Multiply a load.
 
@@ -172,10 +116,6 @@ def times(load: Any, factor: float) -> Any:
         key: tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value for key, value in given.items()
     }
     return msgspec.structs.replace(load, **made)
-
-
-def _moved(support: Support, by: float) -> Support:
-    return msgspec.structs.replace(support, settlement=support.settlement + by) if by else support
 
 
 def _held(support: Support, acts: bool) -> Support:

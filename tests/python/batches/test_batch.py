@@ -70,18 +70,28 @@ def test_a_row_is_the_scene_with_its_numbers():
     assert gapbeam.read_scene(data).supports[2].node == 2
 
 
+SMALL = "nt", "ap", "ue"
+"""Ends of the names of lengths that supports move or leave: settlement, gap, value."""
+
+
 def test_prepared_beams_give_what_scenes_give():
     """Factors, gaps, settlements, stiffnesses, moduli of random scenes, some of them impossible, on both roads."""
-    seen = set()
-    for seed in range(16):
+    seen, moving = set(), 0
+    for seed in range(24):
         rng = random.Random(seed)
-        made = random_scene(rng, held=rng.choice((True, None)))
-        if seed > 13:
+        held = rng.choice((True, None))
+        made = random_scene(rng, held=held)
+        if seed > 21:
             made["foundation"] = [{"k": 1e4, "side": "below"}]
+        elif held:  # loads that move supports
+            moved = [k for k, one in enumerate(made["supports"]) if one.get("direction", "normal") == "normal"]
+            for case in ("dead", "live"):
+                made["loads"].append({"type": "movement", "support": rng.choice(moved), "value": 0.01, "case": case})
         scene = gapbeam.read_scene(made)
         columns = [f"supports[{k}].settlement" for k in range(len(scene.supports))]
         columns += [f"supports[{k}].gap" for k, one in enumerate(scene.supports) if one.side != "both"]
         columns += [f"supports[{k}].stiffness" for k in range(len(scene.supports))]
+        columns += [f"loads[{k}].value" for k, load in enumerate(made["loads"]) if load["type"] == "movement"]
         columns += [f"factors.{case}" for case in sorted({load.case for load in scene.loads})]
         spans = range(len(scene.beam.spans))
         for key in ("EI", "GA")[: seed % 3]:
@@ -90,10 +100,10 @@ def test_prepared_beams_give_what_scenes_give():
         made = job(scene, columns)
         if not made.cases.is_prepared:
             continue
-        size = [1.0 if "factors" in name else 0.02 if name[-2:] in ("nt", "ap") else 1e5 for name in columns]
+        size = [1.0 if "factors" in name else 0.02 if name[-2:] in SMALL else 1e5 for name in columns]
         values = np.array([[s * rng.choice((0.0, 1.0, rng.uniform(-1, 1), rng.uniform(-1, 1))) for _ in range(4)] for s in size])
         for row, name in zip(values, columns, strict=True):
-            if name[-2:] not in ("nt", "ap") and "factors" not in name:
+            if name[-2:] not in SMALL and "factors" not in name:
                 row[:3] = np.abs(row[:3]) + 1.0 * (row[:3] == 0.0)  # the last case is impossible
         values[0, 3] = np.nan
         found = made.solve(Arrays(dict(zip(columns, values, strict=True))).rows(0, 4), 0)
@@ -104,6 +114,8 @@ def test_prepared_beams_give_what_scenes_give():
             same = np.allclose(found[name], column, 1e-9, tolerance, equal_nan=True) if tolerance else (found[name] == column).all()
             assert same or name.endswith("_x"), (seed, name)
         seen |= set(found["status"].tolist())
+        moving += made.cases._solver.movements is not None
+    assert moving > 3
     assert seen == {b"solved", b"no-equilibrium", b"refused"}
 
 

@@ -21,9 +21,9 @@ from ...base.hints import nearest
 from ...base.records import Pickled
 from ...engine.cases import OneCase
 from ...engine.combinations import Varied
-from ...scene.combinations import refuse_movements
+from ...scene.movements import take_movements
 from ...scene.names import cases_of, find
-from ...scene.reading import read_beam
+from ...scene.reading import beam_of, read_beam
 from ...scene.structs import Scene
 from ...scene.wording import choice, key_of, shown
 from ..formatting import count, title
@@ -32,7 +32,7 @@ from ..state.arguments import numbers, scheme
 from ..state.schemes import choose_rule
 from .solved_cases import Cases, case_in_block, wanted_names
 from .solver import CaseSolver, solver_of
-from .varied import Given, SupportArrays, base_values, cases_in, vary
+from .varied import Given, SupportArrays, cases_in, vary
 
 FLOAT = np.dtype(float)
 VARIED = ("gap", "settlement", "stiffness", "EI", "GA", "k")
@@ -143,7 +143,7 @@ class Prepared(Pickled):
         closed = self._solver.start
         if start is not None:
             closed = self._solver.starting(scheme(start, len(self.supports), "support across the beam"))
-        varied = self._vary(extra_settlement, given, len(many))
+        varied = self._vary(extra_settlement, given, many)
         names = wanted_names(want) if out is None else self._fitting(out, want, count)
         return self._solver.solve(many, closed, varied, names, single=count is None, out=out)
 
@@ -181,23 +181,16 @@ class Prepared(Pickled):
         return out._names
 
     def _vary(
-        self, extra_settlement: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], count: int
+        self, extra_settlement: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], factors: np.ndarray
     ) -> Varied:
         """Numbers that differ from those of the scene, movements of supports among their settlements."""
-        columns = self._solver.beam.columns
-        varied = vary(self.scene, columns, given, count)
+        varied = vary(self.scene, self._solver.beam.columns, given, len(factors))
         if not isinstance(extra_settlement, Mapping | None):
             raise ValueError("extra_settlement: expected a mapping, as {1: 0.01} by number or name of a support; got "
                              f"{shown(extra_settlement)}; an array for all supports, instead of the scene's, is settlement = [...]")
-        if not extra_settlement:
-            return varied
-        moves = self._movements(extra_settlement, count)
-        supports = varied.supports
-        if supports is None:
-            supports = np.broadcast_to(base_values(columns), (count, moves.shape[1] + 1, 3))
-        supports = supports.copy()
-        supports[:, :-1, 0] += moves
-        return Varied(supports, varied.spans, varied.moduli)
+        if extra_settlement:
+            varied = self._solver.settle(varied, self._movements(extra_settlement, len(factors)))
+        return self._solver.moved(factors, varied)
 
     @cached_property
     def _support_arrays(self) -> SupportArrays:
@@ -275,7 +268,7 @@ class Prepared(Pickled):
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
         if factors.ndim != 1 or cases_in({**given, "extra_settlement": extra_settlement}) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
-        result = self._solver.result(factors, self._vary(extra_settlement, given, 1))
+        result = self._solver.result(factors, self._vary(extra_settlement, given, factors[None, :]))
         if self._solver.may_buckle and result.compression is not None and result.compression.is_refused:
             raise result.compression.refusal()
         return result
@@ -342,11 +335,13 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if scene.trains:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
-    refuse_movements(scene, "in prepared cases supports are not moved by loads", and_rotations=False)
+    scene, movements = take_movements(scene)
+    if movements is not None:
+        beam = beam_of(scene)
     if beam.has_links_along:
         what = "friction, or axial supports that push one way or have a law"
         raise SceneError("supports", f"cases cannot be prepared beside {what}; use gapbeam.solve for each case")
     if beam.beyond_one_search is not None:
         what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
         raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
-    return solver_of(scene, beam, choose_rule(scene, rule))
+    return solver_of(scene, beam, choose_rule(scene, rule), movements)

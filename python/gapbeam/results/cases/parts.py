@@ -16,9 +16,10 @@ from msgspec.structs import replace
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError
 from ...engine.beam import SOLVED, Beam
 from ...engine.influence import influence_parts
-from ...scene.combinations import MOST, plan_combinations, refuse_movements
+from ...scene.combinations import MOST, plan_combinations
 from ...scene.cut_loads import Placement
 from ...scene.loads import UniformLoad
+from ...scene.movements import refuse_movements
 from ...scene.names import labels
 from ...scene.reading import beam_of
 from ...scene.structs import Scene

@@ -15,6 +15,7 @@ from ...engine.calls import FEW_NODES
 from ...engine.cases import OneCase, solve_cases, split_loads
 from ...engine.combinations import Combined, Varied, all_combinations
 from ...scene.held import hold
+from ...scene.movements import Movements
 from ...scene.structs import Scene
 from ..paths.compression_check import pieces_in_sections, refused_cases
 from ..result import Result
@@ -23,6 +24,7 @@ from ..state.schemes import starting_scheme
 from .asked import Asked
 from .case_result import result_of_case
 from .solved_cases import Cases, cases_of
+from .varied import base_values
 
 STATES = ("at_supports", "extremes", "places", "fields")
 """Values of `Combined`."""
@@ -41,6 +43,8 @@ class CaseSolver(Pickled):
         Made of it.
     rule : {"block", "single"}
         How contact states are found.
+    movements : Movements, optional
+        What the loads move; the scene and its beam do not know of it.
 
     Attributes
     ----------
@@ -52,8 +56,8 @@ class CaseSolver(Pickled):
         The short call for one case, where there is one.
     """
 
-    def __init__(self, scene: Scene, beam: Beam, rule: str):
-        self.scene, self.beam, self.rule = hold(scene), beam, rule
+    def __init__(self, scene: Scene, beam: Beam, rule: str, movements: Movements | None = None):
+        self.scene, self.beam, self.rule, self.movements = hold(scene), beam, rule, movements
         self.supports = read_only(np.flatnonzero(beam.bends))
         self.start = read_only(starting_scheme(beam))
         # Columns of the supports of the engine; None if these are the same, one by one
@@ -76,8 +80,41 @@ class CaseSolver(Pickled):
     def _condense(self) -> OneCase | None:
         """Condense the loads, and make the short call."""
         split_loads(self.beam)
-        short = len(self.scene.loads) > 0 and self.beam.links + 1 < FEW_NODES
+        short = len(self.scene.loads) > 0 and self.beam.links + 1 < FEW_NODES and self.movements is None
         return OneCase(self.beam, self.rule, self.scene) if short and self._carries is None and not self.may_buckle else None
+
+    def moved(self, factors: np.ndarray, varied: Varied) -> Varied:
+        """Move supports by the loads that do so.
+
+        Parameters
+        ----------
+        factors : numpy.ndarray
+            Of all loads, cases by loads.
+        varied : Varied
+            Numbers that differ from those of the beam; left as they are.
+        """
+        if self.movements is None:
+            return varied
+        moves = np.zeros((len(factors), self.beam.scene_supports))
+        self.movements.add_to(moves, factors)
+        return self.settle(varied, moves)
+
+    def settle(self, varied: Varied, moves: np.ndarray) -> Varied:
+        """Move supports further.
+
+        Parameters
+        ----------
+        varied : Varied
+            As for `moved`.
+        moves : numpy.ndarray
+            Further movements, cases by supports.
+        """
+        supports = varied.supports
+        if supports is None:
+            supports = np.broadcast_to(base_values(self.beam.columns), (len(moves), moves.shape[1] + 1, 3))
+        supports = supports.copy()
+        supports[:, :-1, 0] += moves
+        return replace(varied, supports=supports)
 
     def starting(self, closed: np.ndarray) -> np.ndarray:
         """Give the start of a search.
@@ -248,13 +285,13 @@ class OnGround(WithLaws):
         return found is not None and found.is_refused
 
 
-def solver_of(scene: Scene, beam: Beam, rule: str) -> CaseSolver:
+def solver_of(scene: Scene, beam: Beam, rule: str, movements: Movements | None = None) -> CaseSolver:
     """Choose how the cases of a beam are solved.
 
     Parameters
     ----------
-    scene, beam, rule
+    scene, beam, rule, movements
         As for `CaseSolver`.
     """
     kind = OnGround if beam.ground_layers else WithLaws if beam.has_laws else CaseSolver
-    return kind(scene, beam, rule)
+    return kind(scene, beam, rule, movements)

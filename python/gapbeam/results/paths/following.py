@@ -12,7 +12,7 @@ import numpy as np
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...engine.beam import Beam
 from ...engine.states import Solution
-from ...scene.combinations import refuse_movements
+from ...scene.movements import refuse_movements
 from ...scene.rotations import which_turn
 from ...scene.structs import Scene
 from ...scene.tapers import is_tapered

@@ -1,0 +1,80 @@
+"""Prepared cases whose loads move supports."""
+
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.base.errors import Status
+from scenes import at, random_scene, scene, uniform
+
+
+def movement(support, value, **keys):
+    return {"type": "movement", "support": support, "value": value, **keys}
+
+
+def settled(made, factors):
+    """The scene of a case: movements are settlements, the other loads have their factors."""
+    supports, loads = [dict(one) for one in made["supports"]], []
+    for load, factor in zip(made["loads"], factors, strict=True):
+        if load["type"] == "movement":
+            one = supports[load["support"]]
+            one["settlement"] = one.get("settlement", 0.0) + factor * load["value"]
+        else:
+            q = load.get("q")
+            key = {"F", "M", "q", "kappa", "dT"}.intersection(load).pop()
+            loads.append({**load, key: [factor * one for one in q] if isinstance(q, list | tuple) else factor * load[key]})
+    return {**made, "supports": supports, "loads": loads}
+
+
+def test_a_jacked_pier():
+    """A support in the middle of a beam on two: raised by d it takes 48 EI d/L^3, and as much less where it sinks."""
+    loads = [movement("pier", -0.01), movement("pier", 0.002, case="dead"), uniform(3.0)]
+    beam = gapbeam.prepare(scene([4.0, 4.0], [at(0), at(1, name="pier"), at(2)], loads, EI=500.0))
+    stiffness = 48.0 * 500.0 / 8.0**3
+    found = beam.solve([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, -1.0, 1.0], [0.0, 0.0, 1.0]])
+    expected = [0.01 * stiffness, -0.002 * stiffness, 0.022 * stiffness + 30.0 * 3.0 * 8.0 / 48.0, 15.0]
+    assert found.reaction[:, 1] == pytest.approx(expected, rel=1e-14)
+    assert found.deflection[:, 1] == pytest.approx([-0.01, 0.002, -0.022, 0.0], rel=1e-14, abs=1e-17)
+    result = beam.result([2.0, -1.0, 1.0])
+    assert result.steps[-1].reaction[1] == pytest.approx(expected[2], rel=1e-14)
+    assert "0.022" in gapbeam.report.report_text(result)
+    assert (beam.solve([2.0, -1.0, 1.0], extra_settlement={"pier": 0.022}).deflection[1]) == pytest.approx(0.0, abs=1e-17)
+    assert found.certificate()["equilibrium"].max() < 1e-15
+    assert found.at(4.0).deflection == pytest.approx([-0.01, 0.002, -0.022, 0.0], rel=1e-14, abs=1e-17)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_cases_are_scenes_with_settlements(seed):
+    rng = random.Random(seed)
+    made = random_scene(rng, held=True)
+    made.pop("analysis", None)
+    made["loads"] = [load for load in made["loads"] if load["type"] in ("force", "moment", "uniform", "linear", "curvature")]
+    across = [k for k, one in enumerate(made["supports"]) if one.get("direction", "normal") == "normal"]
+    for k in rng.sample(across, min(len(across), rng.randint(1, 3))):
+        moved = movement(k, rng.uniform(-0.1, 0.1), case=rng.choice(("dead", "live")))
+        made["loads"].insert(rng.randint(0, len(made["loads"])), moved)
+    try:
+        beam = gapbeam.prepare(made)
+    except gapbeam.SceneError:  # a dead movement may take the room between two supports
+        return
+    factors = np.array([[rng.uniform(-1.5, 2.0) for _ in made["loads"]] for _ in range(9)])
+    cases = beam.solve(factors)
+    extremes = cases.extremes["moment"]["max"].value
+    for row, one in enumerate(factors):
+        try:
+            other = gapbeam.solve(settled(made, one))
+        except gapbeam.GapbeamError:
+            assert cases.status[row] != Status.SOLVED
+            continue
+        assert (cases.status[row] == Status.SOLVED) == (other.status == "solved")
+        if other.status != "solved":
+            continue
+        right = other.steps[-1].reaction[beam.supports]
+        assert cases.reaction[row] == pytest.approx(right, abs=1e-11 * max(map(abs, right), default=1.0))
+        assert extremes[row] == pytest.approx(other.extremes["moment"]["max"].value, rel=1e-10, abs=1e-10)
+
+
+def test_what_is_out_of_range_is_that_case():
+    beam = gapbeam.prepare(scene([4.0, 4.0], [at(k, side="below") for k in range(3)], [uniform(1.0), movement(1, 1e300)], EI=1.0))
+    assert beam.solve([[1.0, 1e300], [1.0, 0.0]]).status.tolist() == [Status.NOT_FINITE, Status.SOLVED]
