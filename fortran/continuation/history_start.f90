@@ -85,6 +85,10 @@ contains
             dead%axial%elongation(2, :) = dead%axial%elongation(1, :)
             dead%axial%elongation(1, :) = 0.0_wp
         end if
+        if (allocated(dead%axial%along_bar)) then
+            dead%axial%along_bar(2, :) = dead%axial%along_bar(1, :)
+            dead%axial%along_bar(1, :) = 0.0_wp
+        end if
         where (dead%model%loads%case == gapbeam_dead)
             dead%model%loads%case = gapbeam_live
         else where

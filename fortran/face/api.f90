@@ -7,7 +7,7 @@ module gapbeam_api
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
-    use gapbeam_scene, only: model_type, load_type, gapbeam_movement
+    use gapbeam_scene, only: model_type, load_type, gapbeam_movement, gapbeam_temperature
     use gapbeam_assembled_model, only: assembled_type, copy_model
     use gapbeam_units, only: bound_outside, quantity_unit
     use gapbeam_assemble, only: assemble_model
@@ -129,6 +129,8 @@ contains
         if (size(a) /= size(b)) return
         do i = 1, size(a)
             if (a(i)%kind /= b(i)%kind .or. a(i)%node /= b(i)%node .or. a(i)%kind == gapbeam_movement) return
+            ! Where none makes the beam longer there are no bars for it
+            if (a(i)%kind == gapbeam_temperature .and. (abs(a(i)%value_to) > 0.0_wp .neqv. abs(b(i)%value_to) > 0.0_wp)) return
             if (.not. abs(a(i)%x - b(i)%x) <= 0.0_wp .or. .not. abs(a(i)%to - b(i)%to) <= 0.0_wp) return
         end do
         same = .true.

@@ -9,12 +9,10 @@ module gapbeam_query
     use gapbeam_quantities, only: quantity_count, bending_count, bending, of_axial_force, of_axial_displacement, &
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
-    use gapbeam_piece_stiffness, only: stiffness_along
-    use gapbeam_taper, only: mean_softness
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
+    use gapbeam_axial_fields, only: axial_fields, extremes_along
     use gapbeam_ordered, only: last_not_above
     use gapbeam_stations, only: locate
-    use gapbeam_assemble_axial, only: axial_node
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range
@@ -167,7 +165,7 @@ contains
             load = combine_loads(assembled%dead(piece(i)), assembled%live(piece(i)), factor)
             all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa, &
                                                   scale(distance(i), -assembled%units%length))
-            call axial_fields(assembled, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
+            call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement))
             found(:, i) = all_of_them(quantities)
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
@@ -251,35 +249,6 @@ contains
         end if
     end subroutine find_piece
 
-    !> Normal force and displacement along the axis in units of the axial system; zero without one
-    pure subroutine axial_fields(assembled, displacements, tensions, piece, distance, tension, displacement)
-        type(assembled_type), intent(in) :: assembled
-        real(wp), intent(in) :: displacements(0:), tensions(:)
-        integer, intent(in) :: piece
-        real(wp), intent(in) :: distance
-        real(wp), intent(out) :: tension, displacement
-        real(wp) :: way, share, EA, EA_to
-        integer :: bar, power
-
-        tension = 0.0_wp
-        displacement = 0.0_wp
-        if (.not. allocated(assembled%axial%point)) return
-        bar = axial_node(assembled%axial%point, piece)
-        share = distance/piece_length(assembled, piece)
-        way = share
-        call stiffness_along(assembled, piece, along_axis, EA, EA_to, power)
-        if (power > 0 .and. share > 0.0_wp) way = share*mean_softness(1.0_wp, EA/EA_to, power, share) &
-            /mean_softness(1.0_wp, EA/EA_to, power, 1.0_wp)
-        tension = tensions(bar)
-        if (allocated(assembled%axial%elongation)) then
-            ! Every piece is a bar: what is not elastic is the same all along
-            displacement = displacements(bar - 1) + (displacements(bar) - displacements(bar - 1))*share &
-                + tension*assembled%axial%softness(piece)*(way - share)
-        else
-            displacement = displacements(bar - 1) + tension*(assembled%axial%before(piece) + assembled%axial%softness(piece)*way)
-        end if
-    end subroutine axial_fields
-
     !> Largest and smallest values of fields of a state, and where they are
     subroutine extremes_of_fields(assembled, state, quantities, value, x, error)
         !> The beam, and its solved state
@@ -335,6 +304,10 @@ contains
                 places(:, of_axial_displacement) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
                                                     point_x(assembled, point(minloc(displacement, 1) - 1))]
             end associate
+            if (allocated(assembled%axial%along_bar)) then
+                call extremes_along(assembled, factor, displacement, tension, found(:, of_axial_force:of_axial_displacement), &
+                                    places(:, of_axial_force:of_axial_displacement))
+            end if
         end if
         powers = units_of_fields(assembled, quantities)
         x(:, :) = places(:, quantities)

@@ -242,10 +242,12 @@ contains
             end if
             state%slides = found == axial_slides
             if (found == axial_ok) then
-                call audit_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
-                                 state%tension, state%axial_reaction, ledger)
-                ledger%piece = axial%point(ledger%piece) + 1
-                call name_fault(assembled, ledger, error)
+                call check(error)
+                if (allocated(error)) then
+                    ! Beside what springs give, bars that are without force have rounding
+                    call solve_finely(found, place)
+                    call check(error)
+                end if
             end if
             if (found /= axial_indeterminate) return
             associate (point => axial%point(place))
@@ -257,6 +259,18 @@ contains
         end associate
 
     contains
+
+        !> Audit the solution
+        subroutine check(error)
+            type(error_type), allocatable, intent(out) :: error
+
+            associate (axial => assembled%axial)
+                call audit_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
+                                 state%tension, state%axial_reaction, ledger)
+                ledger%piece = axial%point(ledger%piece) + 1
+                call name_fault(assembled, ledger, error)
+            end associate
+        end subroutine check
 
         !> Solve in quadruple precision
         subroutine solve_finely(found, place)

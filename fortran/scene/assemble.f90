@@ -18,7 +18,7 @@ module gapbeam_assemble
     use gapbeam_check_laws, only: check_laws, have_laws
     use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
-    use gapbeam_input_error, only: refuse, of_sections, of_foundations, of_loads, no_stretch, at_hinge, bad_movement
+    use gapbeam_input_error, only: refuse, of_sections, of_foundations, of_loads, no_stretch, at_hinge, bad_load
     use gapbeam_assemble_hinges, only: find_hinges, make_hinges
     use gapbeam_assemble_supports, only: assemble_supports
     use gapbeam_assemble_loads, only: assemble_loads
@@ -305,12 +305,12 @@ contains
 
             associate (n => size(assembled%model%loads))
                 if (.not. is_hinge(point)) then
-                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "there is no hinge at its place; leave it out")
+                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
                 else if (.not. assembled%hinged(point)) then
-                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "at a hinge with a stiffness it is not "// &
+                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "at a hinge with a stiffness it is not "// &
                                 "available in this version; put the couple on one side of the hinge")
                 else if (size(assembled%model%foundations) > 0) then
-                    call refuse(error, of_loads, i, n, bad_movement, "at_hinge", "beside a foundation it is not available in "// &
+                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside a foundation it is not available in "// &
                                 "this version; put the couple on one side of the hinge")
                 end if
             end associate

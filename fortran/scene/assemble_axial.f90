@@ -4,12 +4,12 @@ module gapbeam_assemble_axial
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
     use gapbeam_taper, only: mean_softness
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_temperature, gapbeam_dead
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_dead
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
-    use gapbeam_input_error, only: refuse_range, named, of_supports
+    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, bad_load
     use gapbeam_check_axial, only: has_links_along
     use gapbeam_assemble_links_along, only: assemble_links_along
     implicit none
@@ -44,6 +44,9 @@ contains
             end do
             do k = 1, size(model%loads)
                 if (model%loads(k)%kind == gapbeam_axial_force) call forces%note(abs(model%loads(k)%value), 0)
+                if (model%loads(k)%kind == gapbeam_axial_distributed) then
+                    call forces%note(abs(model%loads(k)%value)*assembled%ends(size(model%spans)), 0)
+                end if
                 if (model%loads(k)%kind /= gapbeam_temperature) cycle
                 call ways%note(abs(model%loads(k)%value_to*assembled%ends(size(model%spans))), 0)
             end do
@@ -83,6 +86,7 @@ contains
                 end associate
             end do
             axial%force(:, :) = 0.0_wp
+            if (allocated(axial%along_bar)) axial%along_bar(:, :) = 0.0_wp
             if (allocated(axial%elongation)) axial%elongation(:, :) = 0.0_wp
             do k = 1, size(model%loads)
                 associate (load => model%loads(k))
@@ -93,6 +97,10 @@ contains
                                 + scale(load%value_to*piece_length(assembled, j), -axial%units%deflection)
                         end do
                     end if
+                    if (load%kind == gapbeam_axial_distributed) then
+                        call spread_along(assembled, k, error)
+                        if (allocated(error)) return
+                    end if
                     if (load%kind /= gapbeam_axial_force) cycle
                     i = axial_node(axial%point, assembled%load_from(k))
                     j = merge(1, 2, load%case == gapbeam_dead)
@@ -102,6 +110,34 @@ contains
             if (has_links_along(model, assembled%with_law) .or. moves_along(assembled)) call assemble_links_along(assembled)
         end associate
     end subroutine assemble_axial
+
+    !> A load along the beam over a stretch: half of what is on a bar at either end, which leaves the elongation as it is
+    subroutine spread_along(assembled, k, error)
+        type(assembled_type), intent(inout) :: assembled
+        !> Number of the load
+        integer, intent(in) :: k
+        !> The axial stiffness changes along a section there
+        type(error_type), allocatable, intent(out) :: error
+        real(wp) :: half, EA, EA_to
+        integer :: case, j, power
+
+        associate (axial => assembled%axial, load => assembled%model%loads(k))
+            case = merge(1, 2, load%case == gapbeam_dead)
+            do j = assembled%load_from(k) + 1, assembled%load_to(k)
+                call stiffness_along(assembled, j, along_axis, EA, EA_to, power)
+                if (power > 0) then
+                    call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, "from", &
+                                "a load along the beam where EA changes along a section is not available in this version; "// &
+                                "give it as forces at places")
+                    return
+                end if
+                half = scale(load%value*piece_length(assembled, j)/2, -axial%units%force)
+                axial%along_bar(case, j) = axial%along_bar(case, j) + 2*half
+                axial%force(case, j - 1) = axial%force(case, j - 1) + half
+                axial%force(case, j) = axial%force(case, j) + half
+            end do
+        end associate
+    end subroutine spread_along
 
     !> Does a load move a support along the beam
     pure function moves_along(assembled) result(it_does)

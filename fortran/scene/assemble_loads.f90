@@ -4,15 +4,14 @@ module gapbeam_assemble_loads
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
-    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_axial_force, gapbeam_curvature, &
-        gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, &
-        gapbeam_couple_right, gapbeam_dead
-    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_stretch
+    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_movement, &
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
+    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_along, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
     use gapbeam_assemble_units, only: change_units, load_in_units, refuse_link
-    use gapbeam_input_error, only: refuse, of_loads, bad_movement
+    use gapbeam_input_error, only: refuse, of_loads, bad_load
     implicit none
     private
     public :: assemble_loads, find_loaded, put_load, is_beside_point
@@ -67,7 +66,7 @@ contains
             associate (load => assembled%model%loads(k), point => assembled%support_point)
                 if (load%kind /= gapbeam_support_rotation) cycle
                 if (count(point == point(load%node) .and. assembled%model%supports%rotation > 0.0_wp) < 2) cycle
-                call refuse(error, of_loads, k, size(assembled%model%loads), bad_movement, "support", "another support at its "// &
+                call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, "support", "another support at its "// &
                             "place holds the rotation of the beam, too; leave one of them out")
                 return
             end associate
@@ -86,7 +85,7 @@ contains
         do i = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
                 k = merge(1, 2, load%case == gapbeam_dead)
-                if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) then
+                if (is_along(load) .or. load%kind == gapbeam_movement) then
                     cycle
                 else if (is_beside_point(load) .and. k == 1) then
                     call put_beside(load, a, assembled%dead)
@@ -172,14 +171,14 @@ contains
             first = a + 1
             last = assembled%load_to(k)
             node = -1
-            if (is_stretch(load)) return
+            if (is_stretch(load) .and. .not. is_along(load)) return
             last = a
             if (is_beside_point(load)) then
                 first = max(1, a)
                 last = min(size(assembled%pieces), a + 1)
                 return
             end if
-            if (load%kind == gapbeam_axial_force .or. load%kind == gapbeam_movement) return
+            if (is_along(load) .or. load%kind == gapbeam_movement) return
             node = assembled%node_of_point(a)
             if (node < 0) first = a
         end associate

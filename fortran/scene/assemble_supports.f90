@@ -4,10 +4,10 @@ module gapbeam_assemble_supports
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
-        gapbeam_normal, gapbeam_axial, gapbeam_relative, gapbeam_axial_force
+        gapbeam_normal, gapbeam_axial, gapbeam_relative, gapbeam_axial_force, gapbeam_axial_distributed
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
-    use gapbeam_assembled_model, only: assembled_type, turns
+    use gapbeam_assembled_model, only: assembled_type, is_along, turns
     use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
@@ -42,7 +42,7 @@ contains
 
         associate (s => assembled%model%supports, loads => assembled%model%loads)
             associate (axial => s%direction == gapbeam_axial)
-                it_is = any(loads%kind == gapbeam_axial_force) &
+                it_is = any(is_along(loads)) &
                     .or. (any(axial .or. s%friction > 0.0_wp) .and. any(makes_longer(loads))) &
                     .or. any(axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
                 if (allocated(assembled%growth)) it_is = it_is .or. any(axial .and. abs(assembled%growth) > 0.0_wp)
@@ -212,7 +212,7 @@ contains
                 last = max(last, assembled%support_point(k))
             end do
             do k = 1, size(assembled%load_from)
-                if (last < 0 .or. assembled%model%loads(k)%kind == gapbeam_axial_force) cycle
+                if (last < 0 .or. is_along(assembled%model%loads(k))) cycle
                 associate (a => assembled%load_from(k), b => assembled%load_to(k))
                     if (a < first .or. a > last) node(a) = 0
                     if (b < first .or. b > last) node(b) = 0
@@ -331,6 +331,7 @@ contains
         type(assembled_type), intent(inout) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: node(:)
+        logical :: every
         integer :: i, j, k, n, stat
 
         n = ubound(assembled%point_span, 1)
@@ -340,7 +341,8 @@ contains
                 call no_memory(error)
                 return
             end if
-            node(:) = merge(0, -1, any(makes_longer(model%loads)))
+            every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed)
+            node(:) = merge(0, -1, every)
             node(0) = 0
             node(n) = 0
             do k = 1, size(model%supports)
@@ -353,6 +355,7 @@ contains
             allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
                       axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
             if (stat == 0 .and. any(makes_longer(model%loads))) allocate (axial%elongation(2, i), stat=stat)
+            if (stat == 0 .and. any(model%loads%kind == gapbeam_axial_distributed)) allocate (axial%along_bar(2, i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return

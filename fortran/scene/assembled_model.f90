@@ -8,14 +8,15 @@ module gapbeam_assembled_model
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
         gapbeam_unchanged, &
-        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_rotational, gapbeam_relative
+        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, &
+        gapbeam_rotational, gapbeam_relative
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
     private
     public :: in_bending, in_shear, along_axis
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, fingerprint, is_stretch, &
-        is_of_support, point_x, piece_length, find_length_errors
+        is_along, is_of_support, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -38,6 +39,9 @@ module gapbeam_assembled_model
         !> Where temperatures make the beam longer, by how much each bar under dead and live loads, shape (2, n): every piece is a
         !> bar then
         real(wp), allocatable :: elongation(:, :)
+        !> Where loads along the beam are distributed, their dead and live force on each bar, to the right, shape (2, n): every
+        !> piece is a bar then. Half of it is at either end, so tensions are those in the middle
+        real(wp), allocatable :: along_bar(:, :)
         !> Support of each point, 0: none, shape (0:n)
         real(wp), allocatable :: stiffness(:), settlement(:)
         !> For every support of the model its node of this system; -1 for supports across the beam that do not rub
@@ -156,8 +160,16 @@ contains
         type(load_type), intent(in) :: load
         logical :: yes
 
-        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature])
+        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed])
     end function is_stretch
+
+    !> Is a load a force along the beam, and nothing else
+    elemental function is_along(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = any(load%kind == [gapbeam_axial_force, gapbeam_axial_distributed])
+    end function is_along
 
     !> Is a load a movement or a rotation of a support, whose number it has instead of a node
     elemental function is_of_support(load) result(yes)

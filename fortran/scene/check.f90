@@ -9,13 +9,14 @@ module gapbeam_check
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_rotational, gapbeam_relative, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_live, gapbeam_dead
-    use gapbeam_assembled_model, only: is_of_support, turns
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
+        gapbeam_axial_distributed, gapbeam_live, gapbeam_dead
+    use gapbeam_assembled_model, only: is_along, is_of_support, turns
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
         not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
-        bad_law, bad_movement
+        bad_law, bad_load
     implicit none
     private
     public :: check_spans, check_rest, check_loads
@@ -240,13 +241,13 @@ contains
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_couple_left, gapbeam_couple_right)
             call check_place(load%x, load%node, here, ends, error)
         case (gapbeam_movement, gapbeam_support_rotation)
-        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature)
+        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
                               "6 (movement), 7 (temperature), 8 (rotation), 9 or 10 (couple left or right of a hinge), "// &
-                              "got "//trim(whole(load%kind)))
+                              "11 (distributed along the beam), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
@@ -255,7 +256,7 @@ contains
             call refuse_number(error, here, "value", load%value, "a finite number")
         else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature]) .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
-        else if (load%kind == gapbeam_axial_force .and. .not. axially_held) then
+        else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
                               "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")
         end if
@@ -270,16 +271,16 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (load%node < 1 .or. load%node > size(model%supports)) then
-            call refuse_entry(error, here, "support", bad_movement, "there is no such support")
+            call refuse_entry(error, here, "support", bad_load, "there is no such support")
         else if (load%kind == gapbeam_support_rotation) then
             call check_rotation(model, load, here, error)
         else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
             return
         else if (is_smooth(model%supports(load%node)%law)) then
-            call refuse_entry(error, here, "support", bad_movement, "its law is a curve, which moves with case dead only "// &
+            call refuse_entry(error, here, "support", bad_load, "its law is a curve, which moves with case dead only "// &
                               "in this version; give the law by points")
         else if (size(model%foundations) > 0) then
-            call refuse_entry(error, here, "case", bad_movement, "beside a foundation a support moves with case dead only "// &
+            call refuse_entry(error, here, "case", bad_load, "beside a foundation a support moves with case dead only "// &
                               "in this version")
         end if
     end subroutine check_movement
@@ -293,10 +294,10 @@ contains
 
         associate (s => model%supports(load%node))
             if (.not. s%rotation > 0.0_wp) then
-                call refuse_entry(error, here, "support", bad_movement, "it leaves the rotation of the beam free, so it cannot "// &
+                call refuse_entry(error, here, "support", bad_load, "it leaves the rotation of the beam free, so it cannot "// &
                                   "turn it; make its rotation fixed, or give it a stiffness")
             else if (size(model%foundations) > 0) then
-                call refuse_entry(error, here, "rotation", bad_movement, "beside a foundation no support is turned in this version")
+                call refuse_entry(error, here, "rotation", bad_load, "beside a foundation no support is turned in this version")
             end if
         end associate
     end subroutine check_rotation

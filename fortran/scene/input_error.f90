@@ -7,7 +7,7 @@ module gapbeam_input_error
     public :: refuse, refuse_range, named
     public :: of_spans, of_hinges, of_supports, of_loads, of_sections, of_foundations
     public :: no_span, not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, &
-              not_held, twice, no_room, at_hinge, idle, bad_law, bad_movement
+              not_held, twice, no_room, at_hinge, idle, bad_law, bad_load
 
     !> The arrays of a model
     integer, parameter :: of_spans = 1, of_hinges = 2, of_supports = 3, of_loads = 4, of_sections = 5, of_foundations = 6
@@ -21,8 +21,8 @@ module gapbeam_input_error
     integer, parameter :: not_axial = 10, no_gap = 11, not_held = 12, twice = 13, no_room = 14, at_hinge = 15, idle = 16
     !> A law, or the ground of a foundation, is impossible: the message says why; the partner is the point, from 1, 0: none
     integer, parameter :: bad_law = 17
-    !> A support cannot be moved so by a load: the message says why
-    integer, parameter :: bad_movement = 18
+    !> A load cannot be as it is given: the message says why
+    integer, parameter :: bad_load = 18
     character(len=*), parameter :: names(6) = [character(len=10) :: "span", "hinge", "support", "load", "section", "foundation"]
 
 contains

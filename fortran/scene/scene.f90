@@ -12,13 +12,14 @@ module gapbeam_scene
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
-    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, support_movement, &
-              temperature_load, support_rotation
+    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, axial_uniform_load, &
+              support_movement, temperature_load, support_rotation
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
     public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-              gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right
+              gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
+              gapbeam_axial_distributed
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -41,7 +42,7 @@ module gapbeam_scene
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
-                          gapbeam_couple_left = 9, gapbeam_couple_right = 10
+                          gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -165,7 +166,7 @@ module gapbeam_scene
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
-        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left or gapbeam_couple_right
+        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right or gapbeam_axial_distributed
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
@@ -237,6 +238,18 @@ contains
 
         load = point_load(gapbeam_axial_force, value, x, node, case)
     end function axial_force
+
+    !> A constant load along the beam over a stretch; some support with direction gapbeam_axial must hold it
+    elemental function axial_uniform_load(value, from, to, case) result(load)
+        !> Force per length, positive to the right
+        real(wp), intent(in) :: value
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = stretch_load(gapbeam_axial_distributed, value, value, from, to, case)
+    end function axial_uniform_load
 
     !> A movement of a support across the beam, further than its settlement: what jacks, sinks or is lifted by heat
     elemental function support_movement(value, support, case) result(load)

@@ -19,6 +19,7 @@ from .results.views.shown import Shown
 from .scene import (
     Analysis,
     AxialLoad,
+    AxialUniformLoad,
     Beam,
     Combination,
     CurvatureLoad,
@@ -58,6 +59,7 @@ Shown.display = display
 __all__ = [
     "Analysis",
     "AxialLoad",
+    "AxialUniformLoad",
     "Batch",
     "Beam",
     "Cases",

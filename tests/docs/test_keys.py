@@ -41,8 +41,9 @@ def test_every_key_is_described_with_its_unit(table):
 
 
 @pytest.mark.parametrize(("table", "key"), [("ForceLoad", "F"), ("MomentLoad", "M"), ("UniformLoad", "q"), ("LinearLoad", "q"),
-                                            ("CurvatureLoad", "kappa"), ("AxialLoad", "F"), ("Support", "settlement"),
-                                            ("Train", "axles"), ("Combination", "settlements")])  # fmt: skip
+                                            ("CurvatureLoad", "kappa"), ("AxialLoad", "F"), ("AxialUniformLoad", "q"),
+                                            ("Support", "settlement"), ("Train", "axles"),
+                                            ("Combination", "settlements")])  # fmt: skip
 def test_signs_are_told(table, key):
     assert "positive" in DEFS[table]["properties"][key]["description"]
 

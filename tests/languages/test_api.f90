@@ -4,8 +4,8 @@ program test_api
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
-        axial_force, support_movement, support_rotation, temperature_load, prepare_model, replace_loads, solve_beam, &
-        follow_load, get_supports, get_fields, get_extremes, &
+        axial_force, axial_uniform_load, support_movement, support_rotation, temperature_load, prepare_model, replace_loads, &
+        solve_beam, follow_load, get_supports, get_fields, get_extremes, &
         get_motion, get_certificate, count_supports, count_nodes, combine_loads, gapbeam_infinity, gapbeam_both, gapbeam_below, &
         gapbeam_above, gapbeam_axial, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
         gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_finite, gapbeam_not_prepared, gapbeam_indeterminate, &
@@ -635,6 +635,15 @@ contains
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(reaction(3:4), [40.0_wp, -40.0_wp], "held at both ends")
         call check_close(deflection(5), 0.5_wp*2e-4_wp*4**2/8, "free to sag")
+        call replace_loads(beam, [temperature_load(0.0_wp, 0.0_wp, 0.0_wp, 4.0_wp)], error)
+        call replace_loads(beam, [temperature_load(0.0_wp, 1e-5_wp*40, 0.0_wp, 4.0_wp)], error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(3:4), [80.0_wp, -80.0_wp], "held as well where the loads before made nothing longer")
+        call replace_loads(beam, [axial_uniform_load(3.0_wp, from=0.0_wp, to=4.0_wp)], error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(3:4), [-6.0_wp, -6.0_wp], "a load along the beam, half at either end")
     end subroutine warm
 
     !> A rigid lever that a yielding support holds: the path ends in a motion

@@ -529,13 +529,15 @@ def soft_scene(seed):
     }  # fmt: skip
 
 
-def test_turned_supports_agree(library):
+def test_turned_supports_and_loads_along_the_beam_agree(library):
     """From C and Fortran 77, elastic and rigid ones, dead and live, beside couples at a hinge."""
     scene = {
-        "beam": {"spans": [3.0, 2.0], "EI": 80.0, "hinges": [4.0]},
-        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2, "rotation": 40.0}],
+        "beam": {"spans": [3.0, 2.0], "EI": 80.0, "EA": 300.0, "hinges": [4.0]},
+        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2, "rotation": 40.0},
+                     {"node": 0, "direction": "axial"}, {"node": 2, "direction": "axial", "stiffness": 50.0}],
         "loads": [{"type": "movement", "support": 0, "rotation": 0.02}, {"type": "uniform", "q": 1.0, "case": "dead"},
                   {"type": "movement", "support": 2, "rotation": -0.01, "case": "dead"},
+                  {"type": "axial_uniform", "q": 1.5, "from": 0.5, "to": 4.5},
                   *({"type": "moment", "x": 4.0, "M": 0.7, "at_hinge": side} for side in ("left", "right"))],
     }  # fmt: skip
     result = python_result(scene)
@@ -547,6 +549,7 @@ def test_turned_supports_agree(library):
     assert f77.solve(1.0) == 0
     for one in (beam, f77):
         np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
+    assert result.steps[-1].reaction[3:].sum() == pytest.approx(-6.0, rel=1e-14)
 
 
 def states_on_history(library, example):

@@ -22,7 +22,7 @@ ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
 EQUAL = 1e-13
 """Share of the largest moment by which those on both sides of a joint differ by rounding."""
-FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force"}
+FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force", "n_left": "axial_force"}
 """Fields by the short names of the columns of a state."""
 
 
@@ -104,6 +104,8 @@ class Recorder:
         found = {"w": np.append(right[w], left[w, -1]), "m": right[m], "m_left": left[m]}
         if self._beam.bars >= 0:
             found["n"] = right[ROW["axial_force"]]
+            if (left[ROW["axial_force"]] != found["n"]).any():  # loads that are distributed along the beam
+                found["n_left"] = left[ROW["axial_force"]]
         return found
 
     def record(self, step: Step) -> dict[str, Any]:

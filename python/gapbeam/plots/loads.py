@@ -12,6 +12,7 @@ from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
 from ..scene.loads import (
     AxialLoad,
+    AxialUniformLoad,
     CurvatureLoad,
     ForceLoad,
     LinearLoad,
@@ -199,7 +200,12 @@ def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     cases = len({load.case for load in scene.loads})
     for load in scene.loads:
         share = _share(load, factor)
-        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad) or not share:
+        if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialUniformLoad) or not share:
+            continue
+        if isinstance(load, AxialUniformLoad):
+            way = "to the left" if share * load.q < 0.0 else "to the right"
+            words = f"{_unit_and_case(scene, load, 'uniform', cases)} {way}".strip()
+            blocks.append(Block(*stretch(scene, load), 0.0, 0.0, signed(abs(share * load.q), 4), words, True))
             continue
         if isinstance(load, TemperatureLoad):
             told = [f"{name} {signed(share * value, 4)}" for name, value in (("dT", load.dT), ("gradient", load.gradient)) if value]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..scene.loads import AxialLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
+from ..scene.loads import AxialLoad, AxialUniformLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.names import DEAD
 from ..scene.table import Point
 from . import formatting as fmt
@@ -93,6 +93,8 @@ def resultants_of_loads(scene: Scene, factor: float) -> list[Sums]:
             moment = share * load.M
         elif isinstance(load, AxialLoad):
             axial = share * load.F
+        elif isinstance(load, AxialUniformLoad):
+            axial = share * load.q * ((end if load.to is None else load.to) - load.from_)
         elif isinstance(load, UniformLoad | LinearLoad):
             first, last = (load.q, load.q) if isinstance(load, UniformLoad) else load.q
             length = (end if load.to is None else load.to) - load.from_

@@ -7,6 +7,7 @@ from .joints import Hinge, Rotation
 from .limits import Limits
 from .loads import (
     AxialLoad,
+    AxialUniformLoad,
     CurvatureLoad,
     ForceLoad,
     LinearLoad,
@@ -22,7 +23,7 @@ from .schema import scene_schema
 from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 __all__ = [
-    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad", "Foundation",
-    "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene", "Section", "Support",
+    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "AxialUniformLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad",
+    "Foundation", "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene", "Section", "Support",
     "TemperatureLoad", "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
 ]  # fmt: skip

@@ -18,6 +18,7 @@ from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
 from .loads import (
     AxialLoad,
+    AxialUniformLoad,
     CurvatureLoad,
     ForceLoad,
     LinearLoad,
@@ -57,13 +58,14 @@ UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = 1, 2, 3, 4, 5, 6, 7, 8
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT, AXIAL_UNIFORM = *range(1, 9), 11
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
 KINDS = {
     ForceLoad: (FORCE, "F"),
     MomentLoad: (COUPLE, "M"),
     AxialLoad: (AXIAL_FORCE, "F"),
+    AxialUniformLoad: (AXIAL_UNIFORM, "q"),
     UniformLoad: (DISTRIBUTED, "q"),
     LinearLoad: (DISTRIBUTED, "q"),
     CurvatureLoad: (CURVATURE, "kappa"),
@@ -281,13 +283,12 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         kind, key = KINDS[one]
         kinds[some] = kind
         if kind == MOVEMENT:
-            of_items = zip(np.arange(len(items))[some].tolist(), group, strict=True)
-            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in of_items]
+            numbered = list(zip(np.arange(len(items))[some].tolist(), group, strict=True))
+            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in numbered]
             left[some] = right[some] = 0.0
-            numbers = np.arange(len(items))[some].tolist()
-            turned = [_is_rotation(load, f"loads[{k}]") for k, load in zip(numbers, group, strict=True)]
+            turned = [_is_rotation(load, f"loads[{k}]") for k, load in numbered]
             kinds[some] = np.where(turned, ROTATION_OF_SUPPORT, MOVEMENT)
-        elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE):
+        elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE, AXIAL_UNIFORM):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
             nodes[some], left[some] = _places("loads", group, np.arange(len(items))[some])

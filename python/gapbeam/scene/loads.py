@@ -75,6 +75,18 @@ class AxialLoad(_PointLoad, kw_only=True, gc=False, tag="axial"):
     F: float
 
 
+class AxialUniformLoad(_StretchLoad, kw_only=True, gc=False, tag="axial_uniform"):
+    """A constant distributed load along the beam; needs a support with direction axial. Default: over the whole beam.
+
+    Parameters
+    ----------
+    q : float
+        Load (force/length), positive to the right.
+    """
+
+    q: float
+
+
 class UniformLoad(_StretchLoad, kw_only=True, gc=False, tag="uniform"):
     """A constant distributed load from one place to another; default: the whole beam.
 
@@ -155,4 +167,7 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
     case: str = "live"
 
 
-Load = ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialLoad | MovementLoad
+Load = (
+    ForceLoad | MomentLoad | UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialLoad | AxialUniformLoad
+    | MovementLoad
+)

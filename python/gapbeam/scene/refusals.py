@@ -18,7 +18,7 @@ from .table import kind_of
 from .wording import number, shown
 
 (NO_SPAN, NOT_EXPECTED, TOO_LONG, LOST_LENGTH, AT_END, OFF_BEAM, NO_PLACE, NO_NODE, NO_STRETCH, NOT_AXIAL, NO_GAP, NOT_HELD, TWICE,
- NO_ROOM, AT_HINGE, IDLE, BAD_LAW, BAD_MOVEMENT) = range(1, 19)  # fmt: skip
+ NO_ROOM, AT_HINGE, IDLE, BAD_LAW, BAD_LOAD) = range(1, 19)  # fmt: skip
 """Reasons, as in gapbeam_input_error."""
 SPANS, HINGES, SUPPORTS, LOADS, SECTIONS, FOUNDATIONS = range(1, 7)
 """Tables, as in gapbeam_input_error."""
@@ -62,7 +62,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
     if reason == BAD_LAW:
         return _bad_law(item, path, key, partner, message)
-    if reason == BAD_MOVEMENT:
+    if reason == BAD_LOAD:
         return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)

@@ -296,7 +296,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Supports; results list them in the same order.
     foundation : list of Foundation
         Elastic ground under stretches of the beam.
-    loads : list of ForceLoad, MomentLoad, UniformLoad, LinearLoad, CurvatureLoad, TemperatureLoad, AxialLoad, MovementLoad
+    loads : list of Load
         Loads, each of a load case.
     trains : list of Train
         Loads that move.

@@ -107,12 +107,13 @@ analysis = {rule = "fast"} -> analysis.rule: expected "block" or "single", got "
 analysis = {follow = "load"} -> analysis.follow: expected "events" or "steps", got "load"
 loads = [{}] ->
     loads[0].type: this key is missing; give "force", "moment", "uniform", "linear", "curvature", "temperature",
-    "axial" or "movement"
+    "axial", "axial_uniform" or "movement"
 loads = [{type = "point"}] ->
     loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature",
-    "axial" or "movement", got "point"; did you mean "force"?
+    "axial", "axial_uniform" or "movement", got "point"; did you mean "force"?
 loads = [{type = 3}] ->
-    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature", "axial" or "movement", got 3
+    loads[0].type: expected "force", "moment", "uniform", "linear", "curvature", "temperature",
+    "axial", "axial_uniform" or "movement", got 3
 loads = [5] -> loads[0]: expected a table, got 5
 loads = [{type = "force", x = 1.0}] -> loads[0].F: this key is missing; give a number
 loads = [{type = "moment", x = 1.0, F = 1.0}] ->

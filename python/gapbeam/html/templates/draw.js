@@ -63,7 +63,7 @@ class Scale {
       ...DATA.ways.flatMap((way) => way.axles || []).map(([, force]) => force)]);
     if (DATA.supports.some((supports) => supports.length <= MOST_NAMED && spacingOf(supports) < TURNED)) MODEL.labels = 140;
     MODEL.loads += MODEL.level * Math.max(0, ...DATA.loads.map(stack));
-    this.uniform = largest([...loads.filter((one) => one.ends && one.type !== "curvature").flatMap((one) => one.ends),
+    this.uniform = largest([...loads.filter((one) => one.ends && !isFlat(one)).flatMap((one) => one.ends),
       ...DATA.ways.flatMap((way) => way.uniform || []).map(([q]) => q)]);
   }
 
@@ -115,6 +115,11 @@ function along(state, scale, from, to, below) {
   });
 }
 
+/* Loads over a stretch that act neither down nor up: imposed curvatures, and loads along the beam. */
+function isFlat(load) {
+  return load.type === "curvature" || load.type === "axial_uniform";
+}
+
 function drawLoads(state, scale, y, axis) {
   const parts = [], loads = DATA.loads[state.way.loads].slice(0, MOST_DRAWN), taken = [], top = axis - MODEL.lift - 58;
   const factorOf = (one) => (one.dead ? 1 : state.factor), label = loads.length <= 14;
@@ -122,12 +127,13 @@ function drawLoads(state, scale, y, axis) {
     const factor = factorOf(one);
     if (factor === 0) continue;
     if (one.ends) {
-      const [a, b] = one.ends.map((q) => (one.type === "curvature" ? 5 : (Math.abs(factor * q) / scale.uniform) * 14));
+      const [a, b] = one.ends.map((q) => (isFlat(one) ? 5 : (Math.abs(factor * q) / scale.uniform) * 14));
       const left = scale.x(one.from), right = scale.x(one.to), foot = top - MODEL.level * one.level;
-      parts.push(path([[left, foot], [left, foot - a], [right, foot - b], [right, foot]], one.type === "curvature" ? "band bent" : "band", true));
-      const [from, to] = one.ends.map((q) => number(factor * q, 4));
+      parts.push(path([[left, foot], [left, foot - a], [right, foot - b], [right, foot]], isFlat(one) ? "band bent" : "band", true));
+      const [from, to] = one.ends.map((q) => number(one.type === "axial_uniform" ? Math.abs(factor * q) : factor * q, 4));
       const unit = one.type === "curvature" ? "" : ` ${DATA.units.uniform[0]}`;
-      const text = `${one.type === "curvature" ? "\u03ba " : ""}${from === to ? from : `${from} to ${to}`}${unit}`;
+      const sign = one.type === "curvature" ? "\u03ba " : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
+      const text = `${sign}${from === to ? from : `${from} to ${to}`}${unit}`;
       if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
     } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));
     else {

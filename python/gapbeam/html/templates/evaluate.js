@@ -132,7 +132,7 @@ class State {
 
   inPiece(name, k, s, left) {
     const [length, flexible, soft] = this.beam.pieces[k], t = s / length, square = length * length;
-    if (name === "axial_force") return this.n ? this.n[k] : 0;
+    if (name === "axial_force") return !this.n ? 0 : this.n_left ? this.n[k] * (1 - t) + this.n_left[k] * t : this.n[k];
     const load = [0, 1, 2].map((i) => this.beam.dead[k][i] + this.factor * this.beam.live[k][i]);
     const m0 = this.m[k], m1 = this.m_left[k];
     const c = (load[0] * square) / 2, d = ((load[1] - load[0]) * square) / 6;

@@ -11,6 +11,7 @@ import numpy as np
 from ...engine.beam import SOLVED, Beam
 from ...engine.combinations import Varied, solve_combinations
 from ...engine.quantities import FIELDS
+from ...scene.loads import AxialUniformLoad
 from .branches import BranchPath
 from .compression import Compression, larger
 from .struts import Struts, struts_of
@@ -24,9 +25,15 @@ TENSION = FIELDS.index("axial_force")
 
 
 def tensions(beam: Beam, step: Step) -> np.ndarray:
-    """Give the axial force of every piece in a state."""
-    pieces = np.arange(1, beam.pieces + 1, dtype=np.int32)
-    return step.solution.values(pieces, np.zeros(beam.pieces))[TENSION]
+    """Give the axial force of every piece in a state, the smaller of those at its two ends."""
+    return np.minimum(*(step.solution.values(*ends)[TENSION] for ends in ends_of_pieces(beam)))
+
+
+def ends_of_pieces(beam: Beam) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Give the left ends of all pieces, then the right ones, as pieces and distances."""
+    x = beam.places.point_x
+    yield beam.find(x[:-1], left=False)
+    yield beam.find(x[1:], left=True)
 
 
 def compression_of(result: Result, step: Step, struts: Struts | None = None) -> Compression | None:
@@ -71,7 +78,7 @@ def check_compression(result: Result) -> None:
     if result._beam.bars < 0:
         return
     struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
-    if result._beam.has_links_along:
+    if result._beam.has_links_along and not any(isinstance(load, AxialUniformLoad) for load in result.scene.loads):
         states = _along(result, struts)
     else:
         on_the_way = chain(result.steps, _begins(result))
@@ -139,10 +146,10 @@ def refused_cases(
         For every piece whether its EI is that of a section.
     """
     refused, struts = np.zeros(len(factors), dtype=bool), Struts(beam)
-    pieces = np.arange(1, beam.pieces + 1, dtype=np.int32)
-    for part, found in solve_combinations(beam, factors, None, rule, closed, pieces, np.zeros(beam.pieces), varied):
+    pieces, distances = map(np.concatenate, zip(*ends_of_pieces(beam), strict=True))
+    for part, found in solve_combinations(beam, factors, None, rule, closed, pieces, distances, varied):
         for row in np.flatnonzero(found.status == SOLVED).tolist():
-            k, tension = part.start + row, found.fields[row, :, TENSION]
+            k, tension = part.start + row, found.fields[row, :, TENSION].reshape(2, -1).min(axis=0)
             if tension.min() < 0.0:
                 EI = None if varied.spans is None else np.where(sections, struts.EI, varied.spans[k, beam.places.span, 0])
                 one = struts.largest(found.closed[row], tension, EI)
