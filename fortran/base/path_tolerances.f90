@@ -7,6 +7,8 @@ module gapbeam_path_tolerances
     public :: load_begin, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
+    public :: no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
+    public :: nothing_left, shortest_part, slip_audited
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
     public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
     public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
@@ -43,6 +45,33 @@ module gapbeam_path_tolerances
     !> Factors in double and quadruple precision that differ by less, relative to the way, are the same; and events that may be off
     !> by more in doubles are found in quadruple precision. Read by continuation/path, continuation/stretch
     real(wp), parameter :: agreement = 1e-9_wp
+    !> Share of the loads below which what pushes a node over ground along the beam is rounding. Read by contact/ground_along_slip
+    real(wp), parameter :: no_push = 2.0_wp**(-46)
+    !> Share of the fastest node below which one that goes back does not. Read by contact/ground_along_slip,
+    !> continuation/ground_along_path
+    real(wp), parameter :: no_return = 2.0_wp**(-44)
+    !> Share of a bar up to which a part that begins beside a node grows as what pushes it does, without moving the node. Read by
+    !> contact/ground_along, contact/ground_along_slip
+    real(wp), parameter :: beginning_part = 2.0_wp**(-47)
+    !> Share of the way over which a beam begins to slide over ground along it: small, as what else changes is left out, by its
+    !> square. Read by continuation/ground_along_steps
+    real(wp), parameter :: first_slip = 2.0_wp**(-28)
+    !> Share of the way to which a change of what slides is found. Read by continuation/ground_along_path,
+    !> continuation/ground_along_steps
+    real(wp), parameter :: found_slip = 2.0_wp**(-50)
+    !> Share of the way that is rounding. Read by continuation/ground_along_path
+    real(wp), parameter :: nothing_left = 2.0_wp**(-46)
+    !> Share of a bar below which a part that becomes shorter is none: where two vanish together one is left. Read by
+    !> continuation/ground_along_path
+    real(wp), parameter :: shortest_part = 2.0_wp**(-40)
+    !> Share of the largest by which a state on ground along the beam may be off, as it comes of steps. Read by
+    !> continuation/ground_along_states
+    real(wp), parameter :: slip_audited = 1e-10_wp
+    !> Share of a bar below which steps over a part may be stiff; tuned. Read by continuation/ground_along_steps
+    real(wp), parameter :: stiff_part = 2.0_wp**(-6)
+    !> Share of the largest to which the way of parts that slide is followed. Read by continuation/ground_along_steps,
+    !> continuation/ground_along_stiff
+    real(wp), parameter :: slip_settled = 2.0_wp**(-48)
     !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path
     real(wp), parameter :: shortest_interval = 2.0_wp**(-30)
     !> Rounding errors beyond which a value on a path is not near zero; tuned. Read by continuation/path

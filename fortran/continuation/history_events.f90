@@ -92,7 +92,7 @@ contains
                     if (stat /= 0) return
                 end do
             end associate
-            if (.not. allocated(path%along)) return
+            if (.not. allocated(assembled%axial%laws)) return
             call find_changes_along(assembled, path, one, other, events, number, added, stat)
             pending = pending + added
         end subroutine note_changes

@@ -6,9 +6,11 @@ module gapbeam_history_record
     use gapbeam_region_responses, only: outgoing_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_arc, only: arc_type
+    use gapbeam_ground_along, only: ground_along_type
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, point_type, new_history, laws_at
+    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, on_ground_type, point_type
+    public :: new_history, laws_at
     public :: same_laws
     public :: runs_of
     public :: add_stretch, add_others, note_limit, note_landings, is_jumping
@@ -93,6 +95,14 @@ module gapbeam_history_record
         type(arc_type), allocatable :: arc
     end type on_laws_type
 
+    !> A beam on ground along its axis where something begins or ends to slide
+    type :: on_ground_type
+        !> On which stretch, and at which load factor
+        integer :: stretch
+        real(wp) :: factor
+        type(ground_along_type) :: ground
+    end type on_ground_type
+
     !> The chain along the beam at the ends of stretches, where its links act one way, yield or rub
     type :: along_type
         !> Support of the model of every link
@@ -101,6 +111,8 @@ module gapbeam_history_record
         !> system: the first `number` columns
         real(wp), allocatable :: values(:, :)
         integer :: number = 0
+        !> Where ground holds the beam along its axis instead, the first `number` entries
+        type(on_ground_type), allocatable :: on_ground(:)
     end type along_type
 
     !> The loading history

@@ -134,7 +134,7 @@ contains
         logical :: has
 
         associate (axial => assembled%axial, s => assembled%model%supports)
-            has = allocated(axial%laws)
+            has = allocated(axial%laws) .or. allocated(axial%limit)
             if (.not. has) return
             has = any(abs(axial%force(1, :)) > 0.0_wp) &
                 .or. any(s%direction == gapbeam_axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))

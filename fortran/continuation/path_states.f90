@@ -17,6 +17,7 @@ module gapbeam_path_states
     use gapbeam_smooth_arc, only: arc_type, springs_at, is_lost
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
     use gapbeam_history_record, only: history_type, laws_at, same_laws
+    use gapbeam_ground_along_states, only: take_ground_along
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
     private
@@ -69,24 +70,32 @@ contains
         end if
         if (.not. same_laws(laws, beam%beam%supports)) call move_alloc(laws, state%laws)
         call solve_state(beam, factor, merge(rule_extended, rule_given, allocated(history%on_laws)), state, error)
-        if (allocated(history%along) .and. .not. allocated(error)) call take_along(beam, history, stretch, factor, state)
+        if (allocated(history%along) .and. .not. allocated(error)) then
+            call take_along(beam, history, stretch, factor, state, error)
+        end if
         if (.not. allocated(history%on_laws) .or. allocated(error)) return
         call audit_lines(beam, factor, how == on_polylines, state, error)
     end subroutine solve_on_path
 
     !> What there is along the beam at a load factor on a stretch
-    pure subroutine take_along(beam, history, stretch, factor, state)
+    subroutine take_along(beam, history, stretch, factor, state, error)
         type(assembled_type), intent(in) :: beam
-        !> With links along the beam
+        !> With links or ground along the beam
         type(history_type), intent(in) :: history
         integer, intent(in) :: stretch
         real(wp), intent(in) :: factor
         !> Of the same beam
         type(state_type), intent(inout) :: state
+        !> As for take_ground_along
+        type(error_type), allocatable, intent(out) :: error
         real(wp), allocatable :: values(:)
         real(wp) :: share
         integer :: n, l
 
+        if (allocated(history%along%on_ground)) then
+            call take_ground_along(beam, history, stretch, factor, state, error)
+            return
+        end if
         associate (s => history%stretches(stretch), along => history%along)
             share = 0.0_wp
             if (abs(s%to - s%from) > 0.0_wp) share = (factor - s%from)/(s%to - s%from)

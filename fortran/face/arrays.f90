@@ -65,6 +65,7 @@ contains
                 s%EI_power = nint(sect(9, i))
                 s%GA_power = nint(sect(10, i))
                 s%EA_power = nint(sect(11, i))
+                s%friction = sect(12, i)
             end associate
         end do
         do i = 1, size(model%supports)

@@ -36,7 +36,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(11, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
+    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(12, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
@@ -138,7 +138,7 @@ subroutine gbsize(beam, sizes, units)
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
     ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends, links along
-    ! the beam; layers of ground
+    ! the beam (1) or ground (2); layers of ground
     integer, intent(out) :: sizes(13)
     ! Exponents of two: length, force, deflection
     integer, intent(out) :: units(3)
@@ -150,7 +150,7 @@ subroutine gbsize(beam, sizes, units)
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
                  merge(1, 0, size(lowered%law) > 0), merge(1, 0, lowered%depends_on_path), &
-                 merge(1, 0, allocated(lowered%axial%laws)), 0]
+                 merge(1, 0, allocated(lowered%axial%laws)) + merge(2, 0, allocated(lowered%axial%limit)), 0]
         if (allocated(lowered%layers)) sizes(13) = size(lowered%layers)
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection]
         if (allocated(lowered%axial%point)) sizes(5) = ubound(lowered%axial%point, 1)

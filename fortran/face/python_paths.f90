@@ -227,8 +227,8 @@ subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
 end subroutine gbhlin
 
 ! What there is along the beam in a state on a path, put into the state and to the values of its supports
-subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force, slip, slides, loose)
-    use gapbeam_python_handles, only: handle_type, behind
+subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force, slip, slides, loose, status, message)
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report
     use gapbeam_path_states, only: take_along
     use gapbeam_support_values, only: support_values, friction_values
     implicit none
@@ -244,18 +244,22 @@ subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force,
     integer, intent(out) :: condit(nm), slides(nm)
     ! 1 where the beam can move freely
     integer, intent(out) :: loose
+    integer, intent(out) :: status
+    character(len=240), intent(out) :: message
     type(handle_type), pointer :: handle, found, solved
+    type(error_type), allocatable :: error
 
     handle => behind(beam)
     found => behind(hist)
     solved => behind(state)
     values = 0.0d0
     associate (lowered => handle%beam%lowered, s => solved%result%state)
-        call take_along(lowered, found%history%path, stretch, factor, s)
+        call take_along(lowered, found%history%path, stretch, factor, s, error)
         call support_values(lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), condit)
         call friction_values(lowered, s, force, slip, slides)
         loose = merge(1, 0, s%indifferent)
     end associate
+    call report(error, status, message)
 end subroutine gbhaxi
 
 ! Which numbers along the beam are at the ends of the stretches of a path

@@ -197,7 +197,7 @@ subroutine gbvalu(beam, state, fields, nq, nx, which, piece, dist, value, status
     value = 0.0d0
     associate (s => solved%result%state)
         call fields_in_pieces(handle%beam%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, piece, dist, &
-                              value, error, s%ground)
+                              value, error, s%ground, s%along_ground)
     end associate
     call report(error, status, message)
 end subroutine gbvalu
@@ -223,11 +223,60 @@ subroutine gbextr(beam, state, fields, nq, which, value, x, status, message)
     value = 0.0d0
     x = 0.0d0
     associate (s => solved%result%state)
-        call extremes_of_pieces(handle%beam%lowered, s%factor, recovered%starts, s%displacement, s%tension, which, value, x, &
-                                error, s%ground)
+        call extremes_of_pieces(handle%beam%lowered, s, recovered%starts, which, value, x, error)
     end associate
     call report(error, status, message)
 end subroutine gbextr
+
+! Smallest axial force of every piece, in the scene's units, of a state on ground along the beam
+subroutine gbleas(beam, state, np, force)
+    use gapbeam_python_handles, only: handle_type, behind
+    implicit none
+    integer(8), intent(in) :: beam, state
+    integer, intent(in) :: np
+    double precision, intent(out) :: force(np)
+    type(handle_type), pointer :: handle, solved
+
+    handle => behind(beam)
+    solved => behind(state)
+    force = scale(solved%result%state%tension, handle%beam%lowered%axial%units%force)
+end subroutine gbleas
+
+! Where a beam slides, or has slid last, over ground along it: the first MP parts, from left to right
+subroutine gbpart(beam, state, mp, number, place, way, force)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_assembled_model, only: point_x, piece_length
+    use gapbeam_ground_along, only: length_of
+    implicit none
+    integer(8), intent(in) :: beam, state
+    integer, intent(in) :: mp
+    ! How many there are
+    integer, intent(out) :: number
+    ! Both ends; 1 to the right, -1 to the left; force of the ground on the beam, to the right
+    double precision, intent(out) :: place(2, mp), force(mp)
+    integer, intent(out) :: way(mp)
+    type(handle_type), pointer :: handle, solved
+    integer :: k
+
+    handle => behind(beam)
+    solved => behind(state)
+    number = 0
+    place = 0.0d0
+    way = 0
+    force = 0.0d0
+    associate (lowered => handle%beam%lowered, ground => solved%result%state%along_ground)
+        do k = 1, size(ground%parts)
+            associate (part => ground%parts(k), j => ground%parts(k)%bar)
+                if (part%slope == 0 .or. .not. ground%limit(j) > 0.0d0) cycle
+                number = number + 1
+                if (number > mp) cycle
+                place(:, number) = point_x(lowered, j - 1) + piece_length(lowered, j)*[part%to - length_of(ground, k), part%to]
+                way(number) = part%slope
+                force(number) = -scale(part%slope*ground%limit(j)*length_of(ground, k), lowered%axial%units%force)
+            end associate
+        end do
+    end associate
+end subroutine gbpart
 
 ! Slopes of the smooth laws in a state, in the scene's units
 subroutine gbslop(beam, state, n, slope)

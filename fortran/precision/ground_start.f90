@@ -106,10 +106,10 @@ contains
         type(zones_type), intent(in) :: zones
         type(ground_solution_type), intent(out) :: solution
 
-        solution%piece = zones%piece
-        solution%from = zones%from
-        solution%to = zones%to
-        solution%acts = zones%acts
+        allocate (solution%piece, source=zones%piece)
+        allocate (solution%from, source=zones%from)
+        allocate (solution%to, source=zones%to)
+        allocate (solution%acts, source=zones%acts)
     end subroutine take_zones
 
 end module gapbeam_ground_start

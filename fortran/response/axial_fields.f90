@@ -5,6 +5,7 @@ module gapbeam_axial_fields
     use gapbeam_piece_stiffness, only: stiffness_along
     use gapbeam_taper, only: mean_softness
     use gapbeam_assemble_axial, only: axial_node
+    use gapbeam_ground_along, only: ground_along_type, length_of
     implicit none
     private
     public :: axial_fields, extremes_along
@@ -12,7 +13,7 @@ module gapbeam_axial_fields
 contains
 
     !> Normal force and displacement along the axis in units of the axial system; zero without one
-    pure subroutine axial_fields(assembled, factor, displacements, tensions, piece, distance, tension, displacement)
+    pure subroutine axial_fields(assembled, factor, displacements, tensions, piece, distance, tension, displacement, ground)
         type(assembled_type), intent(in) :: assembled
         !> Factor of the live loads; displacements of the nodes, shape (0:n), and tensions in the middles of the bars, shape (n)
         real(wp), intent(in) :: factor, displacements(0:), tensions(:)
@@ -21,6 +22,8 @@ contains
         real(wp), intent(in) :: distance
         !> To the right
         real(wp), intent(out) :: tension, displacement
+        !> On ground along the beam, where tensions are the smallest of the bars
+        type(ground_along_type), intent(in), optional :: ground
         real(wp) :: way, share, spread, EA, EA_to
         integer :: bar, power
 
@@ -29,6 +32,10 @@ contains
         if (.not. allocated(assembled%axial%point)) return
         bar = axial_node(assembled%axial%point, piece)
         share = distance/piece_length(assembled, piece)
+        if (present(ground)) then
+            call fields_on_ground(ground, bar, share, tension, displacement)
+            return
+        end if
         way = share
         call stiffness_along(assembled, piece, along_axis, EA, EA_to, power)
         if (power > 0 .and. share > 0.0_wp) way = share*mean_softness(1.0_wp, EA/EA_to, power, share) &
@@ -59,32 +66,107 @@ contains
 
     !> Extremes along the beam where loads are distributed along it: the axial force is linear in every bar, the displacement of
     !> degree 2
-    pure subroutine extremes_along(assembled, factor, displacement, tension, value, x)
+    pure subroutine extremes_along(assembled, factor, displacement, tension, value, x, ground)
         !> As for axial_fields
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor, displacement(0:), tension(:)
         !> Maximum and minimum of force and displacement in, of the nodes and of the middles of bars, and their places
         real(wp), intent(inout) :: value(2, 2), x(2, 2)
-        real(wp) :: share, found(2)
+        type(ground_along_type), intent(in), optional :: ground
+        real(wp) :: share
         integer :: j, k
 
+        if (present(ground)) then
+            ! Of what comes from the nodes nothing stays: they have other values than bars
+            value(1, :) = -huge(share)
+            value(2, :) = huge(share)
+            do k = 1, size(ground%parts)
+                call look(ground%parts(k)%bar, ground%parts(k)%to - length_of(ground, k), k, value, x)
+                call look(ground%parts(k)%bar, top_in_part(ground, k), k, value, x)
+                call look(ground%parts(k)%bar, ground%parts(k)%to, k, value, x)
+            end do
+            return
+        end if
         do j = 1, size(tension)
             do k = 0, 2
                 share = real(k, wp)/2
                 if (k == 1) share = top_in_bar(load_along(assembled, factor, j), assembled%axial%softness(j), &
                                                displacement(j) - displacement(j - 1))
-                call axial_fields(assembled, factor, displacement, tension, j, share*piece_length(assembled, j), found(1), found(2))
-                where (found > value(1, :))
-                    value(1, :) = found
-                    x(1, :) = point_x(assembled, j - 1) + share*piece_length(assembled, j)
-                end where
-                where (found < value(2, :))
-                    value(2, :) = found
-                    x(2, :) = point_x(assembled, j - 1) + share*piece_length(assembled, j)
-                end where
+                call look(j, share, 0, value, x)
             end do
         end do
+
+    contains
+
+        !> Values at a place
+        pure subroutine look(bar, share, part, value, x)
+            integer, intent(in) :: bar, part
+            real(wp), intent(in) :: share
+            real(wp), intent(inout) :: value(2, 2), x(2, 2)
+            real(wp) :: found(2), at
+
+            at = point_x(assembled, bar - 1) + share*piece_length(assembled, bar)
+            if (part > 0) then
+                call fields_on_ground(ground, bar, share, found(1), found(2), part)
+            else
+                call axial_fields(assembled, factor, displacement, tension, bar, share*piece_length(assembled, bar), found(1), &
+                                  found(2))
+            end if
+            where (found > value(1, :))
+                value(1, :) = found
+                x(1, :) = at
+            end where
+            where (found < value(2, :))
+                value(2, :) = found
+                x(2, :) = at
+            end where
+        end subroutine look
+
     end subroutine extremes_along
+
+    !> Axial force and displacement in a bar on ground along the beam
+    pure subroutine fields_on_ground(ground, bar, share, tension, displacement, part)
+        type(ground_along_type), intent(in) :: ground
+        integer, intent(in) :: bar
+        !> Of the bar, from its left end
+        real(wp), intent(in) :: share
+        real(wp), intent(out) :: tension, displacement
+        !> The part at the place, where that is known
+        integer, intent(in), optional :: part
+        real(wp) :: from, to
+        integer :: k
+
+        displacement = ground%displacement(bar - 1) + share*ground%longer(bar)
+        from = 0.0_wp
+        do k = findloc(ground%parts%bar, bar, 1), size(ground%parts)
+            associate (p => ground%parts(k))
+                to = min(share, p%to)
+                tension = p%force + p%slope*ground%limit(bar)*share
+                displacement = displacement &
+                    + (to - from)*ground%softness(bar)*(p%force + p%slope*ground%limit(bar)*(from + to)/2)
+                from = to
+                if (present(part)) then
+                    if (k == part) return
+                else if (p%to >= share) then
+                    return
+                end if
+            end associate
+        end do
+    end subroutine fields_on_ground
+
+    !> Where the displacement in a part may have an extreme, as a share of the bar; at its right end where there is none inside
+    pure function top_in_part(ground, k) result(share)
+        type(ground_along_type), intent(in) :: ground
+        integer, intent(in) :: k
+        real(wp) :: share, inside
+
+        associate (part => ground%parts(k), j => ground%parts(k)%bar)
+            share = part%to
+            if (part%slope == 0 .or. .not. ground%limit(j) > 0.0_wp) return
+            inside = -(part%force + ground%longer(j)/ground%softness(j))/(part%slope*ground%limit(j))
+            if (inside > part%to - length_of(ground, k) .and. inside < part%to) share = inside
+        end associate
+    end function top_in_part
 
     !> Where the displacement along a bar may have an extreme, as a share of the bar; at its left end where there is none inside
     elemental function top_in_bar(force, softness, elongation) result(share)

@@ -11,6 +11,7 @@ module gapbeam_query
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
     use gapbeam_axial_fields, only: axial_fields, extremes_along
+    use gapbeam_ground_along, only: ground_along_type
     use gapbeam_ordered, only: last_not_above
     use gapbeam_stations, only: locate
     use gapbeam_assemble_units, only: name_farthest
@@ -88,7 +89,7 @@ contains
         if (.not. (allocated(error) .or. allocated(state%ground))) call make_starts(assembled, state, error)
         if (allocated(error)) return
         call fields_in_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, quantities, piece, &
-                              distance, fields, error, state%ground)
+                              distance, fields, error, state%ground, state%along_ground)
     end subroutine fields_at_places
 
     !> Pieces of given places
@@ -125,7 +126,7 @@ contains
 
     !> Fields at given distances from the left ends of pieces
     subroutine fields_in_pieces(assembled, factor, starts, displacement, tension, quantities, piece, distance, fields, error, &
-                                ground)
+                                ground, along_ground)
         type(assembled_type), intent(in) :: assembled
         !> Factor of the live loads, fields at the left ends of all pieces, and the solution along the axis (state_type)
         real(wp), intent(in) :: factor
@@ -139,8 +140,9 @@ contains
         real(wp), intent(inout) :: fields(:, :)
         !> A field out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        !> The solution on the ground, instead of the fields at the pieces
+        !> The solution on the ground, instead of the fields at the pieces; and on ground along the beam
         type(ground_solution_type), intent(in), optional :: ground
+        type(ground_along_type), intent(in), optional :: along_ground
         type(field_type), allocatable :: bent(:)
         type(piece_load_type) :: load
         real(wp), allocatable :: found(:, :), pressure(:)
@@ -166,7 +168,7 @@ contains
             all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa, &
                                                   scale(distance(i), -assembled%units%length))
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
-                              all_of_them(of_axial_displacement))
+                              all_of_them(of_axial_displacement), along_ground)
             found(:, i) = all_of_them(quantities)
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
             if (k == 0) cycle
@@ -263,31 +265,28 @@ contains
 
         if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
-        call extremes_of_pieces(assembled, state%factor, state%starts, state%displacement, state%tension, quantities, value, x, &
-                                error, state%ground)
+        call extremes_of_pieces(assembled, state, state%starts, quantities, value, x, error)
     end subroutine extremes_of_fields
 
     !> The same from the fields at the left ends of all pieces
-    subroutine extremes_of_pieces(assembled, factor, starts, displacement, tension, quantities, value, x, error, ground)
-        !> As for fields_in_pieces
-        type(assembled_type), intent(in) :: assembled
-        real(wp), intent(in) :: factor
-        type(field_type), intent(in) :: starts(:)
-        real(wp), intent(in) :: displacement(0:), tension(:)
+    subroutine extremes_of_pieces(assembled, state, starts, quantities, value, x, error)
         !> As for extremes_of_fields
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> Of no use on the ground
+        type(field_type), intent(in) :: starts(:)
         integer, intent(in) :: quantities(:)
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
-        type(ground_solution_type), intent(in), optional :: ground
         real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count)
         integer :: piece(2, bending_count), powers(size(quantities)), i, k
 
         found(:, :) = 0.0_wp
         places(:, :) = 0.0_wp
-        if (present(ground)) then
-            call ground_extremes(assembled, ground, factor, bent, piece, distance)
+        if (allocated(state%ground)) then
+            call ground_extremes(assembled, state%ground, state%factor, bent, piece, distance)
         else
-            call find_extremes(assembled%pieces, assembled%dead, assembled%live, factor, starts, bent, piece, distance)
+            call find_extremes(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, bent, piece, distance)
         end if
         found(:, bending) = bent
         do k = 1, bending_count
@@ -296,7 +295,7 @@ contains
             end do
         end do
         if (allocated(assembled%axial%point)) then
-            associate (point => assembled%axial%point)
+            associate (point => assembled%axial%point, displacement => state%displacement, tension => state%tension)
                 found(:, of_axial_force) = [maxval(tension), minval(tension)]
                 places(:, of_axial_force) = [point_x(assembled, point(maxloc(tension, 1) - 1)), &
                                              point_x(assembled, point(minloc(tension, 1) - 1))]
@@ -304,22 +303,23 @@ contains
                 places(:, of_axial_displacement) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
                                                     point_x(assembled, point(minloc(displacement, 1) - 1))]
             end associate
-            if (allocated(assembled%axial%along_bar)) then
-                call extremes_along(assembled, factor, displacement, tension, found(:, of_axial_force:of_axial_displacement), &
-                                    places(:, of_axial_force:of_axial_displacement))
+            if (allocated(assembled%axial%along_bar) .or. allocated(state%along_ground)) then
+                call extremes_along(assembled, state%factor, state%displacement, state%tension, &
+                                    found(:, of_axial_force:of_axial_displacement), &
+                                    places(:, of_axial_force:of_axial_displacement), state%along_ground)
             end if
         end if
         powers = units_of_fields(assembled, quantities)
         x(:, :) = places(:, quantities)
         do k = 1, size(quantities)
             associate (quantity => quantities(k))
-                if (quantity == of_pressure .and. present(ground)) then
-                    call extremes_of_pressure(assembled, ground, value(:, k), x(:, k), error)
+                if (quantity == of_pressure .and. allocated(state%ground)) then
+                    call extremes_of_pressure(assembled, state%ground, value(:, k), x(:, k), error)
                     if (allocated(error)) return
                     cycle
                 end if
                 value(:, k) = scale(found(:, quantity), powers(k))
-                i = findloc(abs(value(:, k)) <= huge(factor), .false., 1)
+                i = findloc(abs(value(:, k)) <= huge(1.0_wp), .false., 1)
                 if (i == 0) cycle
                 call refuse_field(assembled, quantity, found(i, quantity), x(i, k), error)
                 return

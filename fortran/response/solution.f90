@@ -9,6 +9,7 @@ module gapbeam_solution
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
+    use gapbeam_ground_along, only: ground_along_type
     use gapbeam_assembled_model, only: assembled_type, growth_of, turns, way_unit, push_unit, point_x
     use gapbeam_model, only: last_place
     use gapbeam_assemble_supports, only: contact_level
@@ -49,6 +50,8 @@ module gapbeam_solution
         real(wp), allocatable :: along_force(:)
         !> Contacts of their laws as they have become, where some keep a set, shape (size(axial%laws))
         real(wp), allocatable :: along_contact(:)
+        !> On ground that holds the beam along its axis
+        type(ground_along_type), allocatable :: along_ground
         !> On the ground, what is in its stretches
         type(ground_solution_type), allocatable :: ground
         !> Fields at the left end of every piece; made when first asked for

@@ -227,8 +227,9 @@ contains
         real(wp), allocatable :: longer(:), force(:)
         integer :: found, place
 
-        ! Links that act one way, yield or rub are known on a path alone
-        if (.not. allocated(assembled%axial%point) .or. allocated(assembled%axial%laws)) return
+        ! Links that act one way, yield or rub, and ground are known on a path alone
+        if (.not. allocated(assembled%axial%point)) return
+        if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return
         associate (axial => assembled%axial)
             allocate (longer(size(axial%flexibility)), source=0.0_wp)
             force = axial%force(1, :) + state%factor*axial%force(2, :)

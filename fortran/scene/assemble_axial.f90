@@ -9,7 +9,7 @@ module gapbeam_assemble_axial
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
-    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, bad_load
+    use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, of_sections, bad_load, bad_law
     use gapbeam_check_axial, only: has_links_along
     use gapbeam_assemble_links_along, only: assemble_links_along
     implicit none
@@ -52,6 +52,9 @@ contains
             end do
             stiffness = middle(stiff)
             if (middle(soft) /= no_exponent) stiffness = middle_of(-soft%low, -soft%high)
+            do k = 1, size(model%sections)
+                call forces%note(model%sections(k)%friction*assembled%ends(size(model%spans)), 0)
+            end do
             axial%units = units_with_loads(0, stiffness, largest(forces), largest(ways))
             unit = middle(lengths)
             axial%flexibility(:) = 0.0_wp
@@ -108,6 +111,7 @@ contains
                 end associate
             end do
             if (has_links_along(model, assembled%with_law) .or. moves_along(assembled)) call assemble_links_along(assembled)
+            if (allocated(axial%limit)) call lay_ground(assembled, error)
         end associate
     end subroutine assemble_axial
 
@@ -138,6 +142,60 @@ contains
             end do
         end associate
     end subroutine spread_along
+
+    !> Ground along the beam: of stretches that overlap the last one
+    subroutine lay_ground(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        !> What is not there beside it
+        type(error_type), allocatable, intent(out) :: error
+        character(len=*), parameter :: in_version = " is not available in this version"
+        integer :: j, k
+        real(wp) :: EA, EA_to
+        integer :: power
+
+        associate (axial => assembled%axial, model => assembled%model, n => size(assembled%model%sections))
+            axial%limit(:) = 0.0_wp
+            do k = 1, n
+                if (.not. model%sections(k)%friction > 0.0_wp) cycle
+                do j = assembled%section_from(k) + 1, assembled%section_to(k)
+                    axial%limit(j) = scale(model%sections(k)%friction*piece_length(assembled, j), -axial%units%force)
+                end do
+            end do
+            if (allocated(axial%laws) .or. any(model%supports%direction == gapbeam_axial .and. &
+                                               abs(model%supports%settlement) > 0.0_wp)) then
+                call say(" beside friction of supports, or axial supports that push one way, have a law, a settlement or a "// &
+                         "movement,"//in_version//"; leave one of them out")
+            else if (size(model%foundations) > 0) then
+                call say(" beside a foundation"//in_version//"; their effects do not meet, so look at them one by one")
+            end if
+            do j = 1, size(axial%limit)
+                if (allocated(error)) return
+                call stiffness_along(assembled, j, along_axis, EA, EA_to, power)
+                if (power > 0) then
+                    call say(" beside an EA that changes along a section"//in_version//"; give short sections, each of one EA")
+                else if (EA > huge(EA)) then
+                    call say(" needs the axial stiffness of the beam; give EA")
+                else if (allocated(axial%along_bar)) then
+                    if (any(abs(axial%along_bar(:, j)) > 0.0_wp)) then
+                        call say(" beside loads that are distributed along it"//in_version//"; give these as forces at places")
+                    end if
+                end if
+            end do
+        end associate
+
+    contains
+
+        !> What is wrong
+        subroutine say(problem)
+            character(len=*), intent(in) :: problem
+
+            associate (sections => assembled%model%sections)
+                call refuse(error, of_sections, findloc(sections%friction > 0.0_wp, .true., 1), size(sections), bad_law, &
+                            "friction", "ground along the beam"//problem)
+            end associate
+        end subroutine say
+
+    end subroutine lay_ground
 
     !> Does a load move a support along the beam
     pure function moves_along(assembled) result(it_does)

@@ -104,14 +104,14 @@ contains
     end function depends_on_path
 
     !> The same, whatever loads move: a force may fall, a support unloads otherwise than along its law, or acts along the beam by
-    !> one
+    !> one, or the ground does
     function laws_depend_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends
         type(motion_type), allocatable :: motions(:)
 
         depends = .true.
-        if (allocated(assembled%axial%laws)) return
+        if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate

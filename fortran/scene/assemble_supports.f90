@@ -41,9 +41,9 @@ contains
         logical :: it_is
 
         associate (s => assembled%model%supports, loads => assembled%model%loads)
-            associate (axial => s%direction == gapbeam_axial)
+            associate (axial => s%direction == gapbeam_axial, rubs => any(assembled%model%sections%friction > 0.0_wp))
                 it_is = any(is_along(loads)) &
-                    .or. (any(axial .or. s%friction > 0.0_wp) .and. any(makes_longer(loads))) &
+                    .or. ((rubs .or. any(axial .or. s%friction > 0.0_wp)) .and. any(makes_longer(loads))) &
                     .or. any(axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
                 if (allocated(assembled%growth)) it_is = it_is .or. any(axial .and. abs(assembled%growth) > 0.0_wp)
             end associate
@@ -341,7 +341,8 @@ contains
                 call no_memory(error)
                 return
             end if
-            every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed)
+            every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed) &
+                .or. any(model%sections%friction > 0.0_wp)
             node(:) = merge(0, -1, every)
             node(0) = 0
             node(n) = 0
@@ -355,6 +356,7 @@ contains
             allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
                       axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
             if (stat == 0 .and. any(makes_longer(model%loads))) allocate (axial%elongation(2, i), stat=stat)
+            if (stat == 0 .and. any(model%sections%friction > 0.0_wp)) allocate (axial%limit(i), stat=stat)
             if (stat == 0 .and. any(model%loads%kind == gapbeam_axial_distributed)) allocate (axial%along_bar(2, i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)

@@ -42,6 +42,8 @@ module gapbeam_assembled_model
         !> Where loads along the beam are distributed, their dead and live force on each bar, to the right, shape (2, n): every
         !> piece is a bar then. Half of it is at either end, so tensions are those in the middle
         real(wp), allocatable :: along_bar(:, :)
+        !> Where ground holds the beam along its axis, most force of it along each bar, shape (n): every piece is a bar then
+        real(wp), allocatable :: limit(:)
         !> Support of each point, 0: none, shape (0:n)
         real(wp), allocatable :: stiffness(:), settlement(:)
         !> For every support of the model its node of this system; -1 for supports across the beam that do not rub
@@ -316,6 +318,7 @@ contains
             do i = 1, size(model%sections)
                 associate (s => model%sections(i))
                     call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA])
+                    if (s%friction > 0.0_wp) call mix(all_bits, [s%friction])
                     if (max(s%EI_to, s%GA_to, s%EA_to) > gapbeam_unchanged) then
                         call mix(all_bits, [s%EI_to, s%GA_to, s%EA_to, real([s%EI_power, s%GA_power, s%EA_power], wp)])
                     end if

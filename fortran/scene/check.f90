@@ -129,7 +129,9 @@ contains
             call refuse_number(error, here, "GA", s%GA, "a number above 0 (infinite: rigid in shear)")
         else if (.not. (s%EA > 0.0_wp .or. not_given(s%EA))) then
             call refuse_number(error, here, "EA", s%EA, "a number above 0 (infinite: rigid)")
-        else if (not_given(s%EI) .and. not_given(s%GA) .and. not_given(s%EA)) then
+        else if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(end))) then
+            call refuse_number(error, here, "friction", s%friction, "a finite number, 0 or more")
+        else if (not_given(s%EI) .and. not_given(s%GA) .and. not_given(s%EA) .and. .not. s%friction > 0.0_wp) then
             call refuse_entry(error, here, "", idle, "it changes nothing; give EI, GA or EA")
         end if
         if (.not. allocated(error)) call check_taper("EI", s%EI, s%EI_to, s%EI_power, here, error)
@@ -219,7 +221,8 @@ contains
         logical :: held
         integer :: i
 
-        held = any(model%supports%direction == gapbeam_axial .or. model%supports%friction > 0.0_wp)
+        held = any(model%supports%direction == gapbeam_axial .or. model%supports%friction > 0.0_wp) &
+            .or. any(model%sections%friction > 0.0_wp)
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
                 call check_load(load, here, ends, held, error)

@@ -18,6 +18,7 @@ from .results.views.extreme import Extreme
 from .results.views.shown import Shown
 from .scene import (
     Analysis,
+    AxialGround,
     AxialLoad,
     AxialUniformLoad,
     Beam,
@@ -58,6 +59,7 @@ Shown.display = display
 
 __all__ = [
     "Analysis",
+    "AxialGround",
     "AxialLoad",
     "AxialUniformLoad",
     "Batch",

@@ -11,7 +11,8 @@ SIDES = {
     "hogging": -1,
 }  # fmt: skip
 DIRECTIONS = ("normal", "axial", "rotational", "hinge")
-KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7}
+KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "axial": 5, "movement": 6, "temperature": 7,
+         "axial_uniform": 11}  # fmt: skip
 
 
 def special_kind(load):

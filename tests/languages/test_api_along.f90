@@ -6,7 +6,7 @@ program test_api_along
         history_type, uniform_load, axial_force, temperature_load, support_movement, prepare_model, follow_history, solve_on_path, &
         solve_beam, get_supports, get_friction, get_fields, count_supports, gapbeam_axial, gapbeam_left, gapbeam_both, &
         gapbeam_dead, gapbeam_plastic, gapbeam_infinity, gapbeam_limit_stop, gapbeam_slips, gapbeam_sticks, gapbeam_closes, &
-        gapbeam_mechanism, gapbeam_bad_input, gapbeam_indeterminate
+        gapbeam_mechanism, gapbeam_bad_input, gapbeam_indeterminate, section_type
     implicit none
     real(wp), parameter :: EA = 1000.0_wp, strain = 0.05_wp, length = 4.0_wp
     integer :: status
@@ -15,6 +15,7 @@ program test_api_along
     call stops_and_links_that_yield()
     call what_nothing_holds()
     call hinges_with_a_stiffness()
+    call ground_along_the_beam()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -177,5 +178,31 @@ contains
         has = allocated(error)
         if (has) has = error%code == code
     end function has_code
+
+    !> Ground that rubs: warm, the ends slide as far as friction makes EA alpha dT; cold again, half of that slides back
+    subroutine ground_along_the_beam()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(history_type) :: history
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp), parameter :: full = EA*strain, friction = 40.0_wp, anchor = full/friction
+        real(wp) :: fields(6, 3)
+
+        model = warm_bar()
+        model%supports = model%supports(:2)
+        model%sections = [section_type(friction=friction)]
+        call prepare_model(model, beam, error)
+        if (.not. allocated(error)) call follow_history(beam, [1.0_wp, 0.0_wp], gapbeam_limit_stop, history, error)
+        call check(.not. allocated(error), "ground along the beam: followed")
+        if (allocated(error)) return
+        call solve_on_path(beam, history, 0.0_wp, result, error)
+        call get_fields(beam, result, [0.0_wp, anchor/2, length/2], fields, error)
+        call check(near(fields(5, 2), full/2) .and. abs(fields(5, 3)) < 1e-12_wp*full, "ground along the beam: what stays")
+        call check(near(fields(6, 1), -friction*anchor**2/(4*EA)), "ground along the beam: where the end stays")
+        call solve_on_path(beam, history, 1.0_wp, result, error)
+        call get_fields(beam, result, [0.0_wp, anchor, length/2], fields, error)
+        call check(near(fields(5, 2), -full) .and. near(fields(5, 3), -full), "ground along the beam: held in full")
+    end subroutine ground_along_the_beam
 
 end program test_api_along

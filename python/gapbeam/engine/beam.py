@@ -107,6 +107,7 @@ class Beam(Layout):
             self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path,
             self.has_links_along,
         ) = map(bool, has)  # fmt: skip
+        self.is_on_axial_ground = has[-1] > 1
         self.units = Units(*units.tolist())
         c = self.columns
         self.handle.has_curves = bool((c.foundation[LAW_ROW] >= FIRST_CURVE).any() or c.has_varying_laws())

@@ -36,6 +36,8 @@ class Layout:
     ----------
     handle, columns, curves, pieces, links, supports, scene_supports, ground_layers, depends_on_path, has_links_along
         As of `Beam`.
+    is_on_axial_ground
+        As of `Beam`.
     """
 
     handle: _engine.Handle
@@ -48,6 +50,7 @@ class Layout:
     ground_layers: int
     depends_on_path: bool
     has_links_along: bool
+    is_on_axial_ground: bool
 
     @cached_property
     def places(self) -> Places:
@@ -115,8 +118,8 @@ class Layout:
 
     @property
     def is_linear_between_events(self) -> bool:
-        """Whether values are linear in the loads from one event to the next: no zones of contact, and no law that is a curve."""
-        return not (self.ground_layers or self.curves)
+        """Whether values are linear in the loads from one event to the next: no zones that change, and no law that is a curve."""
+        return not (self.ground_layers or self.curves or self.is_on_axial_ground)
 
     @property
     def beyond_one_search(self) -> str | None:

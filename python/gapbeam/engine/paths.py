@@ -160,7 +160,9 @@ class Followed:
         conditions, friction, slip, slides, loose
             Of `Chain`.
         """
-        return _engine.gbhaxi(beam.handle, self._found[1], state, stretch + 1, factor, beam.scene_supports)
+        *found, status, message = _engine.gbhaxi(beam.handle, self._found[1], state, stretch + 1, factor, beam.scene_supports)
+        check_status(status, message)
+        return tuple(found)
 
     def tensions(self, stretches: int) -> tuple[np.ndarray, np.ndarray]:
         """Give the axial forces at the ends of all stretches, with links along the beam.

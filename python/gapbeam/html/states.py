@@ -9,6 +9,7 @@ import numpy as np
 
 from ..engine.beam import SOLVED
 from ..engine.quantities import FIELDS
+from ..scene.loads import AxialUniformLoad
 from .geometry import places_on_ground
 
 if TYPE_CHECKING:
@@ -20,9 +21,11 @@ OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
 ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 """What is given of a state at many places."""
 DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
+AXIAL_GRID = 129
+"""Places at which the axial force is given on ground along the beam, where it has kinks between the joints."""
 EQUAL = 1e-13
 """Share of the largest moment by which those on both sides of a joint differ by rounding."""
-FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force", "n_left": "axial_force"}
+FIELD_OF = {**ON_GROUND, "m_left": "moment", "n": "axial_force", "n_left": "axial_force", "n_grid": "axial_force"}
 """Fields by the short names of the columns of a state."""
 
 
@@ -63,6 +66,7 @@ class Recorder:
         self._beam, self._words, self._short = result._beam, words, short
         self.x = result._beam.places.point_x
         self.grid = places_on_ground(result) if result._beam.ground_layers else None
+        self._is_spread = any(isinstance(load, AxialUniformLoad) for load in result.scene.loads)
 
     def codes(self, states: tuple[str, ...]) -> str:
         """Number the states of the supports.
@@ -104,8 +108,11 @@ class Recorder:
         found = {"w": np.append(right[w], left[w, -1]), "m": right[m], "m_left": left[m]}
         if self._beam.bars >= 0:
             found["n"] = right[ROW["axial_force"]]
-            if (left[ROW["axial_force"]] != found["n"]).any():  # loads that are distributed along the beam
+            if self._is_spread:
                 found["n_left"] = left[ROW["axial_force"]]
+        if self._beam.is_on_axial_ground:
+            grid = np.linspace(0.0, self.x[-1], AXIAL_GRID)
+            found["n_grid"] = step.values(*beam.find(grid, left=False))[ROW["axial_force"]]
         return found
 
     def record(self, step: Step) -> dict[str, Any]:
@@ -127,6 +134,8 @@ class Recorder:
             values = getattr(step, name)
             if name not in ("couple", "set") or values.any():
                 found |= {f"{name}_packed": packed(values)} if self._short > 1 else {name: values.tolist()}
+        if self._beam.is_on_axial_ground:
+            found["n_parts"] = axial_parts(step)
         columns = self.columns(step)
         if self.grid is not None:
             found |= on_ground(step)
@@ -149,6 +158,25 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     if np.abs(m[1:] - left[:-1]).max(initial=0.0) > EQUAL * np.abs(m).max():
         return columns
     return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
+
+
+def axial_parts(step: Step) -> list[list[float]]:
+    """Give the axial force of a state on ground along the beam, which has kinks inside the pieces.
+
+    Parameters
+    ----------
+    step : Step
+        The state.
+
+    Returns
+    -------
+    list of list of float
+        Of every part over which it is straight: both ends, and the forces there.
+    """
+    beam, n = step._beam, ROW["axial_force"]
+    x = np.unique([*beam.places.point_x.tolist(), *(end for zone in step.slip_zones for end in (zone.from_, zone.to))])
+    right, left = (step.values(*beam.find(places, side))[n] for places, side in ((x[:-1], False), (x[1:], True)))
+    return np.column_stack([x[:-1], x[1:], right, left]).tolist()
 
 
 def on_ground(step: Step) -> dict[str, Any]:

@@ -69,6 +69,7 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         _supports(say, result, at)
         _rotations(say, result, at)
         _hinges(say, result, at)
+        _slip_zones(say, result, at)
         write_foundations(say, result, at)
         write_contact(say, result, at)
         _extremes(say, result, at)
@@ -239,6 +240,22 @@ def _hinges(say: "Writer", result: "Result", at: str) -> None:
     say.table([fmt.with_unit(scene, "x"), fmt.shown_heading(scene, "moment"), fmt.shown_heading(scene, "rotation")], rows)
     more = f" {len(hinges) - LONGEST:,} more are in the output of --json." if len(hinges) > LONGEST else ""
     say.line(f"Rotation left of the hinge less that right of it.{more}", "dim")
+
+
+def _slip_zones(say: "Writer", result: "Result", at: str) -> None:
+    """Write where the beam slides, or has slid last, over ground along it."""
+    scene, zones = result.scene, result.steps[-1].slip_zones
+    if not zones:
+        return
+    say.heading(f"Slip along the ground {at}")
+    rows = [
+        [fmt.number(one.from_, fmt.DIGITS), fmt.number(one.to, fmt.DIGITS), fmt.number(one.to - one.from_, fmt.DIGITS),
+         one.way, fmt.shown(scene, "reaction", one.friction)]
+        for one in zones[:LONGEST]
+    ]  # fmt: skip
+    say.table(["from", "to", "length", "way of the beam", fmt.shown_heading(scene, "reaction", "friction")], rows)
+    more = f" {len(zones) - LONGEST:,} more are in the output of --json." if len(zones) > LONGEST else ""
+    say.line(f"Now, or last. Friction on the beam: positive to the right.{more}", "dim")
 
 
 def _rotations(say: "Writer", result: "Result", at: str) -> None:

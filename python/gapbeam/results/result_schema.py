@@ -42,6 +42,7 @@ STATE = {
     "hinges?": ("[HingeState]", "Hinges with a stiffness."),
     "contact?": ("[ContactZone]", "Zones of contact with the ground; only with foundations."),
     "free_spans?": ("[FreeSpan]", "Spans without contact; only with foundations."),
+    "slip_zones?": ("[SlipZone]", "Where the beam slides over ground along its axis, or has slid last."),
     "undecided?": ("[integer]", "Supports whose state the last digits of the data decide, by number."),
     "indifferent?": ("boolean", "true where the beam is in neutral equilibrium: forces are unique, its position is not."),
     "certificate?": ("Certificate", "Residuals and error bounds."),
@@ -96,6 +97,12 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "x": ("number", "Position (length, from the left end of the beam)."),
         "moment": ("number", "Moment there (force*length), sagging."),
         "rotation": ("number", "Rotation left of it less that right of it (rad): moment over stiffness."),
+    }),
+    "SlipZone": ("A length of the beam that slides over ground along its axis, or has slid last.", {
+        "from": ("number", "Left end (length)."),
+        "to": ("number", "Right end (length)."),
+        "way": ("string", "Which way the beam goes, or went: right or left."),
+        "friction": ("number", "Force of the ground on the beam along it (force), positive to the right."),
     }),
     "ContactZone": ("A length of the beam in contact with the ground.", {
         "foundation": ("integer", "Number of the foundation, from 0."),

@@ -2,6 +2,7 @@
 
 from ..engine.tolerances import POSITION_TOLERANCE
 from .analysis import Analysis
+from .axial_ground import AxialGround
 from .edited import replace
 from .joints import Hinge, Rotation
 from .limits import Limits
@@ -23,7 +24,8 @@ from .schema import scene_schema
 from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 
 __all__ = [
-    "POSITION_TOLERANCE", "Analysis", "AxialLoad", "AxialUniformLoad", "Beam", "Combination", "CurvatureLoad", "ForceLoad",
-    "Foundation", "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene", "Section", "Support",
-    "TemperatureLoad", "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place", "scene_schema",
+    "POSITION_TOLERANCE", "Analysis", "AxialGround", "AxialLoad", "AxialUniformLoad", "Beam", "Combination", "CurvatureLoad",
+    "ForceLoad", "Foundation", "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene",
+    "Section", "Support", "TemperatureLoad", "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place",
+    "scene_schema",
 ]  # fmt: skip

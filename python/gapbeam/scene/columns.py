@@ -13,6 +13,7 @@ from ..base.errors import SceneError
 from ..engine.arrays import GAP, MODULUS, Columns
 from ..engine.beam import Curve
 from ..engine.laws import PARAMETERS
+from .axial_ground import AxialGround, with_ground
 from .ground_laws import ground_parameters, parameter_tables, points_with_places
 from .ground_tables import at_both_ends, is_table, points_of
 from .laws import is_smooth
@@ -92,8 +93,7 @@ def columns(scene: Scene) -> Columns:
     SceneError
         Numbers of the beam that do not belong together, two places for one thing, or none that double precision holds.
     """
-    beam = scene.beam
-    spans = len(beam.spans)
+    beam, spans = scene.beam, len(scene.beam.spans)
     span = _empty(4, spans)
     span[0, :spans] = beam.spans
     for row, key in enumerate(("EI", "GA", "EA"), 1):
@@ -119,7 +119,7 @@ def columns(scene: Scene) -> Columns:
     if not scene.combinations:
         _settle(load_codes[:, :-1], load_values[:, :-1], values)
     return Columns(
-        span, hinge, _sections(scene.sections), codes, values, law_supports, law, load_codes, load_values,
+        span, hinge, _sections(scene.sections, scene.axial_ground), codes, values, law_supports, law, load_codes, load_values,
         *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
     )  # fmt: skip
 
@@ -149,10 +149,10 @@ def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
     return found
 
 
-def _sections(items: Sequence[Any]) -> np.ndarray:
-    found = _empty(11, len(items))
+def _sections(items: Sequence[Any], grounds: Sequence[AxialGround]) -> np.ndarray:
+    found = _empty(12, len(items))
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
-    found[5:8], found[8:] = NOT_GIVEN, 1.0
+    found[5:8], found[8:11], found[11] = NOT_GIVEN, 1.0, 0.0
     for row, key in enumerate(("EI", "GA", "EA"), 2):
         values = _column(items, key)
         tapered = [i for i, one in enumerate(values) if isinstance(one, tuple | Taper)] if isinstance(values, list) else []
@@ -162,7 +162,7 @@ def _sections(items: Sequence[Any]) -> np.ndarray:
         found[row, :-1] = [NOT_GIVEN if one is None else ends_of(one)[0] for one in values]
         for i in tapered:
             found[[row + 3, row + 6], i] = ends_of(values[i])[1:]
-    return found
+    return with_ground(found, grounds, NOT_GIVEN)
 
 
 def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:

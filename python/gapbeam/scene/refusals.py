@@ -30,6 +30,7 @@ EXPECTED = {
     "settlement": "a finite number",
     "rotation": '"free", "fixed" or a number, 0 or more',
     "friction": "a finite number, 0 or more",
+    "limit": "a finite number, 0 or more",
 }
 AXIAL = {
     "rotation": "an axial support holds no rotation; a normal one here can do that",
@@ -56,8 +57,13 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if table == HINGES and i >= len(scene.beam.hinges):
         return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
     items = scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
-    item, path = items[i], f"{NAMES[table]}[{i}]"
-    end = scene.span_ends()[-1]
+    if table == SECTIONS and i >= len(items):  # ground along the beam is given to the layer as sections
+        i, items = i - len(items), scene.axial_ground
+        path, message = f"axial_ground[{i}]", message.replace(": friction: ", ": limit: ")
+        key = "limit" if key == "friction" else key
+    else:
+        path = f"{NAMES[table]}[{i}]"
+    item, end = items[i], scene.span_ends()[-1]
     if table == SECTIONS and key and (reason == BAD_LAW or not isinstance(getattr(item, key, 0.0), float | int | None)):
         return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
     if reason == BAD_LAW:
@@ -84,7 +90,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         AT_END: lambda: f"x = {number(item)} is an end of the beam, where no hinge can be; remove it",
         TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
-        NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", or friction',
+        NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", friction, or axial_ground',
         AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
         'which side takes it; say at_hinge = "left" or "right"',
     }
@@ -157,7 +163,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
             key = "rotation"
     value = getattr(item, "from_" if key == "from" else key)
     expected = EXPECTED.get(key, "a finite number") if table != LOADS else "a finite number"
-    if table == SECTIONS:
+    if table == SECTIONS and key != "limit":
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):
         expected = "finite numbers, 0 or more" if key == "k" else "finite numbers"

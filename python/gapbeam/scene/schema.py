@@ -10,6 +10,7 @@ from typing import Any, get_args
 import msgspec
 
 from .analysis import Analysis
+from .axial_ground import AxialGround
 from .ground_laws import GroundLawTable, LawAt
 from .joints import Hinge, Rotation
 from .laws import LawTable
@@ -33,7 +34,8 @@ def scene_schema() -> dict[str, Any]:
     'Distance to be closed before it acts (length); negative = set too high; one-sided supports only.'
     """
     schema = msgspec.json.schema(Scene)
-    tables = (Units, Beam, Section, Taper, Hinge, Support, Rotation, Foundation, Train, Combination, Analysis, Limits, Scene)
+    grounds = Foundation, AxialGround
+    tables = (Units, Beam, Section, Taper, Hinge, Support, Rotation, *grounds, Train, Combination, Analysis, Limits, Scene)
     for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]

@@ -34,6 +34,7 @@ from msgspec import field
 
 from ..base.files import write_files
 from .analysis import Analysis
+from .axial_ground import AxialGround
 from .edited import to_data, to_toml
 from .ground_laws import GroundLaw
 from .ground_tables import Along
@@ -296,6 +297,8 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Supports; results list them in the same order.
     foundation : list of Foundation
         Elastic ground under stretches of the beam.
+    axial_ground : list of AxialGround
+        Ground that holds the beam along its axis.
     loads : list of Load
         Loads, each of a load case.
     trains : list of Train
@@ -315,6 +318,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     hinges: list[Hinge] = []
     supports: list[Support] = []
     foundation: list[Foundation] = []
+    axial_ground: list[AxialGround] = []
     loads: list[Load] = []
     trains: list[Train] = []
     combinations: list[Combination] = []

@@ -40,14 +40,14 @@ def check_beam(beam: Beam) -> None:
 
 
 def is_held_along(scene: Scene) -> bool:
-    """Tell whether a support holds the beam along its axis, so that elongations matter.
+    """Tell whether a support or the ground holds the beam along its axis, so that elongations matter.
 
     Parameters
     ----------
     scene : Scene
         Keys and types are right.
     """
-    return any(support.direction == "axial" or support.friction for support in scene.supports)
+    return bool(scene.axial_ground) or any(support.direction == "axial" or support.friction for support in scene.supports)
 
 
 def effect_of(scene: Scene, k: int, load: Any) -> tuple[float, float]:

@@ -363,7 +363,8 @@ type = "linear"; q = [1.0, 2.0]; from = 5.0; to = 25.0 ->
 type = "curvature"; kappa = 1.0; from = -5.0 ->
     loads[1].from: -5 is outside the beam, which runs from x = 0 to x = 18
 type = "axial"; F = 1.0; node = 0 ->
-    loads[1]: nothing holds the beam horizontally; give a support direction = "axial", or friction
+    loads[1]: nothing holds the beam horizontally; give a support direction = "axial", friction, or
+    axial_ground
 """
 
 

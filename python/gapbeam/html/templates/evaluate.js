@@ -74,6 +74,7 @@ class State {
       : factors.reduce((sum, one, j) => sum + mixed[j] * one, 0);
     const near = nodes[Math.round(share * (nodes.length - 1))];
     this.zones = near.zones || [];
+    this.parts = this.exactNode ? this.exactNode.n_parts : null;
     this.free = near.free || [];
     this.axles = (way.axles || []).map(([offset, force]) => [at + offset, force]);
     this.bands = (way.uniform || []).map(([q, from, to]) => [at + from, at + to, q]);
@@ -130,8 +131,22 @@ class State {
     return this.beam.grid ? this.onGrid(name, k, x, left) : this.inPiece(name, k, x - this.beam.x[k], left);
   }
 
+  /* Axial force on ground along the beam, straight between the ends of slip zones; between two states of them by many places. */
+  inPart(x, left) {
+    const parts = this.parts;
+    if (!parts) {
+      const last = this.n_grid.length - 1, at = Math.min(Math.max((x / this.beam.x[this.beam.x.length - 1]) * last, 0), last);
+      const low = Math.min(Math.floor(at), last - 1);
+      return this.n_grid[low] + (this.n_grid[low + 1] - this.n_grid[low]) * (at - low);
+    }
+    const [a, b, from, to] = parts.find(([p, q]) => (left ? x > p && x <= q : x >= p && x < q))
+      || parts[x <= parts[0][0] ? 0 : parts.length - 1];
+    return b > a ? from + ((to - from) * (x - a)) / (b - a) : from;
+  }
+
   inPiece(name, k, s, left) {
     const [length, flexible, soft] = this.beam.pieces[k], t = s / length, square = length * length;
+    if (name === "axial_force" && this.n_grid) return this.inPart(this.beam.x[k] + s, left);
     if (name === "axial_force") return !this.n ? 0 : this.n_left ? this.n[k] * (1 - t) + this.n_left[k] * t : this.n[k];
     const load = [0, 1, 2].map((i) => this.beam.dead[k][i] + this.factor * this.beam.live[k][i]);
     const m0 = this.m[k], m1 = this.m_left[k];

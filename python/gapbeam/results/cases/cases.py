@@ -339,7 +339,7 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if movements is not None:
         beam = beam_of(scene)
     if beam.has_links_along:
-        what = "friction, or axial supports that push one way or have a law"
+        what = "friction, ground along the beam, or axial supports that push one way or have a law"
         raise SceneError("supports", f"cases cannot be prepared beside {what}; use gapbeam.solve for each case")
     if beam.beyond_one_search is not None:
         what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...engine.axial_ground import least_tensions
 from ...engine.beam import SOLVED, Beam
 from ...engine.combinations import Varied, solve_combinations
 from ...engine.quantities import FIELDS
@@ -25,7 +26,9 @@ TENSION = FIELDS.index("axial_force")
 
 
 def tensions(beam: Beam, step: Step) -> np.ndarray:
-    """Give the axial force of every piece in a state, the smaller of those at its two ends."""
+    """Give the axial force of every piece in a state, the smallest along it."""
+    if beam.is_on_axial_ground:
+        return least_tensions(step.solution)
     return np.minimum(*(step.solution.values(*ends)[TENSION] for ends in ends_of_pieces(beam)))
 
 
@@ -78,7 +81,8 @@ def check_compression(result: Result) -> None:
     if result._beam.bars < 0:
         return
     struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
-    if result._beam.has_links_along and not any(isinstance(load, AxialUniformLoad) for load in result.scene.loads):
+    is_straight = not (result._beam.is_on_axial_ground or any(isinstance(load, AxialUniformLoad) for load in result.scene.loads))
+    if result._beam.has_links_along and is_straight:
         states = _along(result, struts)
     else:
         on_the_way = chain(result.steps, _begins(result))

@@ -27,6 +27,7 @@ from .fields import Fields, find_places
 from .ground import with_ends_of_zones
 from .motion import SLIDES, describe_motion
 from .schemes import starting_scheme
+from .slip_zones import with_ends_of_slip
 from .step import Step, solve_step
 from .steps import LoadSteps, Steps
 from .system import System, system_of
@@ -324,7 +325,7 @@ class States(Pickled):
         -------
         Fields
             With every place between two pieces twice: the values left of it, then those right of it. On the ground the ends
-            of the zones of contact are among them.
+            of the zones of contact, or of slip, are among them.
 
         Raises
         ------
@@ -338,6 +339,8 @@ class States(Pickled):
         lengths, places = self._beam.places.pieces[:, 0], self._beam.places
         if state.solution.ground is not None:
             piece, distance = with_ends_of_zones(piece, distance, self._beam, state.solution.ground)
+        elif self._beam.is_on_axial_ground:
+            piece, distance = with_ends_of_slip(piece, distance, state)
         x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
         return self._fields(x, piece + np.int32(1), distance, state)
 

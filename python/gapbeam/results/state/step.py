@@ -23,6 +23,7 @@ from ...engine.units import bound_in_scene
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
+from .slip_zones import SlipZone, slip_zones
 from .state_extremes import extremes_of_state
 
 SLIDING = {0: "sticks", 1: "right", -1: "left"}
@@ -199,6 +200,11 @@ class Step(Pickled):
         moment = self.values(*self._beam.find(x[which], left=False))[FIELDS.index("moment")]
         turned = moment / stiffness[which]
         return tuple(map(HingeState._make, zip(x[which].tolist(), moment.tolist(), turned.tolist(), strict=True)))
+
+    @cached_property
+    def slip_zones(self) -> tuple[SlipZone, ...]:
+        """Where the beam slides over ground along its axis, or has slid last, from left to right."""
+        return slip_zones(self)
 
     @property
     def friction(self) -> np.ndarray:

@@ -135,7 +135,7 @@ def test_what_makes_no_sense_is_refused(loads, beam, words):
 
 def test_what_is_not_there_yet_is_refused_by_name():
     one = scene([])
-    with pytest.raises(SceneError, match="ground along the axis is not available in this version"):
+    with pytest.raises(SceneError, match="ground along the beam that is elastic is not available in this version"):
         gapbeam.read_scene(one | {"axial_ground": [{"stiffness": 1e5, "limit": 1.5}]})
 
 

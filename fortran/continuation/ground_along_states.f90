@@ -1,0 +1,120 @@
+!> States of a beam on ground along its axis at load factors on a path, and their audit.
+module gapbeam_ground_along_states
+    use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: slip_audited
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
+    use gapbeam_words, only: shown
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, first_parts, length_of
+    use gapbeam_ground_along_steps, only: begin, go_on
+    use gapbeam_history_record, only: history_type
+    use gapbeam_solution, only: state_type
+    implicit none
+    private
+    public :: take_ground_along
+
+contains
+
+    !> What there is along the beam at a load factor on a stretch
+    subroutine take_ground_along(beam, history, stretch, factor, state, error)
+        !> With the loads of the leg: its dead ones as live ones while these are put on
+        type(assembled_type), intent(in) :: beam
+        type(history_type), intent(in) :: history
+        integer, intent(in) :: stretch
+        real(wp), intent(in) :: factor
+        !> Of the same beam
+        type(state_type), intent(inout) :: state
+        !> It does not stand its audit
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_along_type) :: ground
+        type(rates_type) :: rates
+        real(wp) :: way, gone, worst
+        integer :: first(size(beam%axial%limit) + 1), i, k
+        logical :: done
+
+        associate (known => history%along%on_ground, s => history%stretches(stretch))
+            k = 0
+            do i = 1, history%along%number
+                if (known(i)%stretch > stretch) exit
+                ! Of a stretch that is passed in a jump there is one only
+                if (known(i)%stretch < stretch .or. k == 0) k = i
+                if (known(i)%stretch == stretch .and. (factor - known(i)%factor)*(s%to - s%from) >= 0.0_wp) k = i
+            end do
+            ground = known(k)%ground
+            way = abs(factor - known(k)%factor)
+            if (known(k)%stretch < stretch .or. s%skipped) way = 0.0_wp
+        end associate
+        if (way > 0.0_wp) then
+            call find_rates(ground, rates)
+            call begin(ground, rates, way, gone)
+            call go_on(ground, way, gone, done)
+        end if
+        associate (axial => beam%axial)
+            state%displacement(:) = ground%displacement
+            state%tension(:) = least_forces(ground)
+            state%axial_reaction(:) = -axial%force(1, :) - factor*axial%force(2, :)
+            first(:) = first_parts(ground)
+            associate (reaction => state%axial_reaction(0:), n => size(ground%limit))
+                reaction(2:) = reaction(2:) + ground%parts(first(2:) - 1)%force &
+                    + ground%parts(first(2:) - 1)%slope*ground%limit
+                reaction(:n) = reaction(:n) - ground%parts(first(:n))%force
+            end associate
+            worst = misfit(ground, state%axial_reaction)
+        end associate
+        state%along_ground = ground
+        if (worst <= slip_audited) return
+        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
+                         "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(factor))// &
+                         "; report the scene")
+    end subroutine take_ground_along
+
+    !> Smallest axial force of every bar
+    pure function least_forces(ground) result(least)
+        type(ground_along_type), intent(in) :: ground
+        real(wp) :: least(size(ground%limit))
+        integer :: k
+
+        least(:) = huge(1.0_wp)
+        do k = 1, size(ground%parts)
+            associate (part => ground%parts(k))
+                least(part%bar) = min(least(part%bar), part%force + part%slope*ground%limit(part%bar)*part%to, &
+                                      part%force + part%slope*ground%limit(part%bar)*(part%to - length_of(ground, k)))
+            end associate
+        end do
+    end function least_forces
+
+    !> What is off, relative to the largest: lengths of bars beside displacements of their nodes, forces where parts meet, reactions
+    pure function misfit(ground, reaction) result(worst)
+        type(ground_along_type), intent(in) :: ground
+        real(wp), intent(in) :: reaction(0:)
+        real(wp) :: worst
+        real(wp) :: longer(size(ground%limit)), most, way
+        integer :: i, k
+
+        most = max(maxval(abs(ground%parts%force)), maxval(ground%limit), maxval(abs(reaction)))
+        way = max(maxval(abs(ground%displacement)), most*maxval(ground%softness), maxval(abs(ground%longer)))
+        longer(:) = ground%longer
+        worst = 0.0_wp
+        do k = 1, size(ground%parts)
+            associate (part => ground%parts(k), j => ground%parts(k)%bar)
+                longer(j) = longer(j) + ground%softness(j)*length_of(ground, k)* &
+                            (part%force + part%slope*ground%limit(j)*(part%to - length_of(ground, k)/2))
+                if (k == size(ground%parts)) cycle
+                if (ground%parts(k + 1)%bar /= j) cycle
+                worst = max(worst, abs(part%force - ground%parts(k + 1)%force &
+                                       + (part%slope - ground%parts(k + 1)%slope)*ground%limit(j)*part%to)/most)
+            end associate
+        end do
+        do i = 1, size(longer)
+            worst = max(worst, abs(ground%displacement(i) - ground%displacement(i - 1) - longer(i))/way)
+        end do
+        do i = 0, size(longer)
+            if (ground%stiffness(i) > huge(most)) then
+                worst = max(worst, abs(ground%displacement(i))/way)
+            else
+                worst = max(worst, abs(reaction(i) + ground%stiffness(i)*ground%displacement(i))/most)
+            end if
+        end do
+    end function misfit
+
+end module gapbeam_ground_along_states
