@@ -10,7 +10,7 @@ module gapbeam_ground_along
     use gapbeam_path_tolerances, only: beginning_part
     implicit none
     private
-    public :: part_type, ground_along_type, rates_type, new_ground_along, start_leg, find_rates, first_parts, length_of
+    public :: part_type, ground_along_type, rates_type, new_ground_along, start_leg, find_rates, first_parts, length_of, force_in
 
     !> A part of a bar over which the axial force is straight
     type :: part_type
@@ -141,6 +141,18 @@ contains
             length = back - ground%parts(i)%back
         end if
     end function length_of
+
+    !> Axial force that a part has, or would have, at a share of its bar
+    pure function force_in(ground, i, share) result(force)
+        type(ground_along_type), intent(in) :: ground
+        integer, intent(in) :: i
+        real(wp), intent(in) :: share
+        real(wp) :: force
+
+        associate (part => ground%parts(i))
+            force = part%force + part%slope*ground%limit(part%bar)*share
+        end associate
+    end function force_in
 
     !> Rates of all parts and nodes; nodes that begin to slide on a side are still at rest
     pure subroutine find_rates(ground, rates)

@@ -5,7 +5,7 @@ module gapbeam_ground_along_slip
     use gapbeam_ground_along, only: part_type, ground_along_type, rates_type, find_rates, first_parts, length_of
     implicit none
     private
-    public :: find_motion, start_sliding, longest_start, remove_parts, begins, are_pushed
+    public :: find_motion, start_sliding, longest_start, remove_parts, are_pushed
 
 contains
 
@@ -285,15 +285,5 @@ contains
 
         it_may = ground%parts(k)%slope == way .or. .not. ground%limit(ground%parts(k)%bar) > 0.0_wp
     end function slides_with
-
-    !> Does a node begin to slide
-    pure function begins(ground)
-        type(ground_along_type), intent(in) :: ground
-        logical :: begins
-        type(rates_type) :: rates
-
-        call find_rates(ground, rates)
-        begins = .not. rates%lost .and. any(rates%begins)
-    end function begins
 
 end module gapbeam_ground_along_slip

@@ -5,7 +5,7 @@ module gapbeam_ground_along_states
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, first_parts, length_of
+    use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, first_parts, length_of, force_in
     use gapbeam_ground_along_steps, only: begin, go_on
     use gapbeam_history_record, only: history_type
     use gapbeam_solution, only: state_type
@@ -28,9 +28,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(ground_along_type) :: ground
         type(rates_type) :: rates
+        real(wp), allocatable :: longer(:)
         real(wp) :: way, gone, worst
         integer :: first(size(beam%axial%limit) + 1), i, k
-        logical :: done
 
         associate (known => history%along%on_ground, s => history%stretches(stretch))
             k = 0
@@ -47,7 +47,7 @@ contains
         if (way > 0.0_wp) then
             call find_rates(ground, rates)
             call begin(ground, rates, way, gone)
-            call go_on(ground, way, gone, done)
+            call go_on(ground, way, gone)
         end if
         associate (axial => beam%axial)
             state%displacement(:) = ground%displacement
@@ -59,7 +59,9 @@ contains
                     + ground%parts(first(2:) - 1)%slope*ground%limit
                 reaction(:n) = reaction(:n) - ground%parts(first(:n))%force
             end associate
-            worst = misfit(ground, state%axial_reaction)
+            allocate (longer(size(axial%limit)), source=0.0_wp)
+            if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + factor*axial%elongation(2, :)
+            worst = misfit(ground, longer, state%axial_reaction)
         end associate
         state%along_ground = ground
         if (worst <= slip_audited) return
@@ -77,32 +79,32 @@ contains
         least(:) = huge(1.0_wp)
         do k = 1, size(ground%parts)
             associate (part => ground%parts(k))
-                least(part%bar) = min(least(part%bar), part%force + part%slope*ground%limit(part%bar)*part%to, &
-                                      part%force + part%slope*ground%limit(part%bar)*(part%to - length_of(ground, k)))
+                least(part%bar) = min(least(part%bar), force_in(ground, k, part%to), &
+                                      force_in(ground, k, part%to - length_of(ground, k)))
             end associate
         end do
     end function least_forces
 
     !> What is off, relative to the largest: lengths of bars beside displacements of their nodes, forces where parts meet, reactions
-    pure function misfit(ground, reaction) result(worst)
+    pure function misfit(ground, free, reaction) result(worst)
         type(ground_along_type), intent(in) :: ground
-        real(wp), intent(in) :: reaction(0:)
+        !> What the loads give, however the state was come to: elongations of the bars without force, and forces of the supports
+        real(wp), intent(in) :: free(:), reaction(0:)
         real(wp) :: worst
         real(wp) :: longer(size(ground%limit)), most, way
         integer :: i, k
 
         most = max(maxval(abs(ground%parts%force)), maxval(ground%limit), maxval(abs(reaction)))
-        way = max(maxval(abs(ground%displacement)), most*maxval(ground%softness), maxval(abs(ground%longer)))
-        longer(:) = ground%longer
+        way = max(maxval(abs(ground%displacement)), most*maxval(ground%softness), maxval(abs(free)))
+        longer(:) = free
         worst = 0.0_wp
         do k = 1, size(ground%parts)
             associate (part => ground%parts(k), j => ground%parts(k)%bar)
-                longer(j) = longer(j) + ground%softness(j)*length_of(ground, k)* &
-                            (part%force + part%slope*ground%limit(j)*(part%to - length_of(ground, k)/2))
+                longer(j) = longer(j) &
+                    + ground%softness(j)*length_of(ground, k)*force_in(ground, k, part%to - length_of(ground, k)/2)
                 if (k == size(ground%parts)) cycle
                 if (ground%parts(k + 1)%bar /= j) cycle
-                worst = max(worst, abs(part%force - ground%parts(k + 1)%force &
-                                       + (part%slope - ground%parts(k + 1)%slope)*ground%limit(j)*part%to)/most)
+                worst = max(worst, abs(force_in(ground, k, part%to) - force_in(ground, k + 1, part%to))/most)
             end associate
         end do
         do i = 1, size(longer)

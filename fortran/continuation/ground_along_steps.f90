@@ -4,7 +4,7 @@ module gapbeam_ground_along_steps
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: first_slip, found_slip, slip_settled, stiff_part
     use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, length_of
-    use gapbeam_ground_along_slip, only: find_motion, start_sliding, longest_start, begins
+    use gapbeam_ground_along_slip, only: find_motion, start_sliding, longest_start
     use gapbeam_ground_along_stiff, only: take_stiff_step
     implicit none
     private
@@ -15,17 +15,16 @@ module gapbeam_ground_along_steps
 
 contains
 
-    !> Go a way with the load, on which no part begins or ends and no node stops
-    pure subroutine go_on(ground, way, gone, done)
+    !> Go a way with the load, on which no part begins or ends and no node stops; less where steps become too small, which the audit
+    !> of the state tells
+    pure subroutine go_on(ground, way, gone)
         type(ground_along_type), intent(inout) :: ground
         !> How far, and how far parts that begin have gone of it
         real(wp), intent(in) :: way
         real(wp), intent(inout) :: gone
-        !> False where steps became too small
-        logical, intent(out) :: done
         real(wp) :: step
+        logical :: done
 
-        done = .true.
         step = first_step(way, gone)
         do while (way - gone > epsilon(way)*way)
             step = min(step, way - gone)
@@ -55,12 +54,12 @@ contains
         gone = 0.0_wp
         way = first_slip*most
         do round = 1, most_rounds
-            if (.not. begins(ground) .or. gone >= most) return
+            if (rates%lost .or. .not. any(rates%begins) .or. gone >= most) return
             way = min(way, most - gone, longest_start(ground, rates))
             call start_sliding(ground, rates, way)
             gone = gone + way
             call find_motion(ground, rates, settled)
-            if (.not. settled .or. rates%lost) return
+            if (.not. settled) return
             ! What pushes little has not come farther than rounding
             way = 2*way
         end do

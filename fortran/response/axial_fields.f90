@@ -5,7 +5,7 @@ module gapbeam_axial_fields
     use gapbeam_piece_stiffness, only: stiffness_along
     use gapbeam_taper, only: mean_softness
     use gapbeam_assemble_axial, only: axial_node
-    use gapbeam_ground_along, only: ground_along_type, length_of
+    use gapbeam_ground_along, only: ground_along_type, length_of, force_in
     implicit none
     private
     public :: axial_fields, extremes_along
@@ -141,9 +141,8 @@ contains
         do k = findloc(ground%parts%bar, bar, 1), size(ground%parts)
             associate (p => ground%parts(k))
                 to = min(share, p%to)
-                tension = p%force + p%slope*ground%limit(bar)*share
-                displacement = displacement &
-                    + (to - from)*ground%softness(bar)*(p%force + p%slope*ground%limit(bar)*(from + to)/2)
+                tension = force_in(ground, k, share)
+                displacement = displacement + (to - from)*ground%softness(bar)*force_in(ground, k, (from + to)/2)
                 from = to
                 if (present(part)) then
                     if (k == part) return

@@ -222,8 +222,22 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
     """
     of = ground.values[0].astype(piece.dtype) - 1
     inside = np.append(of[1:] == of[:-1], False)
-    piece = np.append(piece, of[inside])
-    distance = np.append(distance, scaled(ground.values[2, inside], beam.units.length))
+    return with_places(piece, distance, of[inside], scaled(ground.values[2, inside], beam.units.length))
+
+
+def with_places(
+    piece: np.ndarray, distance: np.ndarray, other_piece: np.ndarray, other_distance: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Put places among others, unless they are there.
+
+    Parameters
+    ----------
+    piece, distance
+        As for `with_ends_of_zones`.
+    other_piece, other_distance : numpy.ndarray
+        Those to put among them.
+    """
+    piece, distance = np.append(piece, other_piece), np.append(distance, other_distance)
     order = np.lexsort((distance, piece))
     piece, distance = piece[order], distance[order]
     new = np.append(True, (np.diff(piece) != 0) | (np.diff(distance) != 0.0))

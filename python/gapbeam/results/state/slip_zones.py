@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...engine.axial_ground import parts_that_slide
+from .ground import with_places
 
 if TYPE_CHECKING:
     from .step import Step
@@ -73,8 +74,4 @@ def with_ends_of_slip(piece: np.ndarray, distance: np.ndarray, step: Step) -> tu
     """
     ends = np.array([x for zone in step.slip_zones for x in (zone.from_, zone.to)])
     pieces, distances = step._beam.find(ends, left=False)
-    pieces, distances = np.append(piece, pieces - 1), np.append(distance, distances)
-    order = np.lexsort((distances, pieces))
-    pieces, distances = pieces[order], distances[order]
-    new = np.append(True, (np.diff(pieces) != 0) | (np.diff(distances) > 0.0))
-    return pieces[new].astype(piece.dtype), distances[new]
+    return with_places(piece, distance, (pieces - 1).astype(piece.dtype), distances)
