@@ -225,21 +225,22 @@ def test_the_thread_that_is_left_ends_with_its_call():
     assert ended.wait(5)
 
 
-def test_the_next_call_with_a_beam_waits_for_the_one_that_is_left(monkeypatch):
+def test_the_next_call_with_a_beam_waits_for_the_one_that_is_left():
     """It would be ended with it, and told of a signal that is long past."""
     solution = gapbeam.solve(gapped_spans(300)).steps[-1].solution
-    certified, begun, ended = solution.certify(), threading.Event(), threading.Event()
+    certified, begun, may_end, ended = solution.certify(), threading.Event(), threading.Event(), threading.Event()
 
     def stubborn(_):
-        """Look at nothing for longer than is waited for."""
+        """Look at nothing until told."""
         begun.set()
-        time.sleep(4 * calls.PATIENCE)
+        may_end.wait(60)
         ended.set()
 
     threading.Thread(target=lambda: begun.wait() and _thread.interrupt_main()).start()
     with pytest.raises(KeyboardInterrupt):
         calls.interruptible(stubborn)(solution.state.beam.handle)
     assert not ended.is_set()
+    threading.Timer(4 * calls.PATIENCE, may_end.set).start()
     again = solution.certify()
     assert ended.is_set()
     assert all(np.array_equal(one, other) for one, other in zip(certified, again, strict=True))
