@@ -32,8 +32,8 @@ contains
 
         m = size(ground%parts)
         n = size(ground%displacement)
-        ends%inside = pack([(k, k=1, m - 1)], ground%parts(2:)%bar == ground%parts(:m - 1)%bar)
-        ends%from_right = ground%parts(ends%inside)%back < ground%parts(ends%inside)%to
+        allocate (ends%inside, source=pack([(k, k=1, m - 1)], ground%parts(2:)%bar == ground%parts(:m - 1)%bar))
+        allocate (ends%from_right, source=ground%parts(ends%inside)%back < ground%parts(ends%inside)%to)
         associate (q => size(ends%inside), parts => ground%parts(ends%inside))
             allocate (start(q + m + n), size_of(q + m + n), table(q + m + n, most_columns))
             start(:) = [merge(parts%back, parts%to, ends%from_right), ground%parts%force, ground%displacement]
