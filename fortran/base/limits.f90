@@ -18,6 +18,7 @@ module gapbeam_limits
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
+    public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
@@ -223,6 +224,12 @@ module gapbeam_limits
     integer, parameter :: most_segment_rounds = 2
     !> So many nodes farther on supports hardly turn each other round; tuned. Read by cases/segment_search
     integer, parameter :: neighbourhood = 20
+    !> Rounds in which what touches rigid ground moves; some ten do, a few in quadruple precision. Read by contact/rigid_ground
+    integer, parameter :: most_rigid_rounds = merge(80, 40, digits(1.0_wp) < 64)
+    !> Parts of the beam between places at which it may touch rigid ground at first; tuned. Read by precision/rigid_search
+    integer, parameter :: first_rigid_parts = 48
+    !> Meshes, each four times finer than the one before, after which it is given up; tuned. Read by precision/rigid_solver
+    integer, parameter :: most_rigid_meshes = 4
     !> Columns from which on what was passed on into a segment is hardly felt; not longer than is cheap to keep; tuned. Read by
     !> cases/segment_two_sided_sweep, cases/segment_types
     integer, parameter :: kept_columns = 48

@@ -21,6 +21,7 @@ module gapbeam_tolerances
     public :: everywhere, audit_allows, movement_safety, fine_error, upward, rough, nearly_settled, fine_ends, movable_ends
     public :: no_displacement, min_tied_zone, least_tied_share, no_tied_force, no_ground_work, fine_rounding, near_motion
     public :: ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance, same_extreme
+    public :: rigid_noise, shortest_zone, rigid_places, fine_rigid_places
     public :: worst_shear_digits, largest_error_share, second_order, greatest_squared, smallest_squared, greatest_product
     public :: smallest_product, least_load, unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error
 
@@ -51,8 +52,8 @@ module gapbeam_tolerances
 
     !> Positions whose difference is at most this share of the larger one are the same place: sums of some sixty spans may be so
     !> far off. Read by moving_load/train, moving_load/train_on_beam, response/query, scene/assemble_laws,
-    !> scene/assemble_supports, scene/check, scene/check_foundations, scene/stations and, through the engine, by
-    !> gapbeam.scene.places
+    !> scene/assemble_supports, scene/check, scene/check_foundations, scene/check_rigid_ground, scene/stations and, through the
+    !> engine, by gapbeam.scene.places
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
     !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off.
     !> Read by response/query, scene/check and, through the engine, by gapbeam.scene.trains
@@ -285,6 +286,16 @@ module gapbeam_tolerances
     !> Ends that still move by no more are taken, with the fields there: what is left is the square of the way. Read by
     !> precision/ground_solver
     real(qp), parameter :: movable_ends = 1e-11_qp
+    !> Deflections, moments and forces of a smaller share of the greatest are nothing where it is asked whether a beam touches rigid
+    !> ground; tuned. Read by contact/rigid_state
+    real(wp), parameter :: rigid_noise = 2.0_wp**20*epsilon(1.0_wp)
+    !> Zones on rigid ground that shrink below this share of their piece are single places; tuned. Read by contact/rigid_zones
+    real(wp), parameter :: shortest_zone = 2.0_wp**(-26)
+    !> Share of the beam by which places of contact with rigid ground may still move in double precision: its square is nothing.
+    !> Read by precision/rigid_solver
+    real(wp), parameter :: rigid_places = 2.0_wp**(-26)
+    !> The same in quadruple precision: its square, which is what is left, is nothing there. Read by precision/rigid_solver
+    real(qp), parameter :: fine_rigid_places = 2.0_qp**(-80)
     !> Part of the largest displacement of a motion on the ground that is none; tuned. Read by precision/ground_solver
     real(wp), parameter :: no_displacement = 1e-6_wp
     !> Zones of less than this share of the beam have no length: rounding of the place. Read by precision/ground_ties

@@ -22,6 +22,8 @@ module gapbeam_layers
         !> The law, if not by points, and its parameters at the left and right end of the piece, linear in between
         integer :: law = law_by_points
         real(wp) :: parameter_a(parameters_of_law) = 0.0_wp, parameter_b(parameters_of_law) = 0.0_wp
+        !> Does it never give way: its moduli are 0 then, and it pushes one way
+        logical :: rigid = .false.
     end type layer_type
 
     !> A piece of a law: from a displacement past the contact and the force per length there, with a slope that is not below 0

@@ -258,6 +258,12 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
                     if (acts == 0 .or. is_curve(layer, acts)) cycle
+                    if (layer%rigid) then
+                        ! It takes all load that lies there
+                        dead = stretch_load_type()
+                        live = stretch_load_type()
+                        exit
+                    end if
                     law = law_piece(layer, ground%laws, acts)
                     slope(:) = slope_of_layer(layer, law, acts, [from, to], p%length)
                     contact(:) = contact_line(layer, [from, to], p%length)

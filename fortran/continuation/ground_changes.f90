@@ -6,7 +6,7 @@ module gapbeam_ground_changes
     use gapbeam_scene, only: gapbeam_both, gapbeam_below, gapbeam_above
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
-    use gapbeam_ground_zones, only: run_type, ground_runs
+    use gapbeam_ground_runs, only: run_type, ground_runs
     use gapbeam_pieces, only: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
     implicit none
     private

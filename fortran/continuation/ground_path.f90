@@ -2,8 +2,8 @@
 module gapbeam_ground_path
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: load_begin
-    use gapbeam_error, only: error_type
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_assembled_model, only: assembled_type, is_on_rigid_ground
     use gapbeam_solution, only: state_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_walk, only: walk_along
@@ -35,6 +35,11 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(ground_problem_type) :: problem
 
+        if (is_on_rigid_ground(assembled)) then
+            call fatal_error(error, gapbeam_bad_input, "a beam on rigid ground is not followed from event to event in this "// &
+                             "version; take steps, or give the ground a stiffness")
+            return
+        end if
         call new_ground_problem(assembled, factor, rule, state, problem)
         call go_along(problem, error)
         path = problem%path

@@ -121,7 +121,7 @@ end subroutine gbgget
 ! Stretches beside each other in which a layer does the same joined: by foundation, below before above, from left to right
 subroutine gbgrun(beam, state, ng, ny, number, about, values, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, behind, report
-    use gapbeam_ground_zones, only: run_type, ground_runs
+    use gapbeam_ground_runs, only: run_type, ground_runs
     implicit none
     integer(8), intent(in) :: beam, state
     ! As for GBGGET

@@ -11,7 +11,7 @@ module gapbeam_train_grid
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_normal, gapbeam_force, gapbeam_right_end, gapbeam_table_of_k, &
         gapbeam_table_of_parameter
     use gapbeam_laws, only: law_cubic
-    use gapbeam_assembled_model, only: assembled_type, in_bending
+    use gapbeam_assembled_model, only: assembled_type, in_bending, is_on_rigid_ground
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end
@@ -62,6 +62,11 @@ contains
         real(wp) :: step, count
         integer :: n, stat
 
+        if (is_on_rigid_ground(assembled)) then
+            call fatal_error(error, gapbeam_bad_input, "goes over rigid ground, which is not available in this version; give "// &
+                             "the ground a stiffness")
+            return
+        end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
         if (stat /= 0) then

@@ -11,11 +11,11 @@ module gapbeam_ground_audit
     use gapbeam_element, only: field_type
     use gapbeam_law, only: force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
-    use gapbeam_ground_laws, only: distance_to_breakpoint, push_of_layer
+    use gapbeam_ground_laws, only: contact_line, distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_fields, only: field_at_end, find_sizes
-    use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_supports, &
+    use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_contact, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
     implicit none
@@ -50,6 +50,9 @@ contains
         if (ledger%wrong /= 0) return
         do i = 1, m
             call find_sizes(solution, i, sizes_of(i), least_of(i))
+            ! The slope of rigid ground is known as well as its levels at the ends
+            if (allocated(solution%push)) sizes_of(i)%rotation = sizes_of(i)%rotation &
+                + sizes_of(i)%deflection/solution%stretches(i)%length
         end do
         ! Rigid parts pass rounding on
         associate (s => sizes_of, n => least_of)
@@ -74,6 +77,8 @@ contains
                 if (i > m) exit
                 if (solution%piece(i) /= j + 1) exit
                 call audit_border(i - 1)
+                part%force = part%force + push_at(i - 1)
+                part%force_size = part%force_size + abs(push_at(i - 1))
             end do
         end do
         associate (e => ledger%excesses)
@@ -142,8 +147,9 @@ contains
                 call fits(of_equilibrium, moments, b%moment - right, sizes%moment)
                 load = beam%force(1, j) + factor*beam%force(2, j)
                 couple = beam%couple(1, j) + factor*beam%couple(2, j)
-                up = 0.0_wp
-                up_size = abs(beam%force(1, j)) + abs(factor*beam%force(2, j))
+                up = push_at(i - 1)
+                call audit_push(i - 1, piece, at, w)
+                up_size = abs(up) + abs(beam%force(1, j)) + abs(factor*beam%force(2, j))
                 do s = beam%first(j), beam%first(j + 1) - 1
                     associate (k => beam%order(s))
                         up = up + solution%reaction(k)
@@ -229,10 +235,11 @@ contains
                 call note(ledger, of_bending, deflections, b%deflection - a%deflection, sizes%deflection, piece, at)
                 call note(ledger, of_bending, rotations, b%rotation - a%rotation, sizes%rotation, piece, at)
                 call note(ledger, of_equilibrium, moments, b%moment - a%moment, sizes%moment, piece, at)
-                call note(ledger, of_equilibrium, forces, b%shear - a%shear, sizes%shear, piece, at)
+                call note(ledger, of_equilibrium, forces, (b%shear - a%shear) - push_at(i), sizes%shear, piece, at)
+                call audit_push(i, piece, at, a%deflection)
                 incline = a%rotation + ground%pieces(piece)%shear_flexibility*a%shear
                 do k = 1, ground%first(piece + 1) - ground%first(piece)
-                    if (before(k) == after(k)) cycle
+                    if (before(k) == after(k) .or. ground%layers(ground%first(piece) + k - 1)%rigid) cycle
                     associate (layer => ground%layers(ground%first(piece) + k - 1))
                         do breakpoint = min(before(k), after(k)) + 1, max(before(k), after(k))
                             call distance_to_breakpoint(ground%laws, layer, breakpoint, a%deflection, incline, at, length, past, &
@@ -252,6 +259,36 @@ contains
                 end do
             end associate
         end subroutine audit_border
+
+        !> Point force of rigid ground where two stretches meet, up
+        pure function push_at(border) result(push)
+            !> Number of the stretch left of it, 0: left end of the beam
+            integer, intent(in) :: border
+            real(wp) :: push
+
+            push = 0.0_wp
+            if (allocated(solution%push)) push = solution%push(border)
+        end function push_at
+
+        !> Rigid ground pushes where the beam touches it, and does not pull
+        subroutine audit_push(border, piece, at, w)
+            integer, intent(in) :: border, piece
+            !> Distance from the left end of the piece, and deflection
+            real(wp), intent(in) :: at, w
+            real(wp) :: level
+            integer :: k
+
+            if (.not. abs(push_at(border)) > 0.0_wp) return
+            k = solution%pushing(border)
+            ! Of the piece, or at the left end of the next one
+            level = ground%layers(k)%contact_a
+            if (k >= ground%first(piece) .and. k < ground%first(piece + 1)) level = contact_line(ground%layers(k), at, &
+                                                                                                ground%pieces(piece)%length)
+            call note(ledger, of_zone_ends, deflections, w - level, abs(level) + sizes%deflection, piece, at)
+            if (ground%layers(k)%side*push_at(border) < 0.0_wp) then
+                call note(ledger, of_contact, pulls, push_at(border), sizes%shear, piece, at)
+            end if
+        end subroutine audit_push
 
         !> Sizes of the fields beside the left end of a stretch
         subroutine find_sizes_beside(stretch)

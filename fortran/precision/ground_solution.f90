@@ -41,6 +41,11 @@ module gapbeam_ground_solution
         real(wp), allocatable :: rotation(:, :), shear(:, :)
         !> Force of every layer on the stretch, up, shape (most layers of a piece, m)
         real(wp), allocatable :: resultant(:, :)
+        !> Of rigid ground, not allocated where there is none: pressure at both ends of every stretch, up, shape (2, m), and point
+        !> forces, up, at the right end of every stretch, at the beam's left end for 0, and which layer it is, 0: none; shape (0:m)
+        real(wp), allocatable :: pressure(:, :)
+        real(wp), allocatable :: push(:)
+        integer, allocatable :: pushing(:)
         !> At the nodes of the beam, shape (0:n)
         real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:)
         !> Of the supports

@@ -30,6 +30,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
+    use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_ties, only: stands_on_edge, may_move
     use gapbeam_ground_limit, only: find_collapse, find_limit
@@ -73,6 +74,12 @@ contains
         allocate (start(size(closed)))
         start(:) = closed
         call refine_ground(ground, detail, fine)
+        if (any(ground%layers%rigid)) then
+            call solve_on_rigid_ground(ground, fine, factor, rule, closed, grounded, work, solution, outcome, error)
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            call bound_errors(ground, grounded, work, factor, solution)
+            return
+        end if
         edges = 0
         if (present(near)) then
             closed(:) = near%closed
@@ -336,7 +343,7 @@ contains
             call compare(last, .true.)
         end do
         if (size(solution%reaction) > 0) then
-            solution%bounds(5) = maxval(abs(work%reaction - solution%reaction))
+            solution%bounds(5) = maxval(abs(work%reaction(:size(solution%reaction)) - solution%reaction))
             largest(5) = maxval(abs(solution%reaction))
         end if
         solution%bounds(:) = movement_safety*(solution%bounds + epsilon(1.0_wp)*largest)

@@ -38,7 +38,7 @@ contains
 
         fine = fine_layer_type(layer%foundation, layer%side, real(layer%modulus_a, qp), real(layer%modulus_b, qp), &
                                real(layer%contact_a, qp), real(layer%contact_b, qp), layer%law_first, layer%law_last, &
-                               layer%law, real(layer%parameter_a, qp), real(layer%parameter_b, qp))
+                               layer%law, real(layer%parameter_a, qp), real(layer%parameter_b, qp), layer%rigid)
     end function fine_layer
 
     !> A piece of a law in quadruple precision

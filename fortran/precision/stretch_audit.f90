@@ -15,7 +15,7 @@ module gapbeam_stretch_audit
     use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
-        moments, forces, beyond
+        moments, forces, beyond, pulls
     implicit none
     private
     public :: sums_type, audit_stretch, breakpoint_terms, pressure_terms
@@ -125,6 +125,7 @@ contains
                 terms(:) = 0.0_wp
                 do k = 1, n
                     terms(k) = pressure_terms(ground%layers(ground%first(j) + k - 1), ground%laws, solution%acts(k, i), wsize)
+                    if (ground%layers(ground%first(j) + k - 1)%rigid .and. solution%acts(k, i) > 0) terms(k) = qsize
                 end do
             end associate
         end subroutine take_sizes
@@ -152,8 +153,13 @@ contains
                         total = -q
                         do k = 1, n
                             if (solution%acts(k, i) == 0) cycle
-                            push = push_of_layer(ground%layers(ground%first(j) + k - 1), ground%laws, solution%acts(k, i), place, &
-                                                 ground%pieces(j)%length, field%deflection)
+                            associate (layer => ground%layers(ground%first(j) + k - 1))
+                                push = push_of_layer(layer, ground%laws, solution%acts(k, i), place, ground%pieces(j)%length, &
+                                                     field%deflection)
+                                if (layer%rigid) push = along(solution%pressure(1, i), solution%pressure(2, i), points(t), 1.0_wp)
+                                if (layer%rigid .and. layer%side*push < 0.0_wp) call note(ledger, of_contact, pulls, push, &
+                                                                                          terms(k), j, place)
+                            end associate
                             force(k) = force(k) + weights(t)*push
                             total = total + push
                         end do
@@ -283,8 +289,10 @@ contains
                                                     ground%pieces(j)%length, past, change)
                         now%away(side) = merge(past, -past, side == 1)
                         now%change(side) = merge(change, -change, side == 1)*s%length
-                        if (now%away(side) >= 0.0_wp) cycle
+                        ! In a zone on rigid ground the beam is not past the ground either
+                        if (now%away(side) >= 0.0_wp .and. .not. (layer%rigid .and. side == 1)) cycle
                         call breakpoint_terms(layer, ground%laws, breakpoint, wsize, steepness, terms_of_it)
+                        if (layer%rigid) terms_of_it = terms_of_it + least%deflection
                         if (at_end) terms_of_it = terms_of_it + ground%pieces(j)%length*abs(change)
                         if (steepness > 0.0_wp) then
                             call note(ledger, of_contact, beyond, now%away(side)/steepness, terms_of_it/steepness, j, place)

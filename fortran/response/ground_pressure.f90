@@ -44,6 +44,10 @@ contains
         integer :: k
 
         pressure = 0.0_wp
+        if (allocated(solution%pressure)) then
+            pressure = along(solution%pressure(1, i), solution%pressure(2, i), xi, 1.0_wp)
+            return
+        end if
         call values_in(assembled, solution, i, xi, field)
         associate (j => solution%piece(i))
             place = along(solution%from(i), solution%to(i), xi, 1.0_wp)

@@ -111,7 +111,7 @@ contains
                     if (with_points) then
                         if (.not. any(max(assembled%law_pieces(range(1):range(2))%slope_a, &
                                           assembled%law_pieces(range(1):range(2))%slope_b) > 0.0_wp)) here(piece) = 0
-                    else if (.not. carries(f%law, values(:, :, piece))) then
+                    else if (.not. (is_rigid(f) .or. carries(f%law, values(:, :, piece)))) then
                         here(piece) = 0
                     end if
                 end do
@@ -148,9 +148,27 @@ contains
                                    parameter_a=a(gapbeam_table_of_parameter:), parameter_b=b(gapbeam_table_of_parameter:))
             end associate
             if (.not. is_straight(assembled%law_pieces(range(1):range(2)))) layer%law = law_polyline
+            layer%rigid = is_rigid(assembled%model%foundations(foundation))
         end function layer_at
 
     end subroutine assemble_foundations
+
+    !> Does a foundation never give way
+    elemental function is_rigid(foundation) result(rigid)
+        type(foundation_type), intent(in) :: foundation
+        logical :: rigid
+
+        rigid = foundation%k > huge(foundation%k)
+    end function is_rigid
+
+    !> Moduli at its ends, of one that is rigid 0
+    pure function moduli_of(foundation) result(k)
+        type(foundation_type), intent(in) :: foundation
+        real(wp) :: k(2)
+
+        k = 0.0_wp
+        if (.not. is_rigid(foundation)) k = [foundation%k, at_right(foundation%k, foundation%k_to)]
+    end function moduli_of
 
     !> Does ground with a modulus, or a law with parameters, carry on a piece at all
     pure function carries(law, values) result(does)
@@ -233,17 +251,18 @@ contains
         integer, intent(in) :: first(:), last(:)
         !> Shape (quantities, 2, npiece); set on its pieces
         real(wp), intent(inout) :: values(:, :, :)
-        real(wp) :: whole, share, at_point(quantities)
+        real(wp) :: whole, share, at_point(quantities), k(2)
         integer :: left, right, p, q
 
         left = assembled%foundation_from(foundation)
         right = assembled%foundation_to(foundation)
         whole = distance(assembled, place_of(assembled, left), place_of(assembled, right))
+        k = moduli_of(assembled%model%foundations(foundation))
         associate (f => assembled%model%foundations(foundation))
             do p = left, right
                 share = distance(assembled, place_of(assembled, left), place_of(assembled, p))/whole
-                at_point = between([f%k, f%gap, f%parameter], [at_right(f%k, f%k_to), at_right(f%gap, f%gap_to), &
-                                                               at_right(f%parameter, f%parameter_to)], share)
+                at_point = between([k(1), f%gap, f%parameter], [k(2), at_right(f%gap, f%gap_to), &
+                                                                at_right(f%parameter, f%parameter_to)], share)
                 if (p > left) values(:, 2, p) = at_point
                 if (p < right) values(:, 1, p + 1) = at_point
             end do
@@ -300,8 +319,8 @@ contains
 
         do i = 1, size(model%foundations)
             associate (f => model%foundations(i))
-                most(:, i) = max(abs([f%k, f%gap, f%parameter]), abs([at_right(f%k, f%k_to), at_right(f%gap, f%gap_to), &
-                                                                      at_right(f%parameter, f%parameter_to)]))
+                most(:, i) = max([maxval(moduli_of(f)), abs(f%gap), abs(f%parameter)], &
+                                 [0.0_wp, abs(at_right(f%gap, f%gap_to)), abs(at_right(f%parameter, f%parameter_to))])
             end associate
         end do
         do i = 1, size(model%ground)

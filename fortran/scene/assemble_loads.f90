@@ -10,6 +10,7 @@ module gapbeam_assemble_loads
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
+    use gapbeam_check_rigid_ground, only: check_rigid_ground
     use gapbeam_assemble_units, only: change_units, load_in_units, refuse_link
     use gapbeam_input_error, only: refuse, of_loads, bad_load
     implicit none
@@ -37,6 +38,7 @@ contains
         if (allocated(error)) return
         call sum_loads(assembled)
         call assemble_foundations(assembled, error)
+        if (.not. allocated(error)) call check_rigid_ground(assembled, error)
         if (allocated(error)) return
         call change_units(assembled, error)
         if (.not. allocated(error)) call assemble_axial(assembled, error)

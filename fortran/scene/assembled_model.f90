@@ -16,7 +16,7 @@ module gapbeam_assembled_model
     private
     public :: in_bending, in_shear, along_axis
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, fingerprint, is_stretch, &
-        is_along, is_of_support, point_x, piece_length, find_length_errors
+        is_along, is_of_support, point_x, piece_length, find_length_errors, is_on_rigid_ground
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -127,6 +127,14 @@ contains
             growth(k) = scale(assembled%growth(assembled%normal(k)), -way_unit(assembled, assembled%normal(k)))
         end do
     end function growth_of
+
+    !> Is there rigid ground
+    pure logical function is_on_rigid_ground(assembled)
+        type(assembled_type), intent(in) :: assembled
+
+        is_on_rigid_ground = .false.
+        if (allocated(assembled%layers)) is_on_rigid_ground = any(assembled%layers%rigid)
+    end function is_on_rigid_ground
 
     !> Does a support hold a rotation, so that angles and couples take the place of lengths and forces
     elemental function turns(support) result(it_does)

@@ -142,9 +142,11 @@ contains
         has = last >= first
         with_modulus = any(k > 0.0_wp) .or. has(gapbeam_table_of_k)
         with_law = size(law) > 0 .or. f%law /= gapbeam_law_by_points
-        if (any(k > huge(1.0_wp))) then
-            call refuse_entry(error, here, "k", bad_law, "expected a finite number, got inf; rigid ground is not "// &
-                              "available, use supports")
+        if (any(k > huge(1.0_wp)) .and. minval(k) <= huge(1.0_wp)) then
+            call refuse_entry(error, here, "k", bad_law, "rigid ground is rigid all along, got inf at one end only; give two "// &
+                              "foundations")
+        else if (any(k > huge(1.0_wp)) .and. f%side == gapbeam_both) then
+            call refuse_entry(error, here, "side", bad_law, "rigid ground holds the beam one way only; give side below or above")
         else if (.not. all(k >= 0.0_wp)) then
             call refuse_number(error, here, "k", k(merge(2, 1, k(1) >= 0.0_wp)), "a finite number, 0 or more")
         else if (with_law .and. with_modulus) then

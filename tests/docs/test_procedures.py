@@ -22,7 +22,7 @@ cases/lane_sweeps: sweep_chain sweep_three_moments
 contact/find_zones: find_zones
 contact/ground_energy: find_least_energy
 contact/mesh_zones: zones_of_mesh
-continuation/ground_zones: ground_runs
+continuation/ground_runs: ground_runs
 elimination/elements: sweep
 moving_load/train_bounds: find_bounds
 moving_load/train_curves: find_curves

@@ -22,6 +22,7 @@ from scenes.curved import random_curved_scene
 from scenes.foundation import random_scene as ground_scene
 from scenes.ground import touching
 from scenes.law import FAMILIES, law_scene
+from scenes.rigid_ground import rigid_scene
 from scenes.tabled import random_tabled_scene
 
 from .clibrary import F77Beam
@@ -430,6 +431,27 @@ def test_laws_of_foundations_by_parameters_agree(library):
             assert_same_state(beam, f77, result, scene, random.Random(seed))
             assert_same_ground(beam, f77, result, scene, random.Random(seed))
         beam.close()
+
+
+def test_rigid_ground_agrees(library):
+    """Zones and point forces, also where a beam cannot stand."""
+    stand = 0
+    for seed in range(30):
+        scene = rigid_scene(seed) | {"analysis": {"rule": "block", "steps": 1}}
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert f77.info_ == 0
+        status = {"solved": 0, "no-equilibrium": 1}[result.status]
+        assert (beam.solve(1.0)[0], f77.solve(1.0)) == (status, status)
+        if status == 0:
+            stand += 1
+            assert_same_state(beam, f77, result, scene, random.Random(seed))
+            assert_same_ground(beam, f77, result, scene, random.Random(seed))
+            assert beam.follow_ground(1.0)[0] == 11
+        beam.close()
+    assert stand > 20
 
 
 def test_load_paths_on_foundations_agree(library):

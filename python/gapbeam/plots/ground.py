@@ -190,6 +190,10 @@ def draw_ground(axes: Axes | Turned, lanes: GroundLanes, contact: tuple[Contact,
         axes.plot(*np.concatenate([line[:1] for line in places]).T, linestyle="none", marker=TOUCHED, markersize=5,
                   markeredgewidth=1.2, color=_shade("closed"), zorder=2.6, label=f"contact {TOUCHING}")  # fmt: skip
     for state, lines in zones.items():
+        points = [line[0] for line in lines if line[0, 0] == line[-1, 0]]
+        if points:
+            axes.plot(*np.transpose(points), linestyle="none", marker="o", markersize=4.5, color=_shade(state), zorder=2.6,
+                      label="point contact")  # fmt: skip
         axes.add_collection(LineCollection(lines, colors=_shade(state), linewidths=2.6, capstyle="butt", joinstyle="round",
                                            zorder=2.5, label=f"contact {state}"))  # fmt: skip
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..results.state.ground import joined
+from ..results.state.ground import joined, noun_of
 from .beam import SupportLanes, draw_beam, draw_contacts
 from .bezier import cells_of
 from .curves import draw_field
@@ -119,7 +119,8 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
-    return text + (f", contact in {fmt.count(len(joined(contact)), 'zone')}" if contact else "")
+    zones = joined(contact)
+    return text + (f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else "")
 
 
 def _motion(axes: Axes | Turned, result: "Result") -> None:

@@ -7,7 +7,7 @@ from ..results import formatting as fmt
 from ..results.contact import ground_in_words
 from ..results.equilibrium import balance_in_words
 from ..results.event_words import state_in_words
-from ..results.state.ground import Contact, FreeSpan, joined
+from ..results.state.ground import Contact, FreeSpan, joined, noun_of
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
 from .contact_history import symbol
@@ -130,11 +130,11 @@ def write_contact_history(say: Writer, result: "Result") -> None:
 def _step_in_a_row(foundations: Sequence["Foundation"], step: "Step") -> tuple[float, float, float, str]:
     """Length in contact, resultant, largest sag, and the zones in words."""
     zones = joined(step.contact)
-    words = fmt.count(len(zones), "zone")
+    words = fmt.count(len(zones), noun_of(zones))
     if not zones:
         words = "none"
     elif len(zones) <= MOST_IN_A_ROW and len(foundations) == 1:
-        words = ", ".join(f"{_number(zone.from_)}-{_number(zone.to)}" for zone in zones)
+        words = ", ".join("-".join(dict.fromkeys((_number(zone.from_), _number(zone.to)))) for zone in zones)
     resultant, sag = sum(zone.resultant for zone in zones), max((span.sag for span in step.free_spans), default=0.0)
     return _together(zones), resultant, sag, words
 

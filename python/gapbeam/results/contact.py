@@ -13,7 +13,7 @@ from . import formatting as fmt
 from .envelopes.lifted import Lifted
 from .envelopes.over_path import is_followed
 from .event_words import share_in_words
-from .state.ground import TOUCHING, joined
+from .state.ground import TOUCHING, joined, noun_of
 
 if TYPE_CHECKING:
     from .result import Result
@@ -162,7 +162,11 @@ def ground_in_words(result: Result) -> list[str]:
     if zones:
         of = words(sum(to - from_ for from_, to in (fmt.stretch(scene, item) for item in scene.foundation)))
         together = fmt.number(sum(zone.to - zone.from_ for zone in zones), 4)
-        lines.append(f"Contact with the ground over {together} of {of}{f', in {len(zones):,} zones' if len(zones) > 1 else ''}.")
+        places = f", in {len(zones):,} {noun_of(zones)}s" if len(zones) > 1 else ""
+        over = f"over {together} of {of}{places}"
+        if all(zone.from_ == zone.to for zone in zones):
+            over = f"at {fmt.count(len(zones), 'place')}"
+        lines.append(f"Contact with the ground {over}.")
     touching = [zone.from_ for zone in step.contact if zone.state == TOUCHING]
     if touching:
         where = f"at x = {fmt.number(touching[0], 4)}" if len(touching) == 1 else f"at {len(touching)} places"

@@ -110,7 +110,8 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "from": ("number", "Left end (length)."),
         "to": ("number", "Right end (length)."),
         "state": ("string", "closed, bilateral, or the segment of the ground's curve: branch 1, ..."),
-        "resultant": ("number", "Total reaction of the ground there (force), positive upward."),
+        "resultant": ("number", "Total reaction of the ground there (force), positive upward. A point force of rigid ground has "
+                                "from equal to to."),
     }),
     "FreeSpan": ("A length of the beam above the ground without contact.", {
         "foundation": ("integer", "Number of the foundation, from 0."),

@@ -176,7 +176,7 @@ class Foundation(Stretch, kw_only=True, gc=False):
     ----------
     k : float, (float, float) or list of (float, float), optional
         Modulus: force per length of beam and deflection (force/length^2); or (at from, at to), linear in between; or points
-        (x, k) as of profile, where two at a place are a step. Give either k or law.
+        (x, k) as of profile, where two at a place are a step; or inf: rigid, one way. Give either k or law.
     side : {"both", "below", "above"}
         Both (default) holds the beam, below pushes it up only, above pushes it down only.
     gap : float or (float, float)

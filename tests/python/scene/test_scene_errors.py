@@ -395,10 +395,9 @@ k = [0.0, 0.0] -> foundation[1].k: with a modulus of 0 it never carries; remove 
 k = -2.0 -> foundation[1].k: expected a finite number, 0 or more, got -2.0
 k = nan -> foundation[1].k: expected a finite number, 0 or more, got nan
 k = [1.0, -2.0] -> foundation[1].k: expected finite numbers, 0 or more, got [1.0, -2.0]
-k = inf ->
-    foundation[1].k: expected a finite number, got inf; rigid ground is not available, use supports
+k = inf -> foundation[1].side: rigid ground holds the beam one way only; give side below or above
 k = [1.0, inf] ->
-    foundation[1].k: expected a finite number, got inf; rigid ground is not available, use supports
+    foundation[1].k: rigid ground is rigid all along, got inf at one end only; give two foundations
 k = 1.0; from = 4.0; to = 2.0 ->
     foundation[1]: the stretch from = 4 to = 2 has no length; from must be less than to
 k = 1.0; from = 18.0 -> foundation[1]: the stretch from = 18 to = 18 has no length; from must be less than to

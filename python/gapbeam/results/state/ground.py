@@ -30,7 +30,8 @@ class Contact:
         ``closed``, or ``bilateral`` where the foundation holds both ways; with a law ``branch 1``, ``branch 2`` and so on;
         ``touching`` where the beam only touches the ground, at one place and without force: `from_` is `to`.
     resultant : float
-        Force on the beam, positive upward.
+        Force on the beam, positive upward. Rigid ground (``k = inf``) pushes with point forces, too, at the ends of zones, under
+        forces and at single places: each stands for itself, with `from_` equal to `to`.
     """
 
     foundation: int
@@ -178,7 +179,7 @@ def size_of(span: FreeSpan | None, quantity: str) -> float:
 
 
 def joined(contacts: Sequence[Contact]) -> list[Contact]:
-    """Join what lies beside each other: zones without the branches of a law in them, and without places that only touch.
+    """Join what lies beside each other: zones without the branches of a law in them, with point forces, without what only touches.
 
     Parameters
     ----------
@@ -201,11 +202,27 @@ def joined(contacts: Sequence[Contact]) -> list[Contact]:
         if zone.state == TOUCHING:
             continue
         last = found[-1] if found else None
-        if last is not None and (last.foundation, last.to) == (zone.foundation, zone.from_):
-            found[-1] = replace(last, to=zone.to, resultant=last.resultant + zone.resultant)
+        inside = last is not None and zone.from_ == zone.to and last.from_ <= zone.from_ <= last.to
+        if last is not None and last.foundation == zone.foundation and (inside or zone.from_ == last.to):
+            found[-1] = replace(last, to=max(last.to, zone.to), resultant=last.resultant + zone.resultant)
         else:
             found.append(zone)
     return found
+
+
+def noun_of(contacts: Sequence[Contact]) -> str:
+    """Give the word for what is listed.
+
+    Parameters
+    ----------
+    contacts : sequence of Contact
+        As from `joined`.
+
+    Returns
+    -------
+    {"zone", "place"}
+    """
+    return "place" if any(zone.from_ == zone.to for zone in contacts) else "zone"
 
 
 def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,192 @@
+!> How zones in which a beam lies on rigid ground go on from a solution: ends where the moment vanishes.
+module gapbeam_rigid_zones
+    use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: shortest_zone
+    use gapbeam_band, only: hinge, restrained
+    use gapbeam_zone_fields, only: fields_at_ends
+    use gapbeam_ground, only: ground_type
+    use gapbeam_rigid_contact, only: contact_type
+    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load
+    implicit none
+    private
+    public :: move_zone
+
+contains
+
+    !> A zone: its ends go where the moment vanishes, and it leaves what the load lifts
+    subroutine move_zone(ground, rigid, contact, i)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(inout) :: rigid
+        type(contact_type), intent(in) :: contact
+        integer, intent(in) :: i
+        type(contact_type) :: next
+        real(wp) :: q(2), share, lifted
+
+        next = contact
+        if (is_pulled(ground, rigid, contact, i, next)) then
+            call add(rigid, next)
+            return
+        end if
+        associate (side => ground%layers(contact%layer)%side, length => ground%pieces(contact%piece)%length)
+            if (contact%to < length) then
+                next%to = contact%to + outward(ground, rigid, i, 2, side)
+            else
+                call leave_node(ground, rigid, contact, i, 2, next%to)
+            end if
+            if (contact%from > 0.0_wp) then
+                next%from = contact%from - outward(ground, rigid, i, 1, side)
+            else
+                call leave_node(ground, rigid, contact, i, 1, next%from)
+            end if
+            q = side*[along_load(ground, rigid, contact%piece, next%from), along_load(ground, rigid, contact%piece, next%to)]
+            if (all(q < 0.0_wp) .or. next%to - next%from <= min(shortest_zone*length, (contact%to - contact%from)/2)) then
+                next%from = (contact%from + contact%to)/2
+                next%to = next%from
+            else if (any(q < 0.0_wp)) then
+                ! It is lifted from there on
+                share = q(1)/(q(1) - q(2))
+                lifted = next%from + share*(next%to - next%from)
+                if (q(2) < 0.0_wp) next%to = min(lifted, (contact%from + 3*contact%to)/4)
+                if (q(1) < 0.0_wp) next%from = max(lifted, (3*contact%from + contact%to)/4)
+            end if
+        end associate
+        call add(rigid, next)
+    end subroutine move_zone
+
+    !> Would the ground have to pull at one end of a zone that is short: then the beam touches at the other one
+    function is_pulled(ground, rigid, contact, i, next) result(pulled)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(in) :: rigid
+        type(contact_type), intent(in) :: contact
+        integer, intent(in) :: i
+        type(contact_type), intent(inout) :: next
+        logical :: pulled
+        real(wp) :: push(2)
+
+        pulled = .false.
+        if (contact%from <= 0.0_wp .or. contact%to >= ground%pieces(contact%piece)%length) return
+        associate (z => rigid%zones, side => ground%layers(contact%layer)%side)
+            push = side*rigid%push([hold_at(rigid, i - 1, side), hold_at(rigid, i, side)])
+            pulled = minval(push) < -rigid%noise%force .and. z%to(i) - z%from(i) &
+                < min(z%to(i - 1) - z%from(i - 1), z%to(i + 1) - z%from(i + 1))/4
+        end associate
+        if (.not. pulled) return
+        if (push(1) < push(2)) next%from = contact%to
+        next%to = next%from
+    end function is_pulled
+
+    !> How far an end of a zone goes outwards: on its tangent the moment vanishes there
+    function outward(ground, rigid, i, end, side) result(step)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(inout) :: rigid
+        !> Stretch; 1 its left end, 2 its right end; side of the ground
+        integer, intent(in) :: i, end, side
+        real(wp) :: step, moment(2), change, rotation(2), shear(2), inside, outside
+        integer :: beyond, far
+
+        beyond = i + merge(-1, 1, end == 1)
+        call fields_at_ends(rigid%grounded, rigid%factor, rigid%work, beyond, rotation, shear)
+        associate (z => rigid%zones, answers => rigid%work%answers)
+            inside = z%to(i) - z%from(i)
+            outside = z%to(beyond) - z%from(beyond)
+            moment = side*[answers(beyond - 1)%moment_right, answers(beyond)%moment_left]
+        end associate
+        change = side*merge(-shear(2), shear(1), end == 1)
+        if (end == 1) moment = moment([2, 1])
+        step = 0.0_wp
+        if (abs(moment(1)) <= rigid%noise%moment) return
+        step = merge(outside, -inside, moment(1) < 0.0_wp)/4
+        if (change > rigid%noise%force) step = -moment(1)/change
+        far = hold_at(rigid, merge(beyond - 1, beyond, end == 1), side)
+        if (is_pressed(ground, rigid, far, beyond, end, side, moment, rotation(end))) then
+            step = outside
+        else if (step <= outside .or. outside >= inside/8) then
+            step = max(-inside*3/4, min(outside*3/4, step))
+        else
+            ! A short rest is no free span any more
+            step = outside
+        end if
+        rigid%way(merge(i - 1, i, end == 1)) = abs(step)
+    end function outward
+
+    !> Is a free stretch pressed into the ground all along: at the end of a zone, and at a zone or a place beyond it
+    function is_pressed(ground, rigid, far, beyond, end, side, moment, turn) result(pressed)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(in) :: rigid
+        !> The hold there, 0: none; the stretch; as for outward; moments at the two ends, the near one first, and the rotation at
+        !> the far one
+        integer, intent(in) :: far, beyond, end, side
+        real(wp), intent(in) :: moment(2), turn
+        logical :: pressed
+        real(wp) :: fall
+        integer :: piece, layer
+
+        pressed = .false.
+        if (far == 0 .or. moment(1) >= 0.0_wp .or. moment(2) > rigid%noise%moment) return
+        if (rigid%holds(far)%follows) then
+            pressed = moment(2) < -rigid%noise%moment
+            return
+        end if
+        fall = side*(turn - rigid%holds(far)%slope)
+        pressed = merge(fall, -fall, end == 1) > 0.0_wp
+        if (.not. pressed .or. moment(2) >= -rigid%noise%moment) return
+        ! Over a corner it may just hang down
+        piece = rigid%zones%piece(beyond)
+        layer = rigid%holds(far)%layer
+        if (merge(rigid%zones%from(beyond) > 0.0_wp, rigid%zones%to(beyond) < ground%pieces(piece)%length, end == 1)) return
+        if (layer >= ground%first(piece) .and. layer < ground%first(piece + 1)) then
+            pressed = layer_beyond(ground, contact_type(piece, layer), piece + merge(-1, 1, end == 1)) > 0
+        else
+            pressed = layer_beyond(ground, contact_type(piece + merge(-1, 1, end == 1), layer), piece) > 0
+        end if
+    end function is_pressed
+
+    !> A zone that reaches a node leaves it, or goes on beyond it, where moments do not vanish there, and leaves it where the ground
+    !> would have to pull
+    subroutine leave_node(ground, rigid, contact, i, end, at)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(inout) :: rigid
+        type(contact_type), intent(in) :: contact
+        !> As for outward
+        integer, intent(in) :: i, end
+        !> Distance of that end of the zone from the left end of the piece
+        real(wp), intent(inout) :: at
+        real(wp) :: moment, couple, pull, step, q
+        logical :: goes_on, bends
+        integer :: node, border, other, layer
+
+        node = contact%piece + end - 2
+        border = i + end - 2
+        associate (beam => ground%beam, answer => rigid%work%answers(border), side => ground%layers(contact%layer)%side)
+            couple = beam%couple(1, node) + rigid%factor*beam%couple(2, node)
+            moment = merge(answer%moment_left + couple, answer%moment_right - couple, end == 1)
+            goes_on = is_zone_beyond(rigid, i, end)
+            if (goes_on) moment = couple
+            bends = abs(moment) > rigid%noise%moment
+            if (beam%kind(node) == hinge) bends = .false.
+            if (beam%kind(node) == restrained) bends = bends .and. beam%compliance(node) > 0.0_wp
+            other = contact%piece + merge(-1, 1, end == 1)
+            layer = layer_beyond(ground, contact, other)
+            step = 0.0_wp
+            if (bends .and. layer > 0 .and. .not. (goes_on .or. abs(couple) > 0.0_wp)) step = outward(ground, rigid, i, end, side)
+            if (step > 0.0_wp) then
+                associate (length => ground%pieces(other)%length)
+                    call add(rigid, contact_type(other, layer, merge(length - step, 0.0_wp, end == 1), &
+                                          merge(length, step, end == 1)))
+                end associate
+            else if (step < 0.0_wp) then
+                at = at + merge(-step, step, end == 1)
+            else
+                pull = -side*rigid%push(hold_at(rigid, border, side))
+                if (.not. (bends .or. pull > rigid%noise%force)) return
+                step = (rigid%zones%to(i) - rigid%zones%from(i))/4
+                ! A bar that a force lifts at its end lifts so far
+                q = side*along_load(ground, rigid, contact%piece, at)
+                if (.not. bends .and. q > 0.0_wp) step = min(step, 2*pull/q)
+                at = at + merge(step, -step, end == 1)
+                if (bends .and. .not. goes_on) call add_at_node(ground, rigid, node, side)
+            end if
+        end associate
+    end subroutine leave_node
+
+end module gapbeam_rigid_zones

@@ -1,0 +1,230 @@
+!> Solver of a beam on rigid ground: contacts on a mesh, moved in double and then in quadruple precision.
+!>
+!> The energy is convex and the ground a convex set of deflections, so contacts at which all conditions hold are the right ones,
+!> however they were found.
+module gapbeam_rigid_solver
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: most_rigid_meshes
+    use gapbeam_tolerances, only: rigid_places, fine_rigid_places
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, &
+        gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_ground, only: ground_type, grounded_type
+    use gapbeam_rigid_contact, only: contact_type
+    use gapbeam_rigid_state, only: rigid_type
+    use gapbeam_rigid_ground, only: settle_contacts
+    use gapbeam_rigid_search, only: touch_on_mesh
+    use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type
+    use gapbeam_rigid_contact_quad, only: fine_contact_type => contact_type, same_line
+    use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type
+    use gapbeam_rigid_ground_quad, only: settle_fine_contacts => settle_contacts
+    use gapbeam_ground_solution, only: ground_solution_type, take_rounded
+    implicit none
+    private
+    public :: solve_on_rigid_ground
+
+contains
+
+    !> Solve at a load factor
+    subroutine solve_on_rigid_ground(ground, fine, factor, rule, closed, grounded, work, solution, outcome, error)
+        !> The beam and its ground, all of it rigid; the same in quadruple precision
+        type(ground_type), intent(in) :: ground
+        type(fine_ground_type), intent(in) :: fine
+        !> Factor of the live loads, and rule for the supports
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> States of the supports: start in, found out
+        logical, intent(inout) :: closed(:)
+        !> The beam held at its contacts, and its solution, in double precision
+        type(grounded_type), intent(out) :: grounded
+        type(workspace_type), intent(out) :: work
+        !> What was found
+        type(ground_solution_type), intent(out) :: solution
+        !> Solved, or no equilibrium with the motion of the nodes
+        type(outcome_type), intent(out) :: outcome
+        !> Not settled, no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(rigid_type) :: rigid
+        type(contact_type), allocatable :: contacts(:)
+        type(fine_ground_type) :: straight
+        type(fine_rigid_type) :: fine_rigid
+        type(fine_outcome_type) :: found
+        logical :: start(size(closed)), settled
+        integer :: mesh
+
+        start(:) = closed
+        call straighten(fine, straight)
+        do mesh = 0, most_rigid_meshes - 1
+            closed(:) = start
+            if (allocated(error)) deallocate (error)
+            call touch_on_mesh(ground, factor, rule, 4**mesh, closed, contacts, rigid%solves, outcome, error)
+            solution%solves = rigid%solves
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            rigid%contacts = contacts
+            call settle_contacts(ground, factor, rule, rigid_places, rigid, closed, outcome, settled, error)
+            if (allocated(error)) then
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+                cycle
+            end if
+            if (.not. settled .or. outcome%status /= gapbeam_solved) cycle
+            call refine_contacts(straight, rigid, fine_rigid)
+            call settle_fine_contacts(straight, real(factor, qp), rule, fine_rigid_places, fine_rigid, closed, found, settled, &
+                                      error)
+            if (allocated(error)) then
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+                cycle
+            end if
+            if (.not. settled .or. found%status /= gapbeam_solved) cycle
+            solution%solves = rigid%solves + fine_rigid%solves
+            outcome = outcome_type(indifferent=found%indifferent)
+            call take_solution(straight, real(factor, qp), fine_rigid, closed, solution)
+            grounded = rigid%grounded
+            work = rigid%work
+            return
+        end do
+        if (allocated(error)) deallocate (error)
+        call fatal_error(error, gapbeam_not_converged, "where the beam touches the rigid ground could not be settled: look for "// &
+                         "loads or supports that press it against a corner of the ground, or give the ground a stiffness k")
+    end subroutine solve_on_rigid_ground
+
+    !> Ground that is straight but for the rounding of its levels at nodes, which a stiff beam would feel, made straight
+    subroutine straighten(fine, straight)
+        type(fine_ground_type), intent(in) :: fine
+        type(fine_ground_type), intent(out) :: straight
+        real(qp) :: length, share, ends(2)
+        integer :: line(size(fine%pieces)), j, k, i, m, next
+
+        straight = fine
+        do j = 1, size(fine%pieces)
+            do k = fine%first(j), fine%first(j + 1) - 1
+                ! Only where a line begins
+                if (goes_on(j - 1, k, .false.) > 0) cycle
+                m = 1
+                line(1) = k
+                do
+                    next = goes_on(j + m - 1, line(m), .true.)
+                    if (next == 0) exit
+                    m = m + 1
+                    line(m) = next
+                end do
+                length = sum(fine%pieces(j:j + m - 1)%length)
+                ends = [fine%layers(k)%contact_a, fine%layers(line(m))%contact_b]
+                share = 0.0_qp
+                do i = 1, m - 1
+                    share = share + fine%pieces(j + i - 1)%length/length
+                    straight%layers(line(i))%contact_b = ends(1) + share*(ends(2) - ends(1))
+                    straight%layers(line(i + 1))%contact_a = straight%layers(line(i))%contact_b
+                end do
+            end do
+        end do
+
+    contains
+
+        !> The layer on the same line beyond a node, 0: none
+        pure function goes_on(node, layer, to_right) result(other)
+            integer, intent(in) :: node, layer
+            logical, intent(in) :: to_right
+            integer :: other, piece, pair(2)
+
+            other = 0
+            if (node < 1 .or. node >= size(fine%pieces)) return
+            piece = merge(node + 1, node, to_right)
+            do other = fine%first(piece), fine%first(piece + 1) - 1
+                pair = merge([layer, other], [other, layer], to_right)
+                if (same_line(fine, node, pair)) return
+            end do
+            other = 0
+        end function goes_on
+
+    end subroutine straighten
+
+    !> Contacts in quadruple precision: what ends with a piece does so exactly
+    pure subroutine refine_contacts(fine, rigid, refined)
+        type(fine_ground_type), intent(in) :: fine
+        type(rigid_type), intent(in) :: rigid
+        type(fine_rigid_type), intent(out) :: refined
+        integer :: c
+
+        allocate (refined%contacts(size(rigid%contacts)))
+        do c = 1, size(rigid%contacts)
+            associate (contact => rigid%contacts(c), length => fine%pieces(rigid%contacts(c)%piece)%length)
+                refined%contacts(c) = fine_contact_type(contact%piece, contact%layer, at(contact%from), at(contact%to), &
+                                                           real(contact%compliance, qp))
+            end associate
+        end do
+
+    contains
+
+        !> A place in the piece
+        pure function at(place)
+            real(wp), intent(in) :: place
+            real(qp) :: at
+
+            at = place
+            if (place >= real(fine%pieces(rigid%contacts(c)%piece)%length, wp)) at = fine%pieces(rigid%contacts(c)%piece)%length
+        end function at
+
+    end subroutine refine_contacts
+
+    !> The solution rounded once, with what the ground pushes
+    subroutine take_solution(fine, factor, rigid, closed, solution)
+        type(fine_ground_type), intent(in) :: fine
+        real(qp), intent(in) :: factor
+        type(fine_rigid_type), intent(inout) :: rigid
+        logical, intent(in) :: closed(:)
+        type(ground_solution_type), intent(inout) :: solution
+        logical, allocatable :: acting(:)
+        real(qp) :: q(2)
+        integer :: h, i, row
+
+        associate (z => rigid%zones, answers => rigid%work%answers)
+            do i = 1, size(z%piece)
+                if (all(z%acts(:, i) == 0)) cycle
+                answers(i - 1)%moment_right = 0.0_qp
+                answers(i)%moment_left = 0.0_qp
+            end do
+            allocate (acting(size(rigid%grounded%beam%supports)))
+            acting(:) = .true.
+            acting(:size(closed)) = closed
+            call take_rounded(fine, factor, z, rigid%grounded, acting, rigid%work, solution)
+            solution%reaction = solution%reaction(:size(closed))
+            solution%undecided = solution%undecided(:size(closed))
+            allocate (solution%pressure(2, size(z%piece)), solution%push(0:size(z%piece)), solution%pushing(0:size(z%piece)))
+            solution%push(:) = 0.0_wp
+            solution%pushing(:) = 0
+            do h = 1, size(rigid%holds)
+                associate (hold => rigid%holds(h))
+                    if (.not. abs(rigid%push(h)) > 0.0_qp) cycle
+                    solution%push(hold%border) = real(rigid%push(h), wp)
+                    solution%pushing(hold%border) = hold%layer
+                end associate
+            end do
+            do i = 1, size(z%piece)
+                row = findloc(z%acts(:, i) > 0, .true., 1)
+                solution%pressure(:, i) = 0.0_wp
+                if (row == 0) cycle
+                q = load_at(z%piece(i), [z%from(i), z%to(i)])
+                solution%pressure(:, i) = real(q, wp)
+                solution%resultant(row, i) = real((q(1) + q(2))/2*(z%to(i) - z%from(i)), wp)
+            end do
+        end associate
+
+    contains
+
+        !> Load at distances from the left end of a piece, which the ground takes where the beam lies on it
+        pure function load_at(piece, distance) result(load)
+            integer, intent(in) :: piece
+            real(qp), intent(in) :: distance(2)
+            real(qp) :: load(2), q(2)
+
+            associate (dead => fine%dead(piece), live => fine%live(piece), length => fine%pieces(piece)%length)
+                q = [dead%qa, dead%qb] + factor*[live%qa, live%qb]
+                load = q(1) + (q(2) - q(1))*(distance/length)
+            end associate
+        end function load_at
+
+    end subroutine take_solution
+
+end module gapbeam_rigid_solver

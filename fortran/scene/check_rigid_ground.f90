@@ -1,0 +1,119 @@
+!> Refusals of what does not go with rigid ground, or is not available beside it.
+module gapbeam_check_rigid_ground
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_words, only: shown, whole
+    use gapbeam_tolerances, only: position_tolerance
+    use gapbeam_layers, only: layer_type
+    use gapbeam_link, only: piece_load_type
+    use gapbeam_scene, only: gapbeam_normal
+    use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear
+    use gapbeam_piece_stiffness, only: stiffness_of
+    use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
+    implicit none
+    private
+    public :: check_rigid_ground
+
+contains
+
+    !> Can the beam lie on its rigid ground
+    subroutine check_rigid_ground(assembled, error)
+        !> With loads and layers in the user's units
+        type(assembled_type), intent(in) :: assembled
+        !> The foundation, or the support, and why not
+        type(error_type), allocatable, intent(out) :: error
+        integer :: j, k, s
+
+        if (.not. allocated(assembled%layers)) return
+        if (.not. any(assembled%layers%rigid)) return
+        if (.not. all(assembled%layers%rigid)) then
+            k = findloc(assembled%layers%rigid, .true., 1)
+            call refuse_ground(assembled, assembled%layers(k)%foundation, "rigid ground beside ground that gives way is not "// &
+                               "available in this version; give all of it a stiffness, or none", error)
+            return
+        end if
+        do j = 1, size(assembled%pieces)
+            if (assembled%layer_first(j + 1) > assembled%layer_first(j)) call check_piece(assembled, j, error)
+            if (allocated(error)) return
+        end do
+        do s = 1, size(assembled%model%supports)
+            if (assembled%model%supports(s)%direction /= gapbeam_normal) cycle
+            call check_support(assembled, s, error)
+            if (allocated(error)) return
+        end do
+    end subroutine check_rigid_ground
+
+    !> A piece of the beam over rigid ground
+    subroutine check_piece(assembled, piece, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        type(error_type), allocatable, intent(out) :: error
+        character(len=:), allocatable :: problem
+
+        associate (dead => assembled%dead(piece), live => assembled%live(piece), ei => stiffness_of(assembled, piece, in_bending))
+            if (ei > huge(ei)) then
+                problem = "the beam is rigid there, too"
+            else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
+                problem = "the beam has a finite GA there"
+            else if (abs(dead%kappa) + abs(live%kappa) > 0.0_wp .or. bends(dead) .or. bends(live)) then
+                problem = "an imposed curvature acts there"
+            end if
+        end associate
+        if (.not. allocated(problem)) return
+        call refuse_ground(assembled, assembled%layers(assembled%layer_first(piece))%foundation, "from x = "// &
+                           trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))//" "// &
+                           problem//", which on rigid ground is not available in this version; give the ground a stiffness", error)
+    end subroutine check_piece
+
+    !> Does a load turn the beam at an end of the piece
+    pure function bends(load)
+        type(piece_load_type), intent(in) :: load
+        logical :: bends
+
+        bends = abs(load%kink_a) + abs(load%kink_b) > 0.0_wp
+    end function bends
+
+    !> A support over rigid ground: it must not hold the beam where the ground is, nor turn it elastically
+    subroutine check_support(assembled, number, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: number
+        type(error_type), allocatable, intent(out) :: error
+        integer :: piece, k
+        real(wp) :: level, ground, slack
+
+        associate (s => assembled%model%supports(number), point => assembled%support_point(number), &
+                   m => size(assembled%model%supports))
+            level = s%settlement + s%side*s%gap
+            do piece = max(1, point), min(point + 1, size(assembled%pieces))
+                do k = assembled%layer_first(piece), assembled%layer_first(piece + 1) - 1
+                    if (s%rotation > 0.0_wp .and. s%rotation <= huge(s%rotation)) then
+                        call refuse(error, of_supports, number, m, bad_law, "rotation", "a support that holds the rotation "// &
+                                    "elastically is not available over rigid ground; hold it rigidly, or not")
+                        return
+                    end if
+                    if (.not. s%stiffness > huge(s%stiffness)) cycle
+                    associate (layer => assembled%layers(k))
+                        ground = merge(layer%contact_b, layer%contact_a, piece == point)
+                        slack = position_tolerance*max(abs(level), abs(ground))
+                        if (s%side == layer%side .or. layer%side*(level - ground) <= slack) cycle
+                        call refuse(error, of_supports, number, m, bad_law, "", "this one holds the beam at a deflection of "// &
+                                    trim(shown(level))//", which the rigid ground there stops at "//trim(shown(ground))// &
+                                    "; give the foundation a greater gap")
+                        return
+                    end associate
+                end do
+            end do
+        end associate
+    end subroutine check_support
+
+    !> Refuse a foundation
+    subroutine refuse_ground(assembled, number, problem, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: number
+        character(len=*), intent(in) :: problem
+        type(error_type), allocatable, intent(out) :: error
+
+        call refuse(error, of_foundations, number, size(assembled%model%foundations), bad_law, "k", problem)
+    end subroutine refuse_ground
+
+end module gapbeam_check_rigid_ground

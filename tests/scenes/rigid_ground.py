@@ -1,0 +1,118 @@
+"""Random beams on rigid ground: profiles with corners, ground that ends, supports, hinges, loads that press and lift."""
+
+import math
+import random
+from itertools import pairwise
+
+
+def rigid_scene(seed):
+    """A scene of one to three spans on one or two rigid foundations below.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    dict
+    """
+    rng = random.Random(seed)
+    spans = [rng.choice((4.0, 6.0, 10.0, rng.uniform(2, 12))) for _ in range(rng.choice((1, 1, 2, 3)))]
+    length = sum(spans)
+    beam = {"spans": spans, "EI": [rng.choice((1e3, 1e4, rng.uniform(100, 1e5))) for _ in spans]}
+    if rng.random() < 0.2:
+        beam["hinges"] = [rng.uniform(0.1, 0.9) * length]
+    cuts = [0.0, length] if rng.random() < 0.75 else [0.0, rng.uniform(0.3, 0.7) * length, length]
+    ground = [_ground(rng, *ends) for ends in pairwise(cuts)]
+    supports = [{"x": rng.uniform(0, length), **_support(rng)} for _ in range(rng.randint(0, 3))]
+    loads = [{"type": "uniform", "q": rng.choice((1.0, 5.0, rng.uniform(0.1, 20)))}]
+    for _ in range(rng.randint(0, 4)):
+        kind = rng.random()
+        if kind < 0.5:
+            loads.append({"type": "force", "x": rng.uniform(0, length), "F": rng.choice((-1, 1, 1)) * rng.uniform(0.1, 30)})
+        elif kind < 0.7:
+            loads.append({"type": "moment", "x": rng.uniform(0, length), "M": rng.uniform(-10, 10)})
+        else:
+            left, right = sorted(rng.uniform(0, length) for _ in range(2))
+            loads.append({"type": "linear", "from": left, "to": right, "q": [rng.uniform(-5, 15), rng.uniform(-5, 15)]})
+    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+
+
+def _ground(rng, left, right):
+    made = {"k": math.inf, "side": "below", "from": left, "to": right}
+    if rng.random() < 0.25:
+        made["from"] = left + rng.uniform(0, 0.3) * (right - left)
+    if rng.random() < 0.2:
+        made["to"] = right - rng.uniform(0, 0.3) * (right - left)
+    kind = rng.random()
+    if kind < 0.3:
+        made["gap"] = rng.choice((0.0, 0.01, -0.01, [0.0, 0.02]))
+    elif kind < 0.8:
+        places = sorted(rng.uniform(made["from"], made["to"]) for _ in range(rng.randint(2, 6)))
+        made["profile"] = [[x, rng.choice((0.0, rng.uniform(-0.02, 0.02)))] for x in places]
+    return made
+
+
+def _support(rng):
+    kind = rng.random()
+    if kind < 0.3:
+        return {"side": "both", "stiffness": rng.choice((100.0, 1e4))}
+    if kind < 0.6:
+        return {"side": "below", "stiffness": rng.choice((1e3, math.inf)), "gap": rng.uniform(-0.05, 0.05)}
+    if kind < 0.8:
+        return {"side": "above", "stiffness": 1e3, "gap": rng.uniform(-0.02, 0.05)}
+    return {"side": "both", "settlement": -rng.uniform(0.03, 0.06)}
+
+
+def turned_round(scene):
+    """The same seen from behind: left and right change places.
+
+    Parameters
+    ----------
+    scene : dict
+        From `rigid_scene`.
+    """
+    length = sum(scene["beam"]["spans"])
+    beam = {"spans": scene["beam"]["spans"][::-1], "EI": scene["beam"]["EI"][::-1]}
+    if "hinges" in scene["beam"]:
+        beam["hinges"] = [length - x for x in scene["beam"]["hinges"]]
+    ground = []
+    for one in scene["foundation"]:
+        one = one | {"from": length - one["to"], "to": length - one["from"]}
+        if "profile" in one:
+            one["profile"] = [[length - x, gap] for x, gap in one["profile"][::-1]]
+        if isinstance(one.get("gap"), list):
+            one["gap"] = one["gap"][::-1]
+        ground.append(one)
+    loads = []
+    for load in scene["loads"]:
+        if load["type"] == "uniform":
+            loads.append(load)
+        elif load["type"] == "linear":
+            loads.append(load | {"from": length - load["to"], "to": length - load["from"], "q": load["q"][::-1]})
+        else:
+            loads.append(load | {"x": length - load["x"], **({"M": -load["M"]} if "M" in load else {})})
+    supports = [one | {"x": length - one["x"]} for one in scene["supports"]]
+    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+
+
+def upside_down(scene):
+    """The same with up and down changed.
+
+    Parameters
+    ----------
+    scene : dict
+        From `rigid_scene`.
+    """
+    other = {"below": "above", "above": "below", "both": "both"}
+    ground = [one | {"side": other[one["side"]]} for one in scene["foundation"]]
+    supports = [
+        one | {"side": other[one["side"]], **({"settlement": -one["settlement"]} if "settlement" in one else {})}
+        for one in scene["supports"]
+    ]
+    loads = []
+    for load in scene["loads"]:
+        key = {"force": "F", "moment": "M"}.get(load["type"], "q")
+        value = load[key]
+        loads.append(load | {key: [-one for one in value] if isinstance(value, list) else -value})
+    return {"beam": scene["beam"], "supports": supports, "foundation": ground, "loads": loads}
