@@ -46,6 +46,8 @@ module gapbeam_ground_solution
         !> Of the supports
         real(wp), allocatable :: reaction(:)
         logical, allocatable :: undecided(:)
+        !> Load factor of its live loads, to which supports and ground have moved
+        real(wp) :: factor = 0.0_wp
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
         !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
@@ -76,6 +78,7 @@ contains
         m = size(zones%piece)
         from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
+        solution%factor = real(factor, wp)
         solution%steps(:) = zones%steps
         solution%piece(:) = zones%piece
         solution%from(:) = real(zones%from, wp)

@@ -11,6 +11,7 @@ module gapbeam_assemble_foundations
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
+    use gapbeam_assemble_ground_movements, only: move_layers
     use gapbeam_assemble_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
     use gapbeam_check, only: entry_type, refuse_entry
     use gapbeam_check_foundations, only: find_tables, at_right, quantities
@@ -90,6 +91,7 @@ contains
                 end do
             end do
         end associate
+        call move_layers(assembled, error)
 
     contains
 
@@ -287,6 +289,7 @@ contains
         end do
         do i = 1, size(assembled%layers)
             call ways%note(max(abs(assembled%layers(i)%contact_a), abs(assembled%layers(i)%contact_b)), 0)
+            if (allocated(assembled%layer_growth)) call ways%note(maxval(abs(assembled%layer_growth(:, i))), 0)
         end do
     end subroutine note_foundations
 
@@ -318,7 +321,7 @@ contains
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: lost(:)
-        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2), size_of_contact
         real(wp) :: most(quantities, size(assembled%model%foundations))
         integer :: i, m, per_length, powers(parameters_of_law)
 
@@ -370,9 +373,14 @@ contains
                 end if
                 layer%parameter_a(:) = scaled(:, 1)
                 layer%parameter_b(:) = scaled(:, 2)
-                if (max(abs(layer%contact_a), abs(layer%contact_b)) <= huge(1.0_wp)) cycle
+                size_of_contact = max(abs(layer%contact_a), abs(layer%contact_b))
+                if (allocated(assembled%layer_growth)) then
+                    assembled%layer_growth(:, i) = scale(assembled%layer_growth(:, i), -units%deflection)
+                    size_of_contact = max(size_of_contact, maxval(abs(assembled%layer_growth(:, i))))
+                end if
+                if (size_of_contact <= huge(1.0_wp)) cycle
                 call refuse_range(error, trim(named(of_foundations, layer%foundation, m))//" acts at deflections too far from "// &
-                                  "those that the loads make", "give smaller gaps")
+                                  "those that the loads make", "give smaller gaps and movements")
             end associate
             return
         end do

@@ -28,7 +28,7 @@ from .loads import (
     TemperatureLoad,
     UniformLoad,
 )
-from .names import find
+from .movements import number_of_moved
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
@@ -59,7 +59,8 @@ UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT, AXIAL_UNIFORM = *range(1, 9), 11
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = range(1, 9)
+AXIAL_UNIFORM, GROUND_MOVEMENT = 11, 12
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
 KINDS = {
@@ -284,10 +285,9 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         kinds[some] = kind
         if kind == MOVEMENT:
             numbered = list(zip(np.arange(len(items))[some].tolist(), group, strict=True))
-            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in numbered]
+            kinds[some] = [_kind_of_movement(load, f"loads[{k}]") for k, load in numbered]
+            nodes[some] = [number_of_moved(scene, k, load) + 1 for k, load in numbered]
             left[some] = right[some] = 0.0
-            turned = [_is_rotation(load, f"loads[{k}]") for k, load in numbered]
-            kinds[some] = np.where(turned, ROTATION_OF_SUPPORT, MOVEMENT)
         elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE, AXIAL_UNIFORM):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
@@ -297,7 +297,8 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             sides = _column(group, "at_hinge")
             kinds[some] = COUPLES[sides] if sides is None or isinstance(sides, str) else [COUPLES[side] for side in sides]
         if kind == MOVEMENT:
-            given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
+            both = [at_both_ends(load.value if load.rotation is None else load.rotation) for load in group]
+            given = np.array(both, dtype=float)
         elif kind == TEMPERATURE:
             given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
         else:
@@ -306,12 +307,22 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return codes, found
 
 
-def _is_rotation(load: MovementLoad, place: str) -> bool:
-    """Whether a support is turned, not moved."""
+def _kind_of_movement(load: MovementLoad, place: str) -> int:
+    """Tell whether a foundation is moved, or a support, or whether that is turned."""
+    if (load.support is None) == (load.foundation is None):
+        what = "is missing; give the support that moves, or foundation" if load.support is None else "and foundation are both given"
+        raise SceneError(f"{place}.support", what if load.support is None else f"{what}; make two loads")
+    if load.foundation is not None:
+        if load.rotation is not None or load.value is None:
+            raise SceneError(f"{place}.value", "is missing; a foundation moves by value (length), a pair [at from, at to] where "
+                             "it turns")  # fmt: skip
+        return GROUND_MOVEMENT
+    if isinstance(load.value, tuple):
+        raise SceneError(f"{place}.value", "a support moves by one number; a pair is for a foundation")
     if (load.value is None) == (load.rotation is None):
         both = "and rotation are both given; make two loads"
         raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
-    return load.rotation is not None
+    return MOVEMENT if load.rotation is None else ROTATION_OF_SUPPORT
 
 
 def _groups(items: Sequence[Any]) -> dict[type, Any]:

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 from ..base.errors import SceneError
-from .loads import MovementLoad
+from .loads import Load, MovementLoad
 from .names import find
 from .structs import Scene, Support
 
@@ -74,10 +74,10 @@ def take_movements(scene: Scene) -> tuple[Scene, Movements | None]:
         None where there are none.
     """
     loads = list(scene.loads)
-    which = [k for k, load in enumerate(loads) if isinstance(load, MovementLoad) and load.value is not None]
+    which = [k for k, load in enumerate(loads) if moves_support(load)]
     if not which:
         return scene, None
-    supports = [find(scene.supports, loads[k].support, f"loads[{k}].support", "support") for k in which]
+    supports = [number_of_moved(scene, k, loads[k]) for k in which]
     taken = Movements(np.array(which), np.array(supports), np.array([loads[k].value for k in which]))
     for k in which:
         loads[k] = msgspec.structs.replace(loads[k], value=0.0)
@@ -101,6 +101,43 @@ def settle_movements(scene: Scene) -> Scene:
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
 
 
+def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
+    """Find the support or foundation that a load moves.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    k, load : int, MovementLoad
+        The load and its number.
+    """
+    if load.foundation is not None:
+        return find(scene.foundation, load.foundation, f"loads[{k}].foundation", "foundation")
+    return find(scene.supports, load.support, f"loads[{k}].support", "support")
+
+
+def moves_support(load: Load) -> bool:
+    """Whether a load moves a support and does not turn it.
+
+    Parameters
+    ----------
+    load : Load
+        The load.
+    """
+    return isinstance(load, MovementLoad) and load.value is not None and load.foundation is None
+
+
+def moves_ground(load: Load) -> bool:
+    """Whether a load moves a foundation.
+
+    Parameters
+    ----------
+    load : Load
+        The load.
+    """
+    return isinstance(load, MovementLoad) and load.foundation is not None
+
+
 def refuse_movements(scene: Scene, problem: str) -> None:
     """Refuse loads that move supports.
 
@@ -117,7 +154,9 @@ def refuse_movements(scene: Scene, problem: str) -> None:
         There is one.
     """
     for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad) and load.value is not None:
+        if moves_ground(load):
+            raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the gap of the foundation")
+        if moves_support(load):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
         if isinstance(load, MovementLoad):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
