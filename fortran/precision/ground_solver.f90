@@ -25,7 +25,7 @@ module gapbeam_ground_solver
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_layers_quad, only: has_curves
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, move_finely => move_ground
+        fine_grounded_type => grounded_type
     use gapbeam_zones_quad, only: settle_fine_zones => settle_zones, polish_zones
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
@@ -73,7 +73,6 @@ contains
         allocate (start(size(closed)))
         start(:) = closed
         call refine_ground(ground, detail, fine)
-        call move_finely(fine, real(factor, qp))
         edges = 0
         if (present(near)) then
             closed(:) = near%closed

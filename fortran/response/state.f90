@@ -24,7 +24,7 @@ module gapbeam_state
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
-    use gapbeam_solution, only: state_type, forget, check_range, has_own_laws, laws_in
+    use gapbeam_solution, only: state_type, forget, check_range, check_room, has_own_laws, laws_in
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
@@ -56,6 +56,8 @@ contains
         call solve_along_axis(assembled, state, error)
         if (allocated(error)) return
         if (allocated(assembled%layers)) then
+            call check_room(assembled, state, error)
+            if (allocated(error)) return
             call settle_on_ground(assembled, ground_of(assembled, factor), rule, state, error, near)
         else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
