@@ -75,11 +75,16 @@ contains
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
             call find_fine_margin(fine, fine_grounded, zones, real(factor, qp), fine_work, closed, fine_change, margin, &
                                   fine_place)
-            ! Of a support it may be that on the other side
-            if (k > 1) then
-                if (change%support == 0 .or. margin*last_margin > 0.0_qp) slope = real((margin - last_margin)/(factor - last), wp)
-            end if
             place = real(fine_place, wp)
+            if (k > 1) then
+                if (change%support == 0 .or. margin*last_margin > 0.0_qp) then
+                    slope = real((margin - last_margin)/(factor - last), wp)
+                else
+                    ! That on the other side, a force for a distance, or a distance for a force
+                    found = abs(factor - last) <= fine_enough*last
+                    if (found) return
+                end if
+            end if
             last = factor
             last_margin = margin
             if (.not. abs(slope) > 0.0_wp) return

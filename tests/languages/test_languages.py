@@ -20,6 +20,7 @@ from gapbeam.studies.meshes import gapped_spans
 from scenes import nodes_of, random_scene
 from scenes.curved import random_curved_scene
 from scenes.foundation import random_scene as ground_scene
+from scenes.moving import random_moving_scene
 from scenes.ground import touching
 from scenes.law import FAMILIES, law_scene
 from scenes.tabled import random_tabled_scene
@@ -432,11 +433,12 @@ def test_laws_of_foundations_by_parameters_agree(library):
         beam.close()
 
 
-def test_load_paths_on_foundations_agree(library):
-    """Events of zones and supports along the load, and the state at its end."""
+@pytest.mark.parametrize("drawn", [ground_scene, random_moving_scene])
+def test_load_paths_on_foundations_agree(library, drawn):
+    """Events of zones and supports along the load, and the state at its end; also where loads move supports and ground."""
     found = []
     for seed in range(22):
-        scene, rule = ground_scene(seed), ("block", "single")[seed % 2]
+        scene, rule = drawn(seed), ("block", "single")[seed % 2]
         scene.pop("sections", None)
         scene["analysis"] = {"rule": rule, "follow": "events"}
         result = python_result(scene)

@@ -1,14 +1,14 @@
 """Supports and ground that loads move, beside closed forms, rows of springs, and the same scenes at rest where they have gone."""
 
-import random
 from itertools import pairwise
 
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.results.proof import proof_data
 from mpmath import findroot, mp, mpf
 from oracle.foundation import solve as reference
-from scenes import at, force, linear, scene, uniform
+from scenes import at, force, linear, mirrored, scene, uniform
 from scenes.ground import on_ground
 from scenes.moving import at_rest, movement, random_moving_scene
 
@@ -202,3 +202,138 @@ def what_acts(made, factor):
         ends = (item.get("from", 0.0), item.get("to", length))
         zones.append([(abs(zone.start - ends[0]) < 1e-20, abs(zone.end - ends[1]) < 1e-20) for zone in of])
     return zones, [abs(held.reaction) > 1e-25 for held in right.supports]
+
+
+@pytest.mark.parametrize("seed", [2, 7, 12, 15, 18, 21, 23, 29])
+def test_random_paths_change_where_the_oracle_does(seed):
+    """In 50 digits the zones are others, or the supports that carry, 1e-14 below and above each factor."""
+    made = random_moving_scene(seed)
+    events = [event for event in gapbeam.solve(made | {"analysis": EVENTS}).events if event.branch == 1]
+    assert events
+    with mp.workdps(80):
+        for event in events:
+            below, above = (what_acts(made, mpf(event.factor) * (1 + mpf(d))) for d in ("-1e-14", "1e-14"))
+            assert below != above, event
+
+
+def turned(made):
+    """A scene seen from behind, its ground too."""
+    new = mirrored(made)
+    length = sum(made["beam"]["spans"])
+    for item in new["foundation"]:
+        item["from"], item["to"] = length - item.get("to", length), length - item.get("from", 0.0)
+        for key in ("k", "gap"):
+            if isinstance(item.get(key), list):
+                item[key].reverse()
+        if "profile" in item:
+            item["profile"] = [[length - x, gap] for x, gap in reversed(item["profile"])]
+    for load in new["loads"]:
+        if isinstance(load.get("value"), list):
+            load["value"].reverse()
+    return new
+
+
+@pytest.mark.parametrize("seed", [7, 12, 16, 18, 21, 23])
+def test_mirrored_scenes(seed):
+    made = random_moving_scene(seed)
+    one, other = (gapbeam.solve(each | {"analysis": EVENTS}) for each in (made, turned(made)))
+    assert [event.factor for event in one.events] == pytest.approx([event.factor for event in other.events], rel=1e-11)
+    x = np.linspace(0.0, sum(made["beam"]["spans"]), 33)
+    w, back = one.at(x).deflection, other.at(x[::-1]).deflection
+    assert w == pytest.approx(back, abs=1e-12 * abs(w).max())
+
+
+def moved(**keys):
+    """Three supports, a weight, and three movements of two cases and of the weight's."""
+    ground = [{"name": "clay", "from": 2.0, "to": 18.0, "k": K, "side": "below", "gap": 0.01}]
+    loads = [uniform(0.3, case="dead"), movement(0.02, support=1, case="sinks"), movement([0.03, 0.01], foundation="clay", case="heaves"),
+             movement(0.002, foundation="clay", case="dead")]  # fmt: skip
+    return on_ground([10.0, 10.0], ground, loads, [at(0), at(1, side="below"), at(2)], EI=EI, **keys)
+
+
+FACTORS = {"a": (1.35, 1.5, 0.0), "b": (1.0, 0.5, -1.0), "c": (1.0, 0.0, 2.0)}
+"""Of the cases dead, sinks and heaves."""
+
+
+def rested(dead, sinks, heaves):
+    """The same at rest."""
+    gap = [0.01 + 0.002 * dead + by * heaves for by in (0.03, 0.01)]
+    ground = [{"from": 2.0, "to": 18.0, "k": K, "side": "below", "gap": gap}]
+    supports = [at(0), at(1, side="below", settlement=0.02 * sinks), at(2)]
+    return on_ground([10.0, 10.0], ground, [uniform(0.3 * dead)], supports, EI=EI)
+
+
+@pytest.mark.parametrize("analysis", [{}, EVENTS, {"steps": 3}])
+def test_combinations_multiply_movements(analysis):
+    combinations = [{"name": name, "factors": dict(zip(("dead", "sinks", "heaves"), by, strict=True))} for name, by in FACTORS.items()]
+    result = gapbeam.solve(moved(analysis=analysis) | {"combinations": combinations})
+    x = np.linspace(0.0, 20.0, 41)
+    for name, by in FACTORS.items():
+        right = gapbeam.solve(rested(*by))
+        assert result.combinations[name].at(x).deflection == pytest.approx(right.at(x).deflection, abs=1e-15)
+        assert result.combinations[name].steps[-1].reaction == pytest.approx(right.steps[-1].reaction, abs=1e-13)
+    assert result.envelope().extremes["deflection"]["min"].value < -0.005  # of ground that heaves
+
+
+def test_prepared_cases_and_batches():
+    """Every load by a factor of its own, also from the columns of a table."""
+    prepared = gapbeam.prepare(moved())
+    by = np.array([[dead, sinks, heaves, dead] for dead, sinks, heaves in FACTORS.values()])
+    cases = prepared.solve(by)
+    for k, factors in enumerate(FACTORS.values()):
+        right = gapbeam.solve(rested(*factors))
+        assert cases.reaction[k] == pytest.approx(right.steps[-1].reaction, abs=1e-13)
+        assert prepared.result(by[k]).at(10.0).moment == pytest.approx(right.at(10.0).moment, abs=1e-13)
+    names = ["loads[1].value", "factors.heaves", "loads[3].value"]
+    numbers = gapbeam.function(moved(), names, ["reaction[0]", "reaction[1]", "reaction[2]"])([[0.02, 0.0, 0.002], [0.01, -1.0, 0.0]])
+    for k, factors in enumerate(((1.0, 1.0, 0.0), (1.0, 0.5, -1.0))):
+        right = rested(*factors)
+        if k:
+            right["foundation"][0]["gap"] = [0.01 - 0.03, 0.01 - 0.01]
+        assert numbers[k] == pytest.approx(gapbeam.solve(right).steps[-1].reaction, abs=1e-13)
+
+
+def test_trains_find_everything_moved():
+    """They pass where live movements have come to their full values."""
+    train = [{"name": "crane", "axles": [[0.0, 5.0], [2.0, 5.0]]}]
+    found, right = (gapbeam.solve(one | {"trains": train}) for one in (moved(), rested(1.0, 1.0, 1.0)))
+    for name in ("deflection", "moment", "shear", "pressure"):
+        one, other = (each.envelope().extremes[name] for each in (found, right))
+        assert [one[way].value for way in ("max", "min")] == pytest.approx([other[way].value for way in ("max", "min")], abs=1e-12)
+    events = [[(event.support, event.event) for event in one.trains["crane"].events] for one in (found, right)]
+    assert len(events[0]) > 4
+    assert events[0] == events[1]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"foundation": "sand"}, r"loads\[0\].foundation: there is no foundation"),
+        ({"foundation": 0, "support": 0}, "and foundation are both given"),
+        ({"support": 0, "value": [1.0, 2.0]}, "a support moves by one number"),
+        ({"foundation": 0, "value": None, "rotation": 0.1}, "a foundation moves by value"),
+        ({"foundation": 0, "value": [0.1, float("inf")]}, "expected finite numbers"),
+        ({"foundation": 0, "value": 1.2e308}, "smaller gaps and movements"),
+        ({}, "give the support that moves, or foundation"),
+    ],
+)
+def test_refusals(change, message):
+    load = {"type": "movement", "value": 0.1, **change}
+    load = {key: value for key, value in load.items() if value is not None}
+    made = on_ground([4.0], [{"k": 100.0}], [load, movement(1.2e308, foundation=0)], [at(0), at(1)], EI=EI)
+    with pytest.raises(gapbeam.GapbeamError, match=message):
+        gapbeam.solve(made)
+
+
+def test_supports_that_meet_are_named():
+    """A support raised by 0.05 comes to one 0.02 above it at a factor of 0.4."""
+    supports = [at(0), at(1, side="below", gap=0.01), at(1, side="above", gap=0.01), at(2)]
+    made = on_ground([4.0, 4.0], [{"k": 100.0}], [uniform(10.0), movement(-0.05, support=1)], supports, EI=2000.0)
+    for analysis in ({}, EVENTS):
+        with pytest.raises(gapbeam.EngineError, match=r"supports\[1\] and supports\[2\].* from load factor 0.4 on"):
+            gapbeam.solve(made | {"analysis": analysis})
+
+
+def test_proofs_refuse_ground_that_moves():
+    with pytest.raises(gapbeam.SceneError, match="write it as the gap of the foundation"):
+        proof_data(moved())
