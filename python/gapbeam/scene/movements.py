@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from .loads import Load, MovementLoad
-from .names import find
+from .names import DEAD, find
 from .structs import Scene, Support
 
 
@@ -101,6 +101,38 @@ def settle_movements(scene: Scene) -> Scene:
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
 
 
+def supports_moved(scene: Scene, factor: float) -> np.ndarray:
+    """Give how far loads have moved every support.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    factor : float
+        Load factor.
+    """
+    moves = np.zeros(len(scene.supports))
+    for k, load in enumerate(scene.loads):
+        if moves_support(load):
+            moves[number_of_moved(scene, k, load)] += _share(load, factor) * load.value
+    return moves
+
+
+def ground_moved(scene: Scene, factor: float) -> np.ndarray:
+    """Give how far loads have moved every foundation at its left and its right end, foundations by 2.
+
+    Parameters
+    ----------
+    scene, factor
+        As for `supports_moved`.
+    """
+    moves = np.zeros((len(scene.foundation), 2))
+    for k, load in enumerate(scene.loads):
+        if moves_ground(load):
+            moves[number_of_moved(scene, k, load)] += _share(load, factor) * np.asarray(load.value)
+    return moves
+
+
 def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
     """Find the support or foundation that a load moves.
 
@@ -160,6 +192,10 @@ def refuse_movements(scene: Scene, problem: str) -> None:
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
         if isinstance(load, MovementLoad):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
+
+
+def _share(load: MovementLoad, factor: float) -> float:
+    return 1.0 if load.case == DEAD else factor
 
 
 def _moved(support: Support, by: float) -> Support:
