@@ -20,9 +20,9 @@ from gapbeam.studies.meshes import gapped_spans
 from scenes import nodes_of, random_scene
 from scenes.curved import random_curved_scene
 from scenes.foundation import random_scene as ground_scene
-from scenes.moving import random_moving_scene
 from scenes.ground import touching
 from scenes.law import FAMILIES, law_scene
+from scenes.moving import random_moving_scene
 from scenes.tabled import random_tabled_scene
 
 from .clibrary import F77Beam

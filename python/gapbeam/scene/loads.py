@@ -141,7 +141,7 @@ class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
 
 
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
-    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat. Or its rotation. Or ground that moves.
+    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat. Or its rotation. Or moving ground.
 
     Parameters
     ----------

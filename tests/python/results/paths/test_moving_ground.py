@@ -138,8 +138,8 @@ def test_rows_of_springs_come_to_the_ground():
     """One-sided springs that a load moves, which stand for so much ground each: their error is of second order."""
     supports = [at(0), at(1, side="below"), at(2)]
     moves = [movement(0.04, support=1), uniform(Q, case="dead"), force(3.0, 4.0)]
-    ground = on_ground([5.0, 5.0], [{"k": K, "side": "below", "gap": 0.01}], [*moves, movement([0.05, -0.02], foundation=0)], supports,
-                       EI=EI)  # fmt: skip
+    loads = [*moves, movement([0.05, -0.02], foundation=0)]
+    ground = on_ground([5.0, 5.0], [{"k": K, "side": "below", "gap": 0.01}], loads, supports, EI=EI)
     right = gapbeam.solve(ground).at(np.array([2.5, 5.0, 7.5])).deflection
     errors = []
     for n in (40, 80, 160):
@@ -162,12 +162,12 @@ def scaled(made, factor):
     return rest
 
 
-def compare(made, fields, factor):
-    """At a factor everything is as with settlements and gaps."""
-    x = np.linspace(0.0, sum(made["beam"]["spans"]), 41)
-    other = gapbeam.solve(scaled(made, factor)).at(x)
+def compare(made, result, state):
+    """In a state everything is as with settlements and gaps."""
+    x, factor = np.linspace(0.0, sum(made["beam"]["spans"]), 41), state.factor
+    fields, other = result.at_state(state, x), gapbeam.solve(scaled(made, factor)).at(x)
     for name in ("deflection", "moment", "shear", "pressure"):
-        found, right = getattr(fields(x), name), getattr(other, name)
+        found, right = getattr(fields, name), getattr(other, name)
         assert found == pytest.approx(right, abs=1e-11 * abs(right).max()), (factor, name)
 
 
@@ -185,12 +185,11 @@ def test_random_scenes(block):
             continue
         for a, b in pairwise([0.0, *sorted({one.factor for one in result.events}), 1.0]):
             if b - a > 1e-6:
-                state = result.state((a + b) / 2)
-                compare(made, lambda x, state=state: result.at_state(state, x), (a + b) / 2)
+                compare(made, result, result.state((a + b) / 2))
                 compared += 1
         steps = gapbeam.solve(made | {"analysis": {"steps": 3}})
-        for number, step in enumerate(steps.steps):
-            compare(made, lambda x, number=number: steps.at(x, step=number), step.factor)
+        for step in steps.steps:
+            compare(made, steps, step)
     assert compared > 12
 
 
@@ -246,8 +245,10 @@ def test_mirrored_scenes(seed):
 def moved(**keys):
     """Three supports, a weight, and three movements of two cases and of the weight's."""
     ground = [{"name": "clay", "from": 2.0, "to": 18.0, "k": K, "side": "below", "gap": 0.01}]
-    loads = [uniform(0.3, case="dead"), movement(0.02, support=1, case="sinks"), movement([0.03, 0.01], foundation="clay", case="heaves"),
-             movement(0.002, foundation="clay", case="dead")]  # fmt: skip
+    loads = [
+        uniform(0.3, case="dead"), movement(0.02, support=1, case="sinks"),
+        movement([0.03, 0.01], foundation="clay", case="heaves"), movement(0.002, foundation="clay", case="dead"),
+    ]  # fmt: skip
     return on_ground([10.0, 10.0], ground, loads, [at(0), at(1, side="below"), at(2)], EI=EI, **keys)
 
 
@@ -265,7 +266,8 @@ def rested(dead, sinks, heaves):
 
 @pytest.mark.parametrize("analysis", [{}, EVENTS, {"steps": 3}])
 def test_combinations_multiply_movements(analysis):
-    combinations = [{"name": name, "factors": dict(zip(("dead", "sinks", "heaves"), by, strict=True))} for name, by in FACTORS.items()]
+    cases = ("dead", "sinks", "heaves")
+    combinations = [{"name": name, "factors": dict(zip(cases, by, strict=True))} for name, by in FACTORS.items()]
     result = gapbeam.solve(moved(analysis=analysis) | {"combinations": combinations})
     x = np.linspace(0.0, 20.0, 41)
     for name, by in FACTORS.items():
@@ -285,7 +287,7 @@ def test_prepared_cases_and_batches():
         assert cases.reaction[k] == pytest.approx(right.steps[-1].reaction, abs=1e-13)
         assert prepared.result(by[k]).at(10.0).moment == pytest.approx(right.at(10.0).moment, abs=1e-13)
     names = ["loads[1].value", "factors.heaves", "loads[3].value"]
-    numbers = gapbeam.function(moved(), names, ["reaction[0]", "reaction[1]", "reaction[2]"])([[0.02, 0.0, 0.002], [0.01, -1.0, 0.0]])
+    numbers = gapbeam.function(moved(), names, [f"reaction[{k}]" for k in range(3)])([[0.02, 0.0, 0.002], [0.01, -1.0, 0.0]])
     for k, factors in enumerate(((1.0, 1.0, 0.0), (1.0, 0.5, -1.0))):
         right = rested(*factors)
         if k:
