@@ -11,7 +11,7 @@ module gapbeam_assemble_foundations
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
-    use gapbeam_assemble_ground_movements, only: move_layers
+    use gapbeam_assemble_movements, only: move_layers
     use gapbeam_assemble_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
     use gapbeam_check, only: entry_type, refuse_entry
     use gapbeam_check_foundations, only: find_tables, at_right, quantities

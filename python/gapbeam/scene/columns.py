@@ -28,7 +28,7 @@ from .loads import (
     TemperatureLoad,
     UniformLoad,
 )
-from .movements import number_of_moved
+from .movements import number_of_moved, what_moves
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
@@ -61,6 +61,7 @@ SETTLEMENT, ROTATION = 3, 4
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = range(1, 9)
 AXIAL_UNIFORM, GROUND_MOVEMENT = 11, 12
+MOVEMENTS = {"support": MOVEMENT, "rotation": ROTATION_OF_SUPPORT, "foundation": GROUND_MOVEMENT}
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
 KINDS = {
@@ -285,7 +286,7 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         kinds[some] = kind
         if kind == MOVEMENT:
             numbered = list(zip(np.arange(len(items))[some].tolist(), group, strict=True))
-            kinds[some] = [_kind_of_movement(load, f"loads[{k}]") for k, load in numbered]
+            kinds[some] = [MOVEMENTS[what_moves(load, f"loads[{k}]")] for k, load in numbered]
             nodes[some] = [number_of_moved(scene, k, load) + 1 for k, load in numbered]
             left[some] = right[some] = 0.0
         elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE, AXIAL_UNIFORM):
@@ -305,24 +306,6 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             given = _numbers(group, key)
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
-
-
-def _kind_of_movement(load: MovementLoad, place: str) -> int:
-    """Tell whether a foundation is moved, or a support, or whether that is turned."""
-    if (load.support is None) == (load.foundation is None):
-        what = "is missing; give the support that moves, or foundation" if load.support is None else "and foundation are both given"
-        raise SceneError(f"{place}.support", what if load.support is None else f"{what}; make two loads")
-    if load.foundation is not None:
-        if load.rotation is not None or load.value is None:
-            raise SceneError(f"{place}.value", "is missing; a foundation moves by value (length), a pair [at from, at to] where "
-                             "it turns")  # fmt: skip
-        return GROUND_MOVEMENT
-    if isinstance(load.value, tuple):
-        raise SceneError(f"{place}.value", "a support moves by one number; a pair is for a foundation")
-    if (load.value is None) == (load.rotation is None):
-        both = "and rotation are both given; make two loads"
-        raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
-    return MOVEMENT if load.rotation is None else ROTATION_OF_SUPPORT
 
 
 def _groups(items: Sequence[Any]) -> dict[type, Any]:

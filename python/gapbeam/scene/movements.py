@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import msgspec
 import numpy as np
@@ -131,6 +131,37 @@ def ground_moved(scene: Scene, factor: float) -> np.ndarray:
         if moves_ground(load):
             moves[number_of_moved(scene, k, load)] += _share(load, factor) * np.asarray(load.value)
     return moves
+
+
+def what_moves(load: MovementLoad, place: str) -> Literal["support", "rotation", "foundation"]:
+    """Tell whether a load moves a support, turns it, or moves a foundation.
+
+    Parameters
+    ----------
+    load : MovementLoad
+        The load.
+    place : str
+        Its place in the scene.
+
+    Raises
+    ------
+    SceneError
+        It says too little or too much.
+    """
+    if (load.support is None) == (load.foundation is None):
+        missing = "is missing; give the support that moves, or foundation"
+        raise SceneError(f"{place}.support", missing if load.support is None else "and foundation are both given; make two loads")
+    if load.foundation is not None:
+        if load.rotation is not None or load.value is None:
+            what = "is missing; a foundation moves by value (length), a pair [at from, at to] where it turns"
+            raise SceneError(f"{place}.value", what)
+        return "foundation"
+    if isinstance(load.value, tuple):
+        raise SceneError(f"{place}.value", "a support moves by one number; a pair is for a foundation")
+    if (load.value is None) == (load.rotation is None):
+        both = "and rotation are both given; make two loads"
+        raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
+    return "support" if load.rotation is None else "rotation"
 
 
 def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:

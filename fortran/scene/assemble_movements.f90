@@ -1,5 +1,5 @@
 !> Assembly of loads that move foundations.
-module gapbeam_assemble_ground_movements
+module gapbeam_assemble_movements
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_ground_movement, gapbeam_dead
@@ -78,4 +78,4 @@ contains
 
     end subroutine move_foundation
 
-end module gapbeam_assemble_ground_movements
+end module gapbeam_assemble_movements
