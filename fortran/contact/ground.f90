@@ -14,8 +14,16 @@ module gapbeam_ground
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none
     private
-    public :: ground_type, zones_type, grounded_type
-    public :: new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+    public :: ground_type, moving_type, zones_type, grounded_type
+    public :: move_ground, new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+
+    !> Where supports and ground begin to act at load factor 0 (1), and how far loads move that while it grows by 1 (2)
+    type :: moving_type
+        !> Of the supports, shape (2, size(supports))
+        real(wp), allocatable :: supports(:, :)
+        !> Of the layers at both ends of their pieces, shape (2, 2, size(layers))
+        real(wp), allocatable :: layers(:, :, :)
+    end type moving_type
 
     !> A beam and the ground under it
     type :: ground_type
@@ -29,6 +37,8 @@ module gapbeam_ground
         integer, allocatable :: first(:)
         !> Pieces of all laws
         type(law_piece_type), allocatable :: laws(:)
+        !> Not allocated where loads move nothing
+        type(moving_type), allocatable :: moving
     end type ground_type
 
     !> Stretches of the beam, in each of which every layer stays on one piece of its law
@@ -59,6 +69,20 @@ module gapbeam_ground
     end type grounded_type
 
 contains
+
+    !> Move supports and ground to where they are at a load factor
+    pure subroutine move_ground(ground, factor)
+        !> As it is at any factor
+        type(ground_type), intent(inout) :: ground
+        real(wp), intent(in) :: factor
+
+        if (.not. allocated(ground%moving)) return
+        associate (moving => ground%moving, layers => ground%layers)
+            ground%beam%supports%contact = moving%supports(1, :) + factor*moving%supports(2, :)
+            layers%contact_a = moving%layers(1, 1, :) + factor*moving%layers(2, 1, :)
+            layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
+        end associate
+    end subroutine move_ground
 
     !> Room for stretches
     pure subroutine new_zones(stretches, layers, steps, zones)

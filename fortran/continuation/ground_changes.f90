@@ -146,7 +146,13 @@ contains
             associate (layer => assembled%layers(k), f => assembled%layers(k)%foundation)
                 below(f) = below(f) .or. layer%side == gapbeam_below
                 above(f) = above(f) .or. layer%side == gapbeam_above
-                with_gap(f) = with_gap(f) .or. abs(layer%contact_a) > 0.0_wp .or. abs(layer%contact_b) > 0.0_wp
+                ! The layer that pushes down follows that which pushes up
+                if (layer%side /= gapbeam_above .or. k == 1) cycle
+                associate (other => assembled%layers(k - 1))
+                    if (other%foundation /= f) cycle
+                    with_gap(f) = with_gap(f) .or. abs(layer%contact_a - other%contact_a) > 0.0_wp &
+                        .or. abs(layer%contact_b - other%contact_b) > 0.0_wp
+                end associate
             end associate
         end do
         two_sided(:) = below .and. above .and. .not. with_gap

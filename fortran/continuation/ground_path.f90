@@ -3,7 +3,8 @@ module gapbeam_ground_path
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: load_begin
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
-    use gapbeam_assembled_model, only: assembled_type, is_on_rigid_ground
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_check_rigid_ground, only: is_on_rigid_ground
     use gapbeam_solution, only: state_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_walk, only: walk_along

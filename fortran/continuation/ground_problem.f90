@@ -52,7 +52,7 @@ contains
         integer :: k
 
         problem%assembled => assembled
-        problem%ground = ground_of(assembled)
+        problem%ground = ground_of(assembled, 0.0_wp)
         call refine_ground(problem%ground, detail_of(assembled), problem%fine)
         problem%rule = rule
         problem%parameter = "load factor"

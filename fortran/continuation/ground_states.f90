@@ -8,7 +8,7 @@ module gapbeam_ground_states
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, move_ground
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin
@@ -34,7 +34,7 @@ module gapbeam_ground_states
     !> What is the same at all load factors, and what comes of them
     type, extends(path_problem_type) :: ground_states_type
         type(assembled_type), pointer :: assembled => null()
-        !> The beam and its ground, the same in quadruple precision, and the rule for its supports
+        !> The beam and its ground, moved to any factor, the same in quadruple precision, and the rule for its supports
         type(ground_type) :: ground
         type(fine_ground_type) :: fine
         integer :: rule = 0
@@ -127,6 +127,7 @@ contains
             allocate (held)
             held%at = at
             call start_in(near, held%start)
+            call move_ground(problem%ground, at)
             call settle_nearby(problem%ground, at, problem%rule, held%start, grounded, work, problem%solves, settled, solved)
             call end_if_stopped(problem%assembled%beam%watch, error)
             if (allocated(error)) return
@@ -209,6 +210,7 @@ contains
         allocate (held)
         held%at = at
         call start_in(near, held%start)
+        call move_ground(problem%ground, at)
         call settle_nearby(problem%ground, at, problem%rule, held%start, grounded, work, problem%solves, settled, known)
         if (present(other) .and. .not. settled) then
             call start_in(other, held%start)

@@ -5,7 +5,7 @@ module gapbeam_capi_model
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, load_type, gapbeam_temperature
-    use gapbeam_assembled_model, only: is_of_support
+    use gapbeam_assembled_model, only: is_movement, is_of_support
     implicit none
     private
     public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
@@ -263,7 +263,8 @@ contains
             if (has_integers(c%load_kind, n, integers)) loads%kind = integers
             if (has_integers(c%load_case, n, integers)) loads%case = integers
             if (has_reals(c%load_x, n, reals)) loads%x = reals
-            if (has_integers(c%load_node, n, integers)) loads%node = integers + merge(1, 0, is_of_support(loads))
+            if (has_integers(c%load_node, n, integers)) loads%node = integers &
+                + merge(1, 0, is_of_support(loads) .or. is_movement(loads))
             if (has_reals(c%load_to, n, reals)) loads%to = reals
             if (has_reals(c%load_value, n, reals)) loads%value = reals
             do i = 1, n

@@ -237,6 +237,7 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
         do k = 1, nm
             if (lowered%model%supports(k)%direction /= 0) cycle
             level(k) = contact_level(lowered%model%supports(k))
+            if (allocated(lowered%growth)) level(k) = level(k) + lowered%growth(k)
         end do
     end associate
 end subroutine gbplac

@@ -11,7 +11,8 @@ module gapbeam_train_grid
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_normal, gapbeam_force, gapbeam_right_end, gapbeam_table_of_k, &
         gapbeam_table_of_parameter
     use gapbeam_laws, only: law_cubic
-    use gapbeam_assembled_model, only: assembled_type, in_bending, is_on_rigid_ground
+    use gapbeam_assembled_model, only: assembled_type, in_bending
+    use gapbeam_check_rigid_ground, only: is_on_rigid_ground
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end

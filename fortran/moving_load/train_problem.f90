@@ -241,7 +241,7 @@ contains
             allocate (measured%placed)
             call put_train(problem%assembled, problem%train, at, problem%acts, measured%placed, error)
             if (.not. allocated(error)) then
-                ground = ground_of(measured%placed)
+                ground = ground_of(measured%placed, 1.0_wp)
                 call begin_at(near)
                 if (present(other) .and. .not. settled) call begin_at(other)
             end if

@@ -87,7 +87,7 @@ contains
                 call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
             end if
         else
-            if (known) call put_near(near, kept%placed, ground_of(kept%placed), start, known)
+            if (known) call put_near(near, kept%placed, ground_of(kept%placed, 1.0_wp), start, known)
             if (known) then
                 call solve_state(kept%placed, 1.0_wp, rule, kept%state, error, start)
             else

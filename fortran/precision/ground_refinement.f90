@@ -5,10 +5,10 @@
 module gapbeam_ground_refinement
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_ground, only: ground_type
+    use gapbeam_ground, only: ground_type, move_ground
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type
+        fine_grounded_type => grounded_type, move_finely => move_ground
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_zones_quad, only: polish_zones
@@ -29,9 +29,9 @@ contains
 
     !> Find the factor to all digits
     subroutine refine_factor(ground, fine, rule, change, factor, slope, place, start, solves, found)
-        !> The beam and its ground, the same in quadruple precision, and the rule for its supports
-        type(ground_type), intent(in) :: ground
-        type(fine_ground_type), intent(in) :: fine
+        !> The beam and its ground, moved to any factor, the same in quadruple precision, and the rule for its supports
+        type(ground_type), intent(inout) :: ground
+        type(fine_ground_type), intent(inout) :: fine
         integer, intent(in) :: rule
         type(change_type), intent(in) :: change
         !> Load factor, slope of the margin over it, and the place of the change from the left end of the beam
@@ -62,10 +62,12 @@ contains
         last = factor
         last_margin = 0.0_qp
         do k = 1, most_steps
+            call move_ground(ground, factor)
             call polish_nearby(ground, factor, rule, start, solves, solved)
             if (.not. solved) return
             call refine_zones(fine, start%zones, zones)
             closed(:) = start%closed
+            call move_finely(fine, real(factor, qp))
             ! One round: what is asked for is the beam on these zones
             call polish_zones(fine, real(factor, qp), rule, huge(1.0_qp), zones, closed, fine_grounded, fine_work, outcome, &
                               settled, error)
@@ -73,11 +75,16 @@ contains
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
             call find_fine_margin(fine, fine_grounded, zones, real(factor, qp), fine_work, closed, fine_change, margin, &
                                   fine_place)
-            ! Of a support it may be that on the other side
-            if (k > 1) then
-                if (change%support == 0 .or. margin*last_margin > 0.0_qp) slope = real((margin - last_margin)/(factor - last), wp)
-            end if
             place = real(fine_place, wp)
+            if (k > 1) then
+                if (change%support == 0 .or. margin*last_margin > 0.0_qp) then
+                    slope = real((margin - last_margin)/(factor - last), wp)
+                else
+                    ! That on the other side, a force for a distance, or a distance for a force
+                    found = abs(factor - last) <= fine_enough*last
+                    if (found) return
+                end if
+            end if
             last = factor
             last_margin = margin
             if (.not. abs(slope) > 0.0_wp) return

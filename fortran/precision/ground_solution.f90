@@ -51,6 +51,8 @@ module gapbeam_ground_solution
         !> Of the supports
         real(wp), allocatable :: reaction(:)
         logical, allocatable :: undecided(:)
+        !> Load factor of its live loads, to which supports and ground have moved
+        real(wp) :: factor = 0.0_wp
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
         !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
@@ -81,6 +83,7 @@ contains
         m = size(zones%piece)
         from = 0.0_qp
         call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
+        solution%factor = real(factor, wp)
         solution%steps(:) = zones%steps
         solution%piece(:) = zones%piece
         solution%from(:) = real(zones%from, wp)
@@ -151,6 +154,7 @@ contains
         s = stretch
         q = load
         ways = [way, way + (length - s%length)]
+        where (abs(ways) <= fine_rounding*length) ways = 0.0_qp
         if (.not. any(abs(ways) > 0.0_qp)) return
         call go(ways(1), s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
         call go(ways(2), s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
@@ -376,9 +380,18 @@ contains
         type(fine_stretch_load_type) :: found
 
         found = load
-        found%qa = load%qa - stretch%modulus_a*line(1)
-        found%qb = load%qb - stretch%modulus_b*line(2)
-        found%qc = load%qc + (stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1))
+        found%qa = difference(load%qa, stretch%modulus_a*line(1))
+        found%qb = difference(load%qb, stretch%modulus_b*line(2))
+        found%qc = difference(load%qc, -(stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1)))
     end function beside_line
+
+    !> A difference; where nothing but rounding is left of it, 0
+    elemental function difference(a, b) result(found)
+        real(qp), intent(in) :: a, b
+        real(qp) :: found
+
+        found = a - b
+        if (abs(found) <= fine_rounding*(abs(a) + abs(b))) found = 0.0_qp
+    end function difference
 
 end module gapbeam_ground_solution

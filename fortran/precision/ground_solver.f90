@@ -42,7 +42,7 @@ contains
 
     !> Solve at a load factor
     subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
-        !> The beam and its ground
+        !> The beam and its ground, moved to where they are at the load factor
         type(ground_type), intent(in) :: ground
         !> What its links are made of
         type(detail_type), intent(in) :: detail

@@ -29,6 +29,10 @@ contains
         fine%layers(:) = fine_layer(ground%layers)
         fine%first(:) = ground%first
         fine%laws(:) = fine_law(ground%laws)
+        if (.not. allocated(ground%moving)) return
+        allocate (fine%moving)
+        allocate (fine%moving%supports, source=real(ground%moving%supports, qp))
+        allocate (fine%moving%layers, source=real(ground%moving%layers, qp))
     end subroutine refine_ground
 
     !> A layer in quadruple precision

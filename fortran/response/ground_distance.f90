@@ -8,7 +8,8 @@ module gapbeam_ground_distance
     use gapbeam_ground_fields, only: deflection_size
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_query, only: values_in, curved_in, peaks_in
+    use gapbeam_layers, only: layer_type
+    use gapbeam_ground_query, only: layers_under, values_in, curved_in, peaks_in
     implicit none
     private
     public :: largest_ways, is_shallow
@@ -28,7 +29,8 @@ contains
         real(wp) :: line(2)
 
         call curved_in(assembled, solution, i, curved)
-        line(:) = contact_line(assembled%layers(k), [solution%from(i), solution%to(i)], assembled%pieces(solution%piece(i))%length)
+        line(:) = contact_line(layer_in(assembled, solution, i, k), [solution%from(i), solution%to(i)], &
+                               assembled%pieces(solution%piece(i))%length)
         call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
     end subroutine peaks_beside
 
@@ -94,16 +96,28 @@ contains
         !> Positive where there is no contact; size of its terms
         real(wp), intent(out) :: distance, rounding
         type(field_type) :: field
+        type(layer_type) :: layer
         real(wp) :: line
 
-        associate (layer => assembled%layers(k))
-            call values_in(assembled, solution, i, at, field)
-            line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
-                                assembled%pieces(solution%piece(i))%length)
-            distance = layer%side*(line - field%deflection)
-            rounding = deflection_size(solution, i) + abs(line)
-        end associate
+        layer = layer_in(assembled, solution, i, k)
+        call values_in(assembled, solution, i, at, field)
+        line = contact_line(layer, along(solution%from(i), solution%to(i), at, 1.0_wp), &
+                            assembled%pieces(solution%piece(i))%length)
+        distance = layer%side*(line - field%deflection)
+        rounding = deflection_size(solution, i) + abs(line)
     end subroutine distance_at
+
+    !> A layer under a stretch
+    pure function layer_in(assembled, solution, i, k) result(layer)
+        type(assembled_type), intent(in) :: assembled
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch, and the layer among all
+        integer, intent(in) :: i, k
+        type(layer_type) :: layer, layers(assembled%layer_first(solution%piece(i) + 1) - assembled%layer_first(solution%piece(i)))
+
+        layers(:) = layers_under(assembled, solution, solution%piece(i))
+        layer = layers(k - assembled%layer_first(solution%piece(i)) + 1)
+    end function layer_in
 
     !> Is a stretch in which a layer acts pressed into it by nothing but rounding
     pure function is_shallow(assembled, solution, i, k) result(shallow)

@@ -8,7 +8,7 @@ module gapbeam_ground_pressure
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, along, push_of_layer
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_query, only: stretch_of, share_of, values_in, peaks_in
+    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, values_in, peaks_in
     implicit none
     private
     public :: ground_pressure, pressure_extremes
@@ -40,6 +40,7 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: xi
         real(wp) :: pressure, place
+        type(layer_type) :: layers(assembled%layer_first(solution%piece(i) + 1) - assembled%layer_first(solution%piece(i)))
         type(field_type) :: field
         integer :: k
 
@@ -49,14 +50,12 @@ contains
             return
         end if
         call values_in(assembled, solution, i, xi, field)
-        associate (j => solution%piece(i))
-            place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
-            do k = assembled%layer_first(j), assembled%layer_first(j + 1) - 1
-                pressure = pressure + push_of_layer(assembled%layers(k), assembled%law_pieces, &
-                                                    solution%acts(k - assembled%layer_first(j) + 1, i), place, &
-                                                    assembled%pieces(j)%length, field%deflection)
-            end do
-        end associate
+        place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
+        layers(:) = layers_under(assembled, solution, solution%piece(i))
+        do k = 1, size(layers)
+            pressure = pressure + push_of_layer(layers(k), assembled%law_pieces, solution%acts(k, i), place, &
+                                                assembled%pieces(solution%piece(i))%length, field%deflection)
+        end do
     end function pressure_in
 
     !> Where the pressure of all layers is stationary inside a stretch in which no modulus varies: it is the sum of the moduli by
@@ -69,23 +68,22 @@ contains
         real(wp), allocatable, intent(out) :: xi(:)
         integer, intent(out) :: number
         type(curved_type), allocatable :: none
+        type(layer_type) :: layers(assembled%layer_first(solution%piece(i) + 1) - assembled%layer_first(solution%piece(i)))
         real(wp) :: modulus, rise, slope, line(2)
-        integer :: k, acts
+        integer :: k
 
         modulus = 0.0_wp
         rise = 0.0_wp
-        associate (j => solution%piece(i))
-            do k = assembled%layer_first(j), assembled%layer_first(j + 1) - 1
-                acts = solution%acts(k - assembled%layer_first(j) + 1, i)
+        layers(:) = layers_under(assembled, solution, solution%piece(i))
+        do k = 1, size(layers)
+            associate (acts => solution%acts(k, i), length => assembled%pieces(solution%piece(i))%length)
                 if (acts == 0) cycle
-                associate (layer => assembled%layers(k), length => assembled%pieces(j)%length)
-                    slope = slope_of_layer(layer, law_piece(layer, assembled%law_pieces, acts), acts, solution%from(i), length)
-                    line(:) = contact_line(layer, [solution%from(i), solution%to(i)], length)
-                end associate
-                modulus = modulus + slope
-                rise = rise + slope*(line(2) - line(1))
-            end do
-        end associate
+                slope = slope_of_layer(layers(k), law_piece(layers(k), assembled%law_pieces, acts), acts, solution%from(i), length)
+                line(:) = contact_line(layers(k), [solution%from(i), solution%to(i)], length)
+            end associate
+            modulus = modulus + slope
+            rise = rise + slope*(line(2) - line(1))
+        end do
         number = 0
         if (modulus > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
     end subroutine peaks_of_pressure

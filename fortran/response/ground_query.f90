@@ -9,6 +9,7 @@ module gapbeam_ground_query
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
+    use gapbeam_layers, only: layer_type
     use gapbeam_ground_laws, only: along
     use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
     use gapbeam_ground_solver, only: ground_solution_type
@@ -17,7 +18,7 @@ module gapbeam_ground_query
     private
     public :: ground_values, ground_extremes
     ! For gapbeam_ground_pressure and gapbeam_ground_distance
-    public :: stretch_of, share_of, values_in, curved_in, peaks_in
+    public :: layers_under, stretch_of, share_of, values_in, curved_in, peaks_in
 
 contains
 
@@ -71,6 +72,21 @@ contains
         end associate
     end function share_of
 
+    !> The layers under a piece of the beam, where they have moved to when it was solved
+    pure function layers_under(assembled, solution, piece) result(layers)
+        type(assembled_type), intent(in) :: assembled
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: piece
+        type(layer_type) :: layers(assembled%layer_first(piece + 1) - assembled%layer_first(piece))
+
+        associate (first => assembled%layer_first(piece), last => assembled%layer_first(piece + 1) - 1)
+            layers(:) = assembled%layers(first:last)
+            if (.not. allocated(assembled%layer_growth)) return
+            layers%contact_a = layers%contact_a + solution%factor*assembled%layer_growth(1, first:last)
+            layers%contact_b = layers%contact_b + solution%factor*assembled%layer_growth(2, first:last)
+        end associate
+    end function layers_under
+
     !> Fields inside a stretch, at its ends as they were solved
     pure subroutine values_in(assembled, solution, i, xi, field)
         type(assembled_type), intent(in) :: assembled
@@ -85,7 +101,7 @@ contains
             return
         end if
         associate (j => solution%piece(i))
-            call prepare_inside(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
+            call prepare_inside(layers_under(assembled, solution, j), assembled%law_pieces, &
                                 assembled%pieces(j)%length, solution, i, inside)
         end associate
         call field_inside(inside, xi, field)
@@ -100,7 +116,7 @@ contains
         type(curved_type), allocatable, intent(out) :: curved
 
         associate (j => solution%piece(i))
-            call curved_stretch(assembled%layers(assembled%layer_first(j):assembled%layer_first(j + 1) - 1), assembled%law_pieces, &
+            call curved_stretch(layers_under(assembled, solution, j), assembled%law_pieces, &
                                 assembled%pieces(j)%length, solution, i, curved)
         end associate
     end subroutine curved_in

@@ -1,22 +1,22 @@
 !> The state of a beam at one load factor as numbers, checked to be finite.
 module gapbeam_solution
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_indeterminate
     use gapbeam_element, only: field_type
     use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_words, only: shown
-    use gapbeam_input_error, only: refuse_range
+    use gapbeam_input_error, only: refuse_range, named, of_supports
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_units, only: moment_unit
     use gapbeam_ground_along, only: ground_along_type
     use gapbeam_assembled_model, only: assembled_type, growth_of, turns, way_unit, push_unit, point_x
     use gapbeam_model, only: last_place
-    use gapbeam_assemble_supports, only: contact_level
+    use gapbeam_assemble_supports, only: contact_level, is_room
     use gapbeam_assemble_units, only: name_farthest
     implicit none
     private
-    public :: state_type, new_state, close_all, forget, check_range, couple_at_node, displacement_at, way_to_contact, &
+    public :: state_type, new_state, close_all, forget, check_range, check_room, couple_at_node, displacement_at, way_to_contact, &
         level_at, has_own_laws, laws_in, laws_along
 
     !> A state, in the engine's units and those of the axial system; arrays have one entry per support of the engine's beam, or
@@ -205,6 +205,52 @@ contains
                 .and. all(abs(assembled%model%supports%settlement) <= far_within)
         end associate
     end function clearly_in_range
+
+    !> Refuse rigid supports at one place that loads have moved past each other
+    subroutine check_room(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
+        !> With its load factor
+        type(state_type), intent(in) :: state
+        type(error_type), allocatable, intent(out) :: error
+        type(node_support_type) :: laws(size(assembled%beam%supports))
+        real(wp) :: growth(size(assembled%beam%supports))
+        integer :: i, a, b
+
+        if (.not. allocated(assembled%growth)) return
+        laws(:) = laws_in(assembled, state)
+        growth(:) = growth_of(assembled)
+        associate (first => assembled%beam%first, order => assembled%beam%order)
+            do i = 0, size(assembled%beam%links)
+                do a = first(i), first(i + 1) - 1
+                    do b = first(i), first(i + 1) - 1
+                        if (allocated(error)) return
+                        if (a /= b) call check_pair(order(a), order(b))
+                    end do
+                end do
+            end do
+        end associate
+
+    contains
+
+        !> One that may push up, and one that may push down
+        subroutine check_pair(lower, upper)
+            integer, intent(in) :: lower, upper
+            real(wp) :: meet
+
+            associate (s => laws(lower), t => laws(upper))
+                if (s%side < 0 .or. t%side > 0 .or. min(s%stiffness, t%stiffness) <= huge(1.0_wp)) return
+                if (s%breakpoint > 0 .or. t%breakpoint > 0 .or. .not. abs(growth(lower) - growth(upper)) > 0.0_wp) return
+                if (is_room(s%contact, t%contact, .false.)) return
+                meet = state%factor - (s%contact - t%contact)/(growth(lower) - growth(upper))
+            end associate
+            associate (numbers => assembled%normal([lower, upper]), m => size(assembled%beam_support))
+                call fatal_error(error, gapbeam_indeterminate, trim(named(of_supports, numbers(1), m))//" and "// &
+                                 trim(named(of_supports, numbers(2), m))//", which loads move, leave no room for the beam "// &
+                                 "between them from load factor "//trim(shown(meet))//" on; move them less")
+            end associate
+        end subroutine check_pair
+
+    end subroutine check_room
 
     !> Couple of the rotational restraint of a node on the beam, in the engine's units: across a node the moment grows by the
     !> applied couple and that of the supports

@@ -12,7 +12,7 @@ module gapbeam_state
     use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
-    use gapbeam_ground, only: ground_type
+    use gapbeam_ground, only: ground_type, move_ground
     use gapbeam_ground_solver, only: solve_on_ground
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type, words_for
@@ -22,9 +22,9 @@ module gapbeam_state
     use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_words, only: shown
-    use gapbeam_assembled_model, only: assembled_type, point_x, find_length_errors
+    use gapbeam_assembled_model, only: assembled_type, growth_of, point_x, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
-    use gapbeam_solution, only: state_type, forget, check_range, has_own_laws, laws_in
+    use gapbeam_solution, only: state_type, forget, check_range, check_room, has_own_laws, laws_in
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
@@ -56,7 +56,9 @@ contains
         call solve_along_axis(assembled, state, error)
         if (allocated(error)) return
         if (allocated(assembled%layers)) then
-            call settle_on_ground(assembled, ground_of(assembled), rule, state, error, near)
+            call check_room(assembled, state, error)
+            if (allocated(error)) return
+            call settle_on_ground(assembled, ground_of(assembled, factor), rule, state, error, near)
         else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
             changed%supports(:) = laws_in(assembled, state)
@@ -174,9 +176,10 @@ contains
         state%closed(:) = acting
     end subroutine take_outcome
 
-    !> The beam with the ground under it
-    function ground_of(assembled) result(ground)
+    !> The beam with the ground under it, where they are at a load factor
+    function ground_of(assembled, factor) result(ground)
         type(assembled_type), intent(in) :: assembled
+        real(wp), intent(in) :: factor
         type(ground_type) :: ground
 
         ground%beam = assembled%beam
@@ -190,6 +193,17 @@ contains
         ground%layers(:) = assembled%layers
         ground%first(:) = assembled%layer_first
         ground%laws(:) = assembled%law_pieces
+        if (.not. (allocated(assembled%growth) .or. allocated(assembled%layer_growth))) return
+        allocate (ground%moving)
+        associate (moving => ground%moving)
+            allocate (moving%supports(2, size(ground%beam%supports)), moving%layers(2, 2, size(ground%layers)), source=0.0_wp)
+            moving%supports(1, :) = ground%beam%supports%contact
+            moving%supports(2, :) = growth_of(assembled)
+            moving%layers(1, 1, :) = ground%layers%contact_a
+            moving%layers(1, 2, :) = ground%layers%contact_b
+            if (allocated(assembled%layer_growth)) moving%layers(2, :, :) = assembled%layer_growth
+        end associate
+        call move_ground(ground, factor)
     end function ground_of
 
     !> Say what it was where the engine left the range of double precision

@@ -10,7 +10,7 @@ module gapbeam_assemble
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_movement, &
         gapbeam_dead, gapbeam_right_end
-    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_of_support
+    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_movement, is_of_support
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
@@ -189,6 +189,12 @@ contains
                     associate (s => model%supports(model%loads(i)%node))
                         call add(ends, s%x, s%node, places)
                         call add(ends, s%x, s%node, places)
+                    end associate
+                    cycle
+                else if (is_movement(model%loads(i))) then
+                    associate (f => model%foundations(model%loads(i)%node))
+                        call add(ends, f%from, gapbeam_by_x, places)
+                        call add(ends, right_end(ends, f%to), gapbeam_by_x, places)
                     end associate
                     cycle
                 end if

@@ -11,9 +11,10 @@ module gapbeam_assemble_foundations
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
+    use gapbeam_assemble_movements, only: move_layers
     use gapbeam_assemble_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
     use gapbeam_check, only: entry_type, refuse_entry
-    use gapbeam_check_foundations, only: find_tables, at_right, quantities
+    use gapbeam_check_foundations, only: find_tables, at_right, is_rigid, moduli_of, quantities
     use gapbeam_check_ground_laws, only: check_parameters
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_foundations, bad_law
@@ -90,6 +91,7 @@ contains
                 end do
             end do
         end associate
+        call move_layers(assembled, error)
 
     contains
 
@@ -152,23 +154,6 @@ contains
         end function layer_at
 
     end subroutine assemble_foundations
-
-    !> Does a foundation never give way
-    elemental function is_rigid(foundation) result(rigid)
-        type(foundation_type), intent(in) :: foundation
-        logical :: rigid
-
-        rigid = foundation%k > huge(foundation%k)
-    end function is_rigid
-
-    !> Moduli at its ends, of one that is rigid 0
-    pure function moduli_of(foundation) result(k)
-        type(foundation_type), intent(in) :: foundation
-        real(wp) :: k(2)
-
-        k = 0.0_wp
-        if (.not. is_rigid(foundation)) k = [foundation%k, at_right(foundation%k, foundation%k_to)]
-    end function moduli_of
 
     !> Does ground with a modulus, or a law with parameters, carry on a piece at all
     pure function carries(law, values) result(does)
@@ -306,6 +291,7 @@ contains
         end do
         do i = 1, size(assembled%layers)
             call ways%note(max(abs(assembled%layers(i)%contact_a), abs(assembled%layers(i)%contact_b)), 0)
+            if (allocated(assembled%layer_growth)) call ways%note(maxval(abs(assembled%layer_growth(:, i))), 0)
         end do
     end subroutine note_foundations
 
@@ -337,7 +323,7 @@ contains
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: lost(:)
-        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2)
+        real(wp) :: slopes(2), given(parameters_of_law, 2), scaled(parameters_of_law, 2), size_of_contact
         real(wp) :: most(quantities, size(assembled%model%foundations))
         integer :: i, m, per_length, powers(parameters_of_law)
 
@@ -389,9 +375,14 @@ contains
                 end if
                 layer%parameter_a(:) = scaled(:, 1)
                 layer%parameter_b(:) = scaled(:, 2)
-                if (max(abs(layer%contact_a), abs(layer%contact_b)) <= huge(1.0_wp)) cycle
+                size_of_contact = max(abs(layer%contact_a), abs(layer%contact_b))
+                if (allocated(assembled%layer_growth)) then
+                    assembled%layer_growth(:, i) = scale(assembled%layer_growth(:, i), -units%deflection)
+                    size_of_contact = max(size_of_contact, maxval(abs(assembled%layer_growth(:, i))))
+                end if
+                if (size_of_contact <= huge(1.0_wp)) cycle
                 call refuse_range(error, trim(named(of_foundations, layer%foundation, m))//" acts at deflections too far from "// &
-                                  "those that the loads make", "give smaller gaps")
+                                  "those that the loads make", "give smaller gaps and movements")
             end associate
             return
         end do

@@ -94,12 +94,13 @@ contains
 
     end subroutine check_rigid_pieces
 
-    !> Does a state depend on the loading history to it. That loads move supports is known on a path alone
+    !> Does a state depend on the loading history to it. That loads move supports is known on a path alone, but on the ground, where
+    !> every load factor is solved for by itself
     function depends_on_path(assembled) result(depends)
         type(assembled_type), intent(in) :: assembled
         logical :: depends
 
-        depends = allocated(assembled%given_settlement)
+        depends = allocated(assembled%given_settlement) .and. .not. allocated(assembled%layers)
         if (.not. depends) depends = laws_depend_on_path(assembled)
     end function depends_on_path
 

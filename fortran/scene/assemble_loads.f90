@@ -4,9 +4,9 @@ module gapbeam_assemble_loads
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_range, only: first_lost_link
-    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
-    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_along, is_stretch
+    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_temperature, &
+        gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
+    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_along, is_movement, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
@@ -87,7 +87,7 @@ contains
         do i = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(i), a => assembled%load_from(i), b => assembled%load_to(i))
                 k = merge(1, 2, load%case == gapbeam_dead)
-                if (is_along(load) .or. load%kind == gapbeam_movement) then
+                if (is_along(load) .or. is_movement(load)) then
                     cycle
                 else if (is_beside_point(load) .and. k == 1) then
                     call put_beside(load, a, assembled%dead)
@@ -180,7 +180,7 @@ contains
                 last = min(size(assembled%pieces), a + 1)
                 return
             end if
-            if (is_along(load) .or. load%kind == gapbeam_movement) return
+            if (is_along(load) .or. is_movement(load)) return
             node = assembled%node_of_point(a)
             if (node < 0) first = a
         end associate

@@ -7,16 +7,15 @@ module gapbeam_assembled_model
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
-        gapbeam_unchanged, &
-        gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, &
-        gapbeam_rotational, gapbeam_relative
+        gapbeam_unchanged, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, gapbeam_support_rotation, &
+        gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_rotational, gapbeam_relative
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
     private
     public :: in_bending, in_shear, along_axis
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, fingerprint, is_stretch, &
-        is_along, is_of_support, point_x, piece_length, find_length_errors, is_on_rigid_ground
+        is_along, is_movement, is_of_support, point_x, piece_length, find_length_errors
 
     !> Kinds of stiffness: EI, GA, EA
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
@@ -104,6 +103,9 @@ module gapbeam_assembled_model
         !> Settlement of every support as the user gave it, where movements with the dead loads have been added to it; movement that
         !> grows with the load factor, where any does. In the user's units, shape (nsupport)
         real(wp), allocatable :: given_settlement(:), growth(:)
+        !> How far loads move ground at load factor 1: the deflection at which layers begin to act at both ends of their pieces, in
+        !> the units of these, shape (2, size(layers)); not allocated where they do not
+        real(wp), allocatable :: layer_growth(:, :)
         !> Does a state depend on the loading history to it (gapbeam_assemble_laws), or are there loads that move supports
         logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
@@ -127,14 +129,6 @@ contains
             growth(k) = scale(assembled%growth(assembled%normal(k)), -way_unit(assembled, assembled%normal(k)))
         end do
     end function growth_of
-
-    !> Is there rigid ground
-    pure logical function is_on_rigid_ground(assembled)
-        type(assembled_type), intent(in) :: assembled
-
-        is_on_rigid_ground = .false.
-        if (allocated(assembled%layers)) is_on_rigid_ground = any(assembled%layers%rigid)
-    end function is_on_rigid_ground
 
     !> Does a support hold a rotation, so that angles and couples take the place of lengths and forces
     elemental function turns(support) result(it_does)
@@ -180,6 +174,14 @@ contains
 
         yes = any(load%kind == [gapbeam_axial_force, gapbeam_axial_distributed])
     end function is_along
+
+    !> Does a load move something, a support or a foundation
+    elemental function is_movement(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = any(load%kind == [gapbeam_movement, gapbeam_ground_movement])
+    end function is_movement
 
     !> Is a load a movement or a rotation of a support, whose number it has instead of a node
     elemental function is_of_support(load) result(yes)

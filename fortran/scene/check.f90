@@ -7,11 +7,11 @@ module gapbeam_check
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, &
+        gapbeam_rotational, gapbeam_relative, gapbeam_ground_movement, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_axial_distributed, gapbeam_live, gapbeam_dead
-    use gapbeam_assembled_model, only: is_along, is_of_support, turns
+    use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
@@ -226,7 +226,8 @@ contains
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
                 call check_load(load, here, ends, held, error)
-                if (.not. allocated(error) .and. is_of_support(load)) call check_movement(model, load, here, error)
+                if (allocated(error)) return
+                if (is_movement(load) .or. is_of_support(load)) call check_movement(model, load, here, error)
             end associate
             if (allocated(error)) return
         end do
@@ -243,21 +244,22 @@ contains
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_couple_left, gapbeam_couple_right)
             call check_place(load%x, load%node, here, ends, error)
-        case (gapbeam_movement, gapbeam_support_rotation)
+        case (gapbeam_movement, gapbeam_support_rotation, gapbeam_ground_movement)
         case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
                               "6 (movement), 7 (temperature), 8 (rotation), 9 or 10 (couple left or right of a hinge), "// &
-                              "11 (distributed along the beam), got "//trim(whole(load%kind)))
+                              "11 (distributed along the beam), 12 (movement of ground), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
             call refuse_entry(error, here, "case", not_expected, "expected 0 (live) or 1 (dead), got "//trim(whole(load%case)))
         else if (.not. abs(load%value) <= huge(load%value)) then
             call refuse_number(error, here, "value", load%value, "a finite number")
-        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature]) .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
+        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature, gapbeam_ground_movement]) &
+                 .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
         else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
@@ -266,14 +268,17 @@ contains
 
     end subroutine check_load
 
-    !> A movement of a support
+    !> A movement of a support, or of a foundation
     pure subroutine check_movement(model, load, here, error)
         type(model_type), intent(in) :: model
         type(load_type), intent(in) :: load
         type(entry_type), intent(in) :: here
         type(error_type), allocatable, intent(out) :: error
 
-        if (load%node < 1 .or. load%node > size(model%supports)) then
+        if (load%kind == gapbeam_ground_movement) then
+            if (load%node >= 1 .and. load%node <= size(model%foundations)) return
+            call refuse_entry(error, here, "foundation", bad_load, "there is no such foundation")
+        else if (load%node < 1 .or. load%node > size(model%supports)) then
             call refuse_entry(error, here, "support", bad_load, "there is no such support")
         else if (load%kind == gapbeam_support_rotation) then
             call check_rotation(model, load, here, error)
@@ -282,8 +287,8 @@ contains
         else if (is_smooth(model%supports(load%node)%law)) then
             call refuse_entry(error, here, "support", bad_load, "its law is a curve, which moves with case dead only "// &
                               "in this version; give the law by points")
-        else if (size(model%foundations) > 0) then
-            call refuse_entry(error, here, "case", bad_load, "beside a foundation a support moves with case dead only "// &
+        else if (size(model%foundations) > 0 .and. model%supports(load%node)%direction == gapbeam_axial) then
+            call refuse_entry(error, here, "case", bad_load, "beside a foundation an axial support moves with case dead only "// &
                               "in this version")
         end if
     end subroutine check_movement

@@ -14,7 +14,7 @@ module gapbeam_check_foundations
     use gapbeam_check, only: entry_type, check_stretch, refuse_entry, refuse_number
     implicit none
     private
-    public :: check_foundations, find_runs, find_tables, points_of_law, at_right, quantities
+    public :: check_foundations, find_runs, find_tables, points_of_law, at_right, is_rigid, moduli_of, quantities
 
     !> Of which a foundation may have tables: modulus, gap, parameters of its law
     integer, parameter :: quantities = gapbeam_table_of_parameter - 1 + parameters_of_law
@@ -86,6 +86,23 @@ contains
         number = right
         if (right >= gapbeam_unchanged .and. right <= gapbeam_unchanged) number = value
     end function at_right
+
+    !> Does a foundation never give way
+    elemental function is_rigid(foundation) result(rigid)
+        type(foundation_type), intent(in) :: foundation
+        logical :: rigid
+
+        rigid = foundation%k > huge(foundation%k)
+    end function is_rigid
+
+    !> Moduli at its ends, of one that is rigid 0
+    pure function moduli_of(foundation) result(k)
+        type(foundation_type), intent(in) :: foundation
+        real(wp) :: k(2)
+
+        k = 0.0_wp
+        if (.not. is_rigid(foundation)) k = [foundation%k, at_right(foundation%k, foundation%k_to)]
+    end function moduli_of
 
     !> Do points belong to foundations that exist, and stand those of one table or law beside each other
     pure subroutine check_runs(owner, quantity, count, key, error)

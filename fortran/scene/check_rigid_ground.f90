@@ -12,9 +12,18 @@ module gapbeam_check_rigid_ground
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
     implicit none
     private
-    public :: check_rigid_ground
+    public :: check_rigid_ground, is_on_rigid_ground
 
 contains
+
+    !> Is there rigid ground
+    pure function is_on_rigid_ground(assembled) result(is_on)
+        type(assembled_type), intent(in) :: assembled
+        logical :: is_on
+
+        is_on = .false.
+        if (allocated(assembled%layers)) is_on = any(assembled%layers%rigid)
+    end function is_on_rigid_ground
 
     !> Can the beam lie on its rigid ground
     subroutine check_rigid_ground(assembled, error)
@@ -24,8 +33,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: j, k, s
 
-        if (.not. allocated(assembled%layers)) return
-        if (.not. any(assembled%layers%rigid)) return
+        if (.not. is_on_rigid_ground(assembled)) return
         if (.not. all(assembled%layers%rigid)) then
             k = findloc(assembled%layers%rigid, .true., 1)
             call refuse_ground(assembled, assembled%layers(k)%foundation, "rigid ground beside ground that gives way is not "// &

@@ -13,13 +13,13 @@ module gapbeam_scene
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, axial_uniform_load, &
-              support_movement, temperature_load, support_rotation
+              support_movement, temperature_load, support_rotation, ground_movement
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
     public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-              gapbeam_axial_distributed
+              gapbeam_axial_distributed, gapbeam_ground_movement
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -42,7 +42,8 @@ module gapbeam_scene
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
-                          gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11
+                          gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11, &
+                          gapbeam_ground_movement = 12
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -168,20 +169,21 @@ module gapbeam_scene
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
-        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right or gapbeam_axial_distributed
+        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed or
+        !> gapbeam_ground_movement
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
         !> Place, or left end of the stretch
         real(wp) :: x = nowhere
         !> Or place by node, of forces and couples; gapbeam_by_x: x counts. Of a movement or a rotation the number of its support,
-        !> from 1
+        !> from 1; of a movement of ground that of its foundation
         integer :: node = gapbeam_by_x
         !> Right end of the stretch, of distributed loads and curvatures; default that of the beam
         real(wp) :: to = gapbeam_right_end
         !> Force, couple, curvature, movement, rotation, or force per length at the left end of the stretch
         real(wp) :: value = 0.0_wp
-        !> Force per length at its right end; of a temperature the strain, where value is the curvature
+        !> Force per length, or movement of ground, at its right end; of a temperature the strain, where value is the curvature
         real(wp) :: value_to = 0.0_wp
     end type load_type
 
@@ -265,6 +267,23 @@ contains
 
         load = point_load(gapbeam_movement, value, node=support, case=case)
     end function support_movement
+
+    !> A movement of a foundation: the deflections at which the ground begins to act grow by it
+    elemental function ground_movement(value, foundation, value_to, case) result(load)
+        !> Movement at the left end of the foundation, positive down
+        real(wp), intent(in) :: value
+        !> Number of the foundation, from 1
+        integer, intent(in) :: foundation
+        !> The same at its right end, linear in between; default as at the left
+        real(wp), intent(in), optional :: value_to
+        !> gapbeam_live (default: it grows with the load factor) or gapbeam_dead
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = point_load(gapbeam_ground_movement, value, node=foundation, case=case)
+        load%value_to = value
+        if (present(value_to)) load%value_to = value_to
+    end function ground_movement
 
     !> A rotation of a support that holds that of the beam, rigidly or by a spring
     elemental function support_rotation(value, support, case) result(load)

@@ -16,7 +16,9 @@ KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "ax
 
 
 def special_kind(load):
-    """8: a movement that is a rotation; 9 and 10: couples left and right of a hinge."""
+    """8: a movement that is a rotation; 12: one of a foundation; 9 and 10: couples left and right of a hinge."""
+    if load["type"] == "movement" and "support" not in load:
+        return 12
     return 8 if "rotation" in load else {"left": 9, "right": 10}.get(load.get("at_hinge"))
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
@@ -187,7 +189,7 @@ def columns(scene):
     def number_of(load):
         found = load.get("support", load.get("node"))
         if found is None:
-            return -1
+            return load.get("foundation", -1)
         return [support.get("name") for support in supports].index(found) if isinstance(found, str) else found
 
     def values(load):
@@ -558,7 +560,7 @@ class F77Beam:
         """NLOAD, ILOAD, ALOAD."""
         aload = np.array([a[f"load_{n}"] for n in ("x", "to", "value", "value_to")]).T.copy()
         iload = np.array([a[f"load_{n}"] for n in ("kind", "case", "node")], np.int32).T.copy()
-        iload[:, 2] += np.isin(iload[:, 0], (KINDS["movement"], 8))
+        iload[:, 2] += np.isin(iload[:, 0], (KINDS["movement"], 8, 12))
         return len(aload), iload, aload
 
     def call(self, name, *arguments):

@@ -3,10 +3,11 @@ program test_api_ground
     use, intrinsic :: iso_fortran_env, only: wp => real64
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, law_point_type, foundation_type, ground_point_type, &
-        ground_law_point_type, point_force, uniform_load, prepared_type, options_type, result_type, certificate_type, &
-        event_type, ground_event_type, history_type, error_type, contact_type, free_span_type, prepare_model, replace_loads, &
-        solve_beam, follow_load, follow_ground, follow_history, gapbeam_leaves, get_supports, get_fields, get_extremes, &
-        get_motion, get_certificate, get_contact, get_free_spans, get_pressure, get_pressure_extremes, count_nodes, &
+        ground_law_point_type, point_force, uniform_load, ground_movement, prepared_type, options_type, result_type, &
+        certificate_type, event_type, ground_event_type, history_type, error_type, contact_type, free_span_type, prepare_model, &
+        replace_loads, &
+        combine_loads, solve_beam, follow_load, follow_ground, follow_history, gapbeam_leaves, get_supports, get_fields, &
+        get_extremes, get_motion, get_certificate, get_contact, get_free_spans, get_pressure, get_pressure_extremes, count_nodes, &
         count_supports, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_dead, gapbeam_closed, gapbeam_bilateral, &
         gapbeam_branch, gapbeam_plastic, gapbeam_limit_stop, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, &
         gapbeam_not_prepared, gapbeam_not_finite
@@ -19,6 +20,7 @@ program test_api_ground
     call it_is_lifted_off()
     call a_beam_in_the_air()
     call other_loads()
+    call it_sinks()
     call its_edge_lifts()
     call extreme_units()
     call everything_refused()
@@ -241,6 +243,37 @@ contains
         call check(error%code == gapbeam_bad_input, "a load that is refused")
         call compare(first, beam, "and leaves the beam as it was")
     end subroutine other_loads
+
+    !> Ground that holds both ways takes the beam along, and turns it; other movements with the same places
+    subroutine it_sinks()
+        type(model_type) :: model
+        type(prepared_type) :: beam, combined
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        real(wp) :: fields(6, 2), pressure(2)
+
+        model%spans = [span_type(12.0_wp, EI=50.0_wp)]
+        model%foundations = [foundation_type(k=5.0_wp)]
+        model%loads = [ground_movement(0.3_wp, 1, value_to=-0.1_wp), &
+                       uniform_load(1.0_wp, from=0.0_wp, to=12.0_wp, case=gapbeam_dead)]
+        call prepare_model(model, beam, error)
+        call check(.not. allocated(error), "prepared")
+        call solve_beam(beam, 0.5_wp, options_type(), result, error)
+        call get_fields(beam, result, [0.0_wp, 12.0_wp], fields, error)
+        call check_close(fields(1, :), [0.35_wp, 0.15_wp], "half of the movement")
+        call get_pressure(beam, result, [0.0_wp, 12.0_wp], pressure, error)
+        call check_close(pressure, [1.0_wp, 1.0_wp], "the ground carries the weight")
+        call combine_loads(beam, [2.0_wp, 1.0_wp], combined, error)
+        call solve_beam(combined, 1.0_wp, options_type(), result, error)
+        call get_fields(combined, result, [0.0_wp, 12.0_wp], fields, error)
+        call check_close(fields(1, :), [0.8_wp, 0.0_wp], "twice the movement")
+        call replace_loads(beam, [ground_movement(0.1_wp, 1), model%loads(2)], error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_fields(beam, result, [0.0_wp, 12.0_wp], fields, error)
+        call check_close(fields(1, :), [0.3_wp, 0.3_wp], "another movement")
+        call replace_loads(beam, [ground_movement(0.1_wp, 2)], error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "no such foundation") > 0, "no such foundation")
+    end subroutine it_sinks
 
     !> A prepared beam and a model prepared anew say the same, to the last digit
     subroutine compare(model, beam, name)

@@ -280,7 +280,7 @@ class Places(Record):
     support_nodes : numpy.ndarray of int
         Node of every support of the engine.
     levels : numpy.ndarray
-        Deflection at which every support of the scene begins to act; 0 for axial ones.
+        Deflection at which every support of the scene begins to act, moved in full by loads that do so; 0 for axial ones.
     """
 
     end: float

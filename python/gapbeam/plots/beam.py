@@ -15,6 +15,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.path import Path
 
 from ..results.formatting import stretch
+from ..scene.movements import supports_moved
 from ..scene.rotations import turns
 from ..scene.tapers import ends_of, is_tapered
 from .reactions import arrow_lane, draw_reactions
@@ -176,11 +177,11 @@ def draw_contacts(
     """
     if len(scene.supports) > 2 * MOST_SYMBOLS:
         return []
-    groups, opened = defaultdict(list), []
+    groups, opened, moved = defaultdict(list), [], supports_moved(scene, step.factor)
     for k, (support, state, x) in enumerate(zip(scene.supports, lanes.kinds, lanes.x, strict=True)):
-        if (support.side != "both" or support.settlement) and support.direction == "normal":
+        if (support.side != "both" or support.settlement or moved[k]) and support.direction == "normal":
             sign = -1.0 if support.side == "above" else 1.0
-            y = support.settlement + sign * support.gap
+            y = support.settlement + moved[k] + sign * support.gap
             if abs(y) <= 1.5 * largest:
                 groups[state, sign].append((float(x), y))
                 if state == "open" and step.opening[k] > 0.02 * largest:

@@ -33,7 +33,7 @@ ROOM, NO_ROOM = 0.24, 0.08
 
 
 def draw_field(
-    axes: Axes | Turned, scene: Scene, cells: Cells, quantity: str, extreme: dict[str, Point], avoid: Sequence[Point]
+    axes: Axes | Turned, scene: Scene, cells: Cells, quantity: str, extreme: dict[str, Point], avoid: Sequence[Point], factor: float
 ) -> Marks:
     """Draw one field with its largest and smallest value, whose labels keep clear of some points.
 
@@ -51,6 +51,8 @@ def draw_field(
         As from `Result.extremes`.
     avoid : sequence of (float, float)
         Points that labels keep clear of.
+    factor : float
+        Load factor.
 
     Returns
     -------
@@ -61,7 +63,7 @@ def draw_field(
     shown = {kind: pair for kind, pair in extreme.items() if counts(pair[0], extreme)}
     limit_values(axes, [value for value, _ in shown.values()], ROOM)
     if quantity == "deflection":
-        draw_surface(axes, scene, along(scene), BEYOND)
+        draw_surface(axes, scene, along(scene), BEYOND, factor)
     if not values.any():
         _say_zero(axes, scene)
     if len(cells.x) <= MOST_CELLS:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from ..base.characters import visible
 from ..results.formatting import stretch
 from ..results.state.ground import TOUCHING
 from ..scene.ground_laws import PlasticGround
+from ..scene.movements import ground_moved
 from .beam import HALF, OFF
 from .labels import LINE, Labels, text_width
 from .sheet import is_upright
@@ -221,7 +223,24 @@ def _branch(scene: Scene, foundations: set[int], state: str) -> str:
     return f"segment {number} of the ground's law"
 
 
-def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float, float]]:
+def contact_lines(scene: Scene, factor: float) -> Iterator[tuple[int, float, np.ndarray, np.ndarray]]:
+    """Give where foundations begin to act: number, 1 below or -1 above, places and deflections.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    factor : float
+        Load factor, to which loads have moved them.
+    """
+    for number, (item, moved) in enumerate(zip(scene.foundation, ground_moved(scene, factor), strict=True)):
+        x, gap = surface(scene, item)
+        for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
+            if item.side != "both" or gap.any():
+                yield number, sign, x, sign * gap + np.interp(x, x[[0, -1]], moved)
+
+
+def near_surface(scene: Scene, cells: Cells, length: float, factor: float) -> list[tuple[float, float]]:
     """Give points on the surface of the ground near the beam, which labels keep clear of.
 
     Parameters
@@ -232,6 +251,8 @@ def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float,
         Its fields.
     length : float
         Length of the drawn beam (points).
+    factor : float
+        Load factor.
 
     Returns
     -------
@@ -239,21 +260,19 @@ def near_surface(scene: Scene, cells: Cells, length: float) -> list[tuple[float,
         Places and deflections.
     """
     found = []
-    for item in scene.foundation:
-        x, gap = surface(scene, item)
+    size = 3.0 * float(np.ptp(np.append(cells.values["deflection"], 0.0)))
+    for _, sign, x, levels in contact_lines(scene, factor):
         at = np.linspace(x[0], x[-1], max(2, int(length * (x[-1] - x[0]) / float(scene.span_ends()[-1]))))
-        size = 3.0 * float(np.ptp(np.append(cells.values["deflection"], 0.0)))
-        for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
-            y = sign * np.interp(at, x, gap)
-            parts = np.maximum(1, np.ceil(np.abs(np.diff(y)) / (size or 1.0) * FINE)).astype(int)  # more where it is steep
-            index = np.concatenate([k + np.arange(count) / count for k, count in enumerate(parts.clip(max=FINE).tolist())])
-            fine_x, fine_y = (np.interp(index, np.arange(len(at)), values) for values in (at, y))
-            for off in (0.0, sign * 0.04 * size) if item.side != "both" or gap.any() else ():
-                found += [(float(a), float(b) + off) for a, b in zip(fine_x, fine_y, strict=True) if abs(b) < size]
+        y = np.interp(at, x, levels)
+        parts = np.maximum(1, np.ceil(np.abs(np.diff(y)) / (size or 1.0) * FINE)).astype(int)  # more where it is steep
+        index = np.concatenate([k + np.arange(count) / count for k, count in enumerate(parts.clip(max=FINE).tolist())])
+        fine_x, fine_y = (np.interp(index, np.arange(len(at)), values) for values in (at, y))
+        for off in (0.0, sign * 0.04 * size):
+            found += [(float(a), float(b) + off) for a, b in zip(fine_x, fine_y, strict=True) if abs(b) < size]
     return found
 
 
-def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float) -> None:
+def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float, factor: float) -> None:
     """Draw in the panel of the deflection where the ground begins to act, as far as that is near the beam.
 
     Parameters
@@ -266,15 +285,12 @@ def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float) -
         Length of the drawn beam (points).
     room : float
         What is left free beyond the surface, as a share of the range.
+    factor : float
+        Load factor.
     """
     high, low = sorted(axes.get_ylim())
     size = low - high
-    levels = []
-    for number, item in enumerate(scene.foundation):
-        x, gap = surface(scene, item)
-        for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
-            if item.side != "both" or gap.any():
-                levels.append((number, sign, *outline(x, sign * gap, width)))
+    levels = [(number, sign, *outline(x, y, width)) for number, sign, x, y in contact_lines(scene, factor)]
     seen = np.concatenate([y for *_, y in levels] or [np.zeros(0)])
     seen = seen[(seen > high - size / 2) & (seen < low + size / 2)]
     high, low = min([high, *(seen - room * size)]), max([low, *(seen + room * size)])

@@ -101,8 +101,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
         contacts = ()
         if quantity == "deflection":
             contacts = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
-            contacts += near_surface(scene, cells, length)
-        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts)
+            contacts += near_surface(scene, cells, length, state.factor)
+        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts, state.factor)
         if quantity == "moment":
             peaks = find_peaks(*cells.along("moment"), scene.span_ends(), lambda x: result.at(x, step))
             for value, x in peaks[:MOST_MARKS]:

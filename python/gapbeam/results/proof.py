@@ -18,7 +18,7 @@ from ..base.errors import SceneError
 from ..engine.beam import Beam
 from ..scene.combinations import plan_combinations, times
 from ..scene.laws import is_smooth, law_points
-from ..scene.movements import settle_movements
+from ..scene.movements import moves_ground, settle_movements
 from ..scene.places import same_place
 from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene
@@ -67,6 +67,9 @@ def proof_data(
     (['bilateral', 'closed'], ['0x1.8000000000000p+0', '0x1.8000000000000p+0'])
     """
     scene = _one_load(read_scene(source), combination)
+    for k, load in enumerate(scene.loads):
+        if moves_ground(load):
+            raise SceneError(f"loads[{k}]", "proofs do not know ground that moves; write it as the gap of the foundation")
     at = scene.analysis.history[-1] if factor is None else factor
     if not isfinite(at):
         raise SceneError("--factor", f"expected a finite number, got {shown(at)}")

@@ -28,7 +28,7 @@ from .loads import (
     TemperatureLoad,
     UniformLoad,
 )
-from .names import find
+from .movements import number_of_moved, what_moves
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
@@ -59,7 +59,9 @@ UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
-FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT, AXIAL_UNIFORM = *range(1, 9), 11
+FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = range(1, 9)
+AXIAL_UNIFORM, GROUND_MOVEMENT = 11, 12
+MOVEMENTS = {"support": MOVEMENT, "rotation": ROTATION_OF_SUPPORT, "foundation": GROUND_MOVEMENT}
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
 KINDS = {
@@ -284,10 +286,9 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         kinds[some] = kind
         if kind == MOVEMENT:
             numbered = list(zip(np.arange(len(items))[some].tolist(), group, strict=True))
-            nodes[some] = [find(scene.supports, load.support, f"loads[{k}].support", "support") + 1 for k, load in numbered]
+            kinds[some] = [MOVEMENTS[what_moves(load, f"loads[{k}]")] for k, load in numbered]
+            nodes[some] = [number_of_moved(scene, k, load) + 1 for k, load in numbered]
             left[some] = right[some] = 0.0
-            turned = [_is_rotation(load, f"loads[{k}]") for k, load in numbered]
-            kinds[some] = np.where(turned, ROTATION_OF_SUPPORT, MOVEMENT)
         elif kind in (DISTRIBUTED, CURVATURE, TEMPERATURE, AXIAL_UNIFORM):
             nodes[some], left[some], right[some] = BY_X, _numbers(group, "from_"), _optional(group, "to")
         else:
@@ -297,21 +298,14 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             sides = _column(group, "at_hinge")
             kinds[some] = COUPLES[sides] if sides is None or isinstance(sides, str) else [COUPLES[side] for side in sides]
         if kind == MOVEMENT:
-            given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
+            both = [at_both_ends(load.value if load.rotation is None else load.rotation) for load in group]
+            given = np.array(both, dtype=float)
         elif kind == TEMPERATURE:
             given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
         else:
             given = _numbers(group, key)
         values[some], values_to[some] = given.T if given.ndim == 2 else (given, given)
     return codes, found
-
-
-def _is_rotation(load: MovementLoad, place: str) -> bool:
-    """Whether a support is turned, not moved."""
-    if (load.value is None) == (load.rotation is None):
-        both = "and rotation are both given; make two loads"
-        raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
-    return load.rotation is not None
 
 
 def _groups(items: Sequence[Any]) -> dict[type, Any]:

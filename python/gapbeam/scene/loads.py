@@ -141,15 +141,17 @@ class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):
 
 
 class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, tag_field="type", tag="movement"):
-    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat. Or its rotation.
+    """A movement of a support, beside its settlement: what jacks, sinks, or is lifted by heat. Or its rotation. Or moving ground.
 
     Parameters
     ----------
-    support : int or str
+    support : int or str, optional
         Number, from 0, or name of the support.
-    value : float, optional
+    foundation : int or str, optional
+        Instead of support: number, from 0, or name of the foundation.
+    value : float or (float, float), optional
         Movement (length), positive downward, of an axial support to the right. It moves the place at which the support begins
-        to act.
+        to act, or the ground. Of a foundation also a pair, at its left and at its right end, linear in between.
     rotation : float, optional
         Instead of value: rotation (no unit), in rad, positive clockwise, of a support that holds the rotation of the beam, rigidly
         or by a stiffness.
@@ -160,8 +162,9 @@ class MovementLoad(Table, forbid_unknown_fields=True, kw_only=True, gc=False, ta
         Combinations give cases factors by these names.
     """
 
-    support: int | str
-    value: float | None = None
+    support: int | str | None = None
+    foundation: int | str | None = None
+    value: float | tuple[float, float] | None = None
     rotation: float | None = None
     name: str | None = None
     case: str = "live"

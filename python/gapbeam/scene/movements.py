@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import msgspec
 import numpy as np
 
 from ..base.errors import SceneError
-from .loads import MovementLoad
-from .names import find
+from .loads import Load, MovementLoad
+from .names import DEAD, find
 from .structs import Scene, Support
 
 
@@ -74,10 +74,10 @@ def take_movements(scene: Scene) -> tuple[Scene, Movements | None]:
         None where there are none.
     """
     loads = list(scene.loads)
-    which = [k for k, load in enumerate(loads) if isinstance(load, MovementLoad) and load.value is not None]
+    which = [k for k, load in enumerate(loads) if moves_support(load)]
     if not which:
         return scene, None
-    supports = [find(scene.supports, loads[k].support, f"loads[{k}].support", "support") for k in which]
+    supports = [number_of_moved(scene, k, loads[k]) for k in which]
     taken = Movements(np.array(which), np.array(supports), np.array([loads[k].value for k in which]))
     for k in which:
         loads[k] = msgspec.structs.replace(loads[k], value=0.0)
@@ -101,6 +101,106 @@ def settle_movements(scene: Scene) -> Scene:
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
 
 
+def supports_moved(scene: Scene, factor: float) -> np.ndarray:
+    """Give how far loads have moved every support.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    factor : float
+        Load factor.
+    """
+    moves = np.zeros(len(scene.supports))
+    for k, load in enumerate(scene.loads):
+        if moves_support(load):
+            moves[number_of_moved(scene, k, load)] += _share(load, factor) * load.value
+    return moves
+
+
+def ground_moved(scene: Scene, factor: float) -> np.ndarray:
+    """Give how far loads have moved every foundation at its left and its right end, foundations by 2.
+
+    Parameters
+    ----------
+    scene, factor
+        As for `supports_moved`.
+    """
+    moves = np.zeros((len(scene.foundation), 2))
+    for k, load in enumerate(scene.loads):
+        if moves_ground(load):
+            moves[number_of_moved(scene, k, load)] += _share(load, factor) * np.asarray(load.value)
+    return moves
+
+
+def what_moves(load: MovementLoad, place: str) -> Literal["support", "rotation", "foundation"]:
+    """Tell whether a load moves a support, turns it, or moves a foundation.
+
+    Parameters
+    ----------
+    load : MovementLoad
+        The load.
+    place : str
+        Its place in the scene.
+
+    Raises
+    ------
+    SceneError
+        It says too little or too much.
+    """
+    if (load.support is None) == (load.foundation is None):
+        missing = "is missing; give the support that moves, or foundation"
+        raise SceneError(f"{place}.support", missing if load.support is None else "and foundation are both given; make two loads")
+    if load.foundation is not None:
+        if load.rotation is not None or load.value is None:
+            what = "is missing; a foundation moves by value (length), a pair [at from, at to] where it turns"
+            raise SceneError(f"{place}.value", what)
+        return "foundation"
+    if isinstance(load.value, tuple):
+        raise SceneError(f"{place}.value", "a support moves by one number; a pair is for a foundation")
+    if (load.value is None) == (load.rotation is None):
+        both = "and rotation are both given; make two loads"
+        raise SceneError(f"{place}.value", "is missing; give value (length) or rotation (rad)" if load.value is None else both)
+    return "support" if load.rotation is None else "rotation"
+
+
+def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
+    """Find the support or foundation that a load moves.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    k, load : int, MovementLoad
+        The load and its number.
+    """
+    if load.foundation is not None:
+        return find(scene.foundation, load.foundation, f"loads[{k}].foundation", "foundation")
+    return find(scene.supports, load.support, f"loads[{k}].support", "support")
+
+
+def moves_support(load: Load) -> bool:
+    """Whether a load moves a support and does not turn it.
+
+    Parameters
+    ----------
+    load : Load
+        The load.
+    """
+    return isinstance(load, MovementLoad) and load.value is not None and load.foundation is None
+
+
+def moves_ground(load: Load) -> bool:
+    """Whether a load moves a foundation.
+
+    Parameters
+    ----------
+    load : Load
+        The load.
+    """
+    return isinstance(load, MovementLoad) and load.foundation is not None
+
+
 def refuse_movements(scene: Scene, problem: str) -> None:
     """Refuse loads that move supports.
 
@@ -117,10 +217,16 @@ def refuse_movements(scene: Scene, problem: str) -> None:
         There is one.
     """
     for k, load in enumerate(scene.loads):
-        if isinstance(load, MovementLoad) and load.value is not None:
+        if moves_ground(load):
+            raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the gap of the foundation")
+        if moves_support(load):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
         if isinstance(load, MovementLoad):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
+
+
+def _share(load: MovementLoad, factor: float) -> float:
+    return 1.0 if load.case == DEAD else factor
 
 
 def _moved(support: Support, by: float) -> Support:

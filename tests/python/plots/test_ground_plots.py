@@ -10,6 +10,7 @@ from gapbeam.scene import read_scene
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from scenes.ground import footing, on_ground, rail, stopped, touching, two, yielding
+from scenes.moving import movement
 
 from .curves import curve
 
@@ -100,6 +101,21 @@ def test_the_surface_is_to_scale_beside_the_deflection():
     low, high = sorted(axes.get_ylim())
     assert low < -0.01
     assert high > 0.04
+
+
+def test_the_surface_and_supports_are_where_loads_have_moved_them():
+    ground = [{"k": 100.0, "side": "below", "gap": 0.01, "from": 4.0}, {"k": 50.0, "gap": 0.02}]
+    loads = [scenes.uniform(1.0, case="dead"), movement([0.02, 0.04], foundation=0), movement(0.01, foundation=1, case="dead"),
+             movement(0.03, support=0)]  # fmt: skip
+    supports = [scenes.at(0, side="below"), scenes.at(1)]
+    result = gapbeam.solve(on_ground([20.0], ground, loads, supports, EI=100.0, analysis={"steps": 2}))
+    for step, factor in enumerate((0.5, 1.0)):
+        axes = panel(figure(result, step), "deflection")
+        np.testing.assert_allclose(line(axes, "surface 0"), [[4.0, 0.01 + 0.02 * factor], [20.0, 0.01 + 0.04 * factor]])
+        both = [np.array(one.get_xydata()) for one in axes.lines if one.get_label() == "surface 1"]
+        np.testing.assert_allclose([one[:, 1] for one in both], [[0.03, 0.03], [-0.01, -0.01]])
+        (mark,) = [one for one in axes.collections if str(one.get_label()).startswith("contact ")]
+        np.testing.assert_allclose(mark.get_offsets(), [[0.0, 0.03 * factor]])
 
 
 def test_a_profile_is_drawn_in_proportion():

@@ -210,7 +210,7 @@ contains
         real(wp) :: moved
 
         call lower(lifting(), lowered)
-        ground = ground_of(lowered)
+        ground = ground_of(lowered, 1.0_wp)
         call full_contact(ground, zones)
         call check(size(zones%piece) == 3 .and. all(zones%acts == 1), "full contact")
         call check(steps_of_piece(ground, 1) == 1, "an even modulus needs no steps")
@@ -235,7 +235,7 @@ contains
         real(wp) :: off(3)
 
         call lower(lifting(), lowered)
-        ground = ground_of(lowered)
+        ground = ground_of(lowered, 1.0_wp)
         call begin_mesh(ground, mesh)
         do try = 1, 3
             call find_least_energy(ground, 1.0_wp, mesh, closed, solves, pressed, exhausted, outcome, error)
@@ -303,7 +303,7 @@ contains
         real(wp) :: w
 
         call lower([point_force(2.0_wp, node=1)], lowered, moduli=[3.0_wp, 5.0_wp])
-        call check(steps_of_piece(ground_of(lowered), 1) > 10, "steps where the modulus varies")
+        call check(steps_of_piece(ground_of(lowered, 1.0_wp), 1) > 10, "steps where the modulus varies")
         call new_state(lowered, state, error)
         call solve_state(lowered, 1.0_wp, 0, state, error)
         w = state%deflection(1)

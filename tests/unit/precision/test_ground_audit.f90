@@ -62,7 +62,7 @@ contains
         call new_state(lowered, state, error)
         call solve_state(lowered, 1.0_wp, 0, state, error)
         call check(.not. allocated(error) .and. state%status == gapbeam_solved, "solved")
-        ground = ground_of(lowered)
+        ground = ground_of(lowered, 1.0_wp)
     end subroutine make
 
     !> Nothing is wrong, and what is left over is the rounding of numbers that are not zero

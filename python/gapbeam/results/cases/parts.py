@@ -201,7 +201,8 @@ def place_parts(scene: Scene, beam: Beam, rule: str) -> tuple[dict[int, list[Pla
     for i, combination in enumerate(scene.combinations):
         for case in [case for case, rule_of in combination.expand.items() if rule_of == "parts"]:
             if beam.depends_on_path or not beam.is_linear_between_events:
-                refuse_movements(scene, 'with "parts" supports are not moved by loads')
+                if not scene.foundation:
+                    refuse_movements(scene, 'with "parts" supports are not moved by loads')
                 problem = (
                     '"parts" needs influence lines of straight laws; with foundations, smooth laws and supports whose state '
                     "depends on the loading history write the placements as cases of their own"

@@ -131,7 +131,6 @@ def _refuse_beyond_bounds(result: Result) -> None:
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation."""
     if beam.beyond_one_search is not None:
-        refuse_movements(scene, "a support cannot be moved by a load beside a foundation, or in combinations of such a beam,")
         what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
         problem = f"supports with laws {what} cannot be combined with a foundation in this version; use non-decreasing polylines"
         raise SceneError("supports", problem)

@@ -163,8 +163,9 @@ def test_refusals(change, message):
 
 
 def test_beside_a_foundation_and_on_curves_they_are_refused():
-    ground = scene([4.0], [at(0), at(1)], [movement(0, 0.1)]) | {"foundation": [{"k": 100.0}]}
+    axial = at(0, direction="axial")
+    ground = scene([4.0], [at(0), at(1), axial], [movement(2, 0.1)], EA=1.0) | {"foundation": [{"k": 100.0}]}
     curve = scene([4.0], [at(0), at(1, law={"type": "tanh", "stiffness": 1.0, "limit": 1.0})], [movement(1, 0.1)])
-    for made, message in ((ground, "beside a foundation"), (curve, "its law is a curve")):
+    for made, message in ((ground, "beside a foundation an axial support"), (curve, "its law is a curve")):
         with pytest.raises(gapbeam.SceneError, match=message):
             gapbeam.solve(made)

@@ -1,0 +1,81 @@
+!> Assembly of loads that move foundations.
+module gapbeam_assemble_movements
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_scene, only: gapbeam_ground_movement, gapbeam_dead
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assemble_tables, only: place_of, distance, between
+    implicit none
+    private
+    public :: move_layers
+
+contains
+
+    !> Move layers, in the user's units: with the dead loads from the start, with the others while the load factor grows
+    subroutine move_layers(assembled, error)
+        !> Layers that no load has moved, in
+        type(assembled_type), intent(inout) :: assembled
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        if (allocated(assembled%layer_growth)) deallocate (assembled%layer_growth)
+        associate (loads => assembled%model%loads)
+            if (any(loads%kind == gapbeam_ground_movement .and. loads%case /= gapbeam_dead .and. &
+                    (abs(loads%value) > 0.0_wp .or. abs(loads%value_to) > 0.0_wp))) then
+                allocate (assembled%layer_growth(2, size(assembled%layers)), source=0.0_wp, stat=stat)
+                if (stat /= 0) then
+                    call no_memory(error)
+                    return
+                end if
+            end if
+            do i = 1, size(loads)
+                if (loads(i)%kind == gapbeam_ground_movement) call move_foundation(assembled, i)
+            end do
+        end associate
+    end subroutine move_layers
+
+    !> Move the layers of one foundation by one load
+    pure subroutine move_foundation(assembled, number)
+        type(assembled_type), intent(inout) :: assembled
+        !> Of the load
+        integer, intent(in) :: number
+        real(wp) :: by(2)
+        integer :: j, k
+
+        associate (load => assembled%model%loads(number), from => assembled%foundation_from, to => assembled%foundation_to)
+            do j = from(load%node) + 1, to(load%node)
+                by(:) = [movement_at(j - 1), movement_at(j)]
+                do k = assembled%layer_first(j), assembled%layer_first(j + 1) - 1
+                    associate (layer => assembled%layers(k))
+                        if (layer%foundation /= load%node) cycle
+                        if (load%case == gapbeam_dead) then
+                            layer%contact_a = layer%contact_a + by(1)
+                            layer%contact_b = layer%contact_b + by(2)
+                        else if (allocated(assembled%layer_growth)) then
+                            assembled%layer_growth(:, k) = assembled%layer_growth(:, k) + by
+                        end if
+                    end associate
+                end do
+            end do
+        end associate
+
+    contains
+
+        !> The movement at a point
+        pure function movement_at(point) result(movement)
+            integer, intent(in) :: point
+            real(wp) :: movement
+
+            associate (load => assembled%model%loads(number))
+                associate (left => place_of(assembled, assembled%foundation_from(load%node)), &
+                           right => place_of(assembled, assembled%foundation_to(load%node)))
+                    movement = between(load%value, load%value_to, distance(assembled, left, place_of(assembled, point)) &
+                                       /distance(assembled, left, right))
+                end associate
+            end associate
+        end function movement_at
+
+    end subroutine move_foundation
+
+end module gapbeam_assemble_movements
