@@ -137,7 +137,7 @@ contains
         if (.not. any_load(loads)) return
         if (n == 1 .and. .not. is_tapered(pieces(1))) then
             call condense_load(pieces(1), loads(1), link, k)
-            call add_end_couples(loads(1)%couple_a, loads(1)%couple_b, link, k)
+            call add_end_couples(pieces, loads(1)%couple_a, loads(1)%couple_b, link, k)
             return
         end if
 
@@ -186,19 +186,25 @@ contains
         link%turn_b(k) = total(turn_b) + total(slip)/link%length - loads(n)%kink_b
         link%shear_a(k) = right_end/link%length
         link%shear_b(k) = -total(at%moment)/link%length
-        call add_end_couples(loads(1)%couple_a, loads(n)%couple_b, link, k)
+        call add_end_couples(pieces, loads(1)%couple_a, loads(n)%couple_b, link, k)
     end subroutine condense_loads
 
-    !> Couples just inside the ends: as moments there would
-    pure subroutine add_end_couples(couple_a, couple_b, link, k)
+    !> Couples just inside the ends: as moments there would, but that at the left end does not turn an elastic hinge
+    pure subroutine add_end_couples(pieces, couple_a, couple_b, link, k)
+        type(piece_type), intent(in) :: pieces(:)
         !> Clockwise
         real(wp), intent(in) :: couple_a, couple_b
         !> With its flexibilities and its other loads
         type(link_type), intent(inout) :: link
         integer, intent(in) :: k
+        type(piece_type) :: inside(size(pieces))
+        type(link_type) :: without
 
         if (.not. max(abs(couple_a), abs(couple_b)) > 0.0_wp) return
-        link%turn_a(k) = link%turn_a(k) + (link%faa*couple_a - link%fab*couple_b)
+        inside(:) = pieces
+        inside(1)%hinge = 0.0_wp
+        call condense_flexibility(inside, without)
+        link%turn_a(k) = link%turn_a(k) + (without%faa*couple_a - link%fab*couple_b)
         link%turn_b(k) = link%turn_b(k) + (link%fab*couple_a - link%fbb*couple_b)
         link%shear_a(k) = link%shear_a(k) - (couple_a + couple_b)*link%inverse
         link%shear_b(k) = link%shear_b(k) - (couple_a + couple_b)*link%inverse

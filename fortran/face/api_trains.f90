@@ -71,8 +71,8 @@ contains
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) then
             if (allocated(beam%lowered%beam%turning)) then
-                call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack or one way is not "// &
-                    "available under a train in this version")
+                call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
+                    "at a hinge is not available under a train in this version")
             else if (any(beam%lowered%pieces%hinge > 0.0_wp)) then
                 call bad_argument(error, "beam", "a hinge with a stiffness under a train is not available in this version")
             else if (any(is_beside_point(beam%lowered%model%loads))) then

@@ -7,7 +7,7 @@
 !     SPAN(4, NSPAN)    length; EI; GA (GBINF(): rigid in shear); EA (GBINF() if not needed), above 0
 !     HINGE(NHINGE)     places of moment hinges
 !     ISUP(3, NSUP)     side: 0 both, 1 below, -1 above; direction: 0 across the beam, 1 along it, 2 of its rotation, 3 of a
-!                       hinge; node, or -1: SUP(1, .) counts
+!                       hinge, 4 left of a hinge, 5 right of it; node, or -1: SUP(1, .) counts
 !     SUP(5, NSUP)      x; stiffness (GBINF(): rigid); gap; settlement; rotational stiffness (0: free, GBINF(): clamped)
 !     ILOAD(3, NLOAD)   kind: 1 force, 2 couple, 3 distributed, 4 curvature, 5 axial force,
 !                       6 movement of a support, 7 temperature, 8 rotation of a support, 9 couple left of a hinge, 10 right of it,

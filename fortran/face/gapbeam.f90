@@ -54,7 +54,8 @@ module gapbeam
         support_movement, temperature_load, support_rotation, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, gapbeam_counterclockwise, gapbeam_clockwise, &
+        gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right, &
+        gapbeam_counterclockwise, gapbeam_clockwise, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_axial_distributed, gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &

@@ -51,7 +51,7 @@ contains
             call copy_load_terms(beam, links)
         end if
         call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
-                      fine_support(beam%supports), fine, beam%turning, beam%relative)
+                      fine_support(beam%supports), fine, beam%turning, beam%turned)
         call join_pieces(fine%supports)
         fine%watch = beam%watch
     end subroutine refine_beam

@@ -9,7 +9,7 @@ module gapbeam_assembled_model
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
         gapbeam_unchanged, &
         gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, &
-        gapbeam_rotational, gapbeam_relative
+        gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
@@ -133,7 +133,8 @@ contains
         type(support_type), intent(in) :: support
         logical :: it_does
 
-        it_does = support%direction == gapbeam_rotational .or. support%direction == gapbeam_relative
+        it_does = any(support%direction == [gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
+                                            gapbeam_rotational_right])
     end function turns
 
     !> Unit of the displacement of a support, as a power of two

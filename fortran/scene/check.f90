@@ -7,7 +7,6 @@ module gapbeam_check
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_axial_distributed, gapbeam_live, gapbeam_dead
@@ -185,9 +184,9 @@ contains
         if (all(s%side /= [gapbeam_both, gapbeam_below, gapbeam_above])) then
             call refuse_entry(error, here, "side", not_expected, &
                               "expected 0 (both), 1 (below) or -1 (above), got "//trim(whole(s%side)))
-        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative])) then
-            call refuse_entry(error, here, "direction", not_expected, "expected 0 (normal), 1 (axial), 2 (rotational) or "// &
-                              "3 (relative), got "//trim(whole(s%direction)))
+        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial]) .and. .not. turns(s)) then
+            call refuse_entry(error, here, "direction", not_expected, "expected 0 (normal), 1 (axial), 2 (rotational), "// &
+                              "3 (relative), 4 or 5 (rotational left or right of a hinge), got "//trim(whole(s%direction)))
         else if (.not. s%stiffness >= 0.0_wp) then
             call refuse_number(error, here, "stiffness", s%stiffness, "a number, 0 or more (infinite: rigid)")
         else if (.not. abs(s%gap) <= huge(s%gap)) then

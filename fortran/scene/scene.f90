@@ -16,7 +16,8 @@ module gapbeam_scene
               support_movement, temperature_load, support_rotation
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
-    public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative
+    public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
+              gapbeam_rotational_right
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
               gapbeam_axial_distributed
@@ -39,6 +40,8 @@ module gapbeam_scene
     !> Directions of a support: across the beam, along it; it holds the rotation of the beam, or as a hinge the parts on its two
     !> sides against each other
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1, gapbeam_rotational = 2, gapbeam_relative = 3
+    !> At a hinge: it holds the rotation of the part of the beam left of that, or right of it
+    integer, parameter :: gapbeam_rotational_left = 4, gapbeam_rotational_right = 5
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
@@ -99,7 +102,7 @@ module gapbeam_scene
         real(wp) :: settlement = 0.0_wp
         !> Rotational stiffness (force*length/rad): 0 free, infinite clamped; it acts where the support is open too, as a guide
         real(wp) :: rotation = 0.0_wp
-        !> gapbeam_normal, gapbeam_axial, gapbeam_rotational or gapbeam_relative
+        !> gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative; gapbeam_rotational_left or _right at a hinge
         integer :: direction = gapbeam_normal
         !> Of a support with a law: gapbeam_elastic, gapbeam_plastic or gapbeam_broken
         integer :: unloading = gapbeam_elastic

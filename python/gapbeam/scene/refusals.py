@@ -10,9 +10,10 @@ from typing import Any
 from msgspec import Struct
 
 from ..base.errors import SceneError
-from .columns import KINDS, ONE_WAY, SIDES
+from .columns import KINDS
 from .ground_laws import PowerGround, varies
 from .rotations import turns
+from .sides import ONE_WAY, SIDES
 from .structs import Scene
 from .table import kind_of
 from .wording import number, shown
@@ -182,7 +183,7 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
         ways = " or ".join(f'"{way}"' for way in ONE_WAY[item.direction])
         return SceneError(f"{path}.gap", f"only a support with side = {ways} has a gap")
     if reason == AT_HINGE:
-        problem = "there is a hinge here, so it is unclear which side is held; move one aside"
+        problem = 'there is a hinge here, so it is unclear which side is held; say at_hinge = "left" or "right"'
         return SceneError(f"{path}.rotation", problem)
     x = number(scene.positions([item])[0])
     if reason == TWICE and key == "law":

@@ -20,10 +20,10 @@ from math import inf, isinf
 import numpy as np
 
 from ..base.errors import SceneError
-from ..scene.columns import SIDES
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
 from ..scene.places import locate
 from ..scene.rotations import which_turn
+from ..scene.sides import SIDES
 from ..scene.structs import Scene
 from ..scene.tapers import is_tapered
 from ..scene.temperature import as_curvatures
