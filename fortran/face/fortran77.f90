@@ -11,8 +11,9 @@
 !     SUP(5, NSUP)      x; stiffness (GBINF(): rigid); gap; settlement; rotational stiffness (0: free, GBINF(): clamped)
 !     ILOAD(3, NLOAD)   kind: 1 force, 2 couple, 3 distributed, 4 curvature, 5 axial force,
 !                       6 movement of a support, 7 temperature, 8 rotation of a support, 9 couple left of a hinge, 10 right of it,
-!                       11 distributed along the beam; case: 0 live, 1 dead; node, or of 6 and 8 the support, or -1
-!     ALOAD(4, NLOAD)   x, or left end of the stretch; right end; value, of 7 curvature; of kind 3 the value at the right end,
+!                       11 distributed along the beam, 12 linear curvature; case: 0 live, 1 dead; node, or of 6 and 8 the
+!                       support, or -1
+!     ALOAD(4, NLOAD)   x, or left end of the stretch; right end; value, of 7 curvature; of kinds 3, 12 the value at the right end,
 !                       of 7 elongation per length
 !
 ! and for GHPRLW the laws that supports have instead of a stiffness, polylines from (0, 0) through points, in which equal

@@ -152,7 +152,7 @@ contains
 
         fine = fine_load_type(real(load%qa, qp), real(load%qb, qp), real(load%kappa, qp), real(load%force, qp), &
                               real(load%couple, qp), real(load%kink_a, qp), real(load%kink_b, qp), real(load%couple_a, qp), &
-                              real(load%couple_b, qp))
+                              real(load%couple_b, qp), real(load%rise, qp))
     end function fine_load
 
 end module gapbeam_refined

@@ -7,6 +7,7 @@ module gapbeam_assembled_model
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
+        gapbeam_linear_curvature, &
         gapbeam_unchanged, &
         gapbeam_temperature, gapbeam_movement, gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, &
         gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
@@ -163,7 +164,8 @@ contains
         type(load_type), intent(in) :: load
         logical :: yes
 
-        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed])
+        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed, &
+                                gapbeam_linear_curvature])
     end function is_stretch
 
     !> Is a load a force along the beam, and nothing else

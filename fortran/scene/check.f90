@@ -9,7 +9,7 @@ module gapbeam_check
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-        gapbeam_axial_distributed, gapbeam_live, gapbeam_dead
+        gapbeam_axial_distributed, gapbeam_linear_curvature, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_along, is_of_support, turns
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
@@ -224,7 +224,7 @@ contains
             .or. any(model%sections%friction > 0.0_wp)
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
-                call check_load(load, here, ends, held, error)
+                call check_load(load, here, ends, held, size(model%foundations) > 0, error)
                 if (.not. allocated(error) .and. is_of_support(load)) call check_movement(model, load, here, error)
             end associate
             if (allocated(error)) return
@@ -232,32 +232,37 @@ contains
     end subroutine check_loads
 
     !> One load
-    pure subroutine check_load(load, here, ends, axially_held, error)
+    pure subroutine check_load(load, here, ends, axially_held, on_ground, error)
         type(load_type), intent(in) :: load
         type(entry_type), intent(in) :: here
         real(wp), intent(in) :: ends(0:)
-        logical, intent(in) :: axially_held
+        !> Does anything hold the beam along its axis, and are there foundations
+        logical, intent(in) :: axially_held, on_ground
         type(error_type), allocatable, intent(out) :: error
 
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_couple_left, gapbeam_couple_right)
             call check_place(load%x, load%node, here, ends, error)
         case (gapbeam_movement, gapbeam_support_rotation)
-        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed)
+        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed, gapbeam_linear_curvature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
                               "6 (movement), 7 (temperature), 8 (rotation), 9 or 10 (couple left or right of a hinge), "// &
-                              "11 (distributed along the beam), got "//trim(whole(load%kind)))
+                              "11 (distributed along the beam), 12 (linear curvature), got "//trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
             call refuse_entry(error, here, "case", not_expected, "expected 0 (live) or 1 (dead), got "//trim(whole(load%case)))
         else if (.not. abs(load%value) <= huge(load%value)) then
             call refuse_number(error, here, "value", load%value, "a finite number")
-        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature]) .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
+        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature, gapbeam_linear_curvature]) &
+                 .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
+        else if (load%kind == gapbeam_linear_curvature .and. on_ground) then
+            call refuse_entry(error, here, "value_to", bad_load, "a curvature that changes along the beam beside a foundation "// &
+                              "is not available in this version; give short stretches, each of one curvature")
         else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
                               "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")

@@ -12,7 +12,8 @@ module gapbeam_scene
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
-    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, axial_uniform_load, &
+    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, linear_curvature, axial_force, &
+              axial_uniform_load, &
               support_movement, temperature_load, support_rotation
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
@@ -20,7 +21,7 @@ module gapbeam_scene
               gapbeam_rotational_right
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-              gapbeam_axial_distributed
+              gapbeam_axial_distributed, gapbeam_linear_curvature
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -45,7 +46,8 @@ module gapbeam_scene
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
-                          gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11
+                          gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11, &
+                          gapbeam_linear_curvature = 12
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -171,7 +173,8 @@ module gapbeam_scene
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
-        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right or gapbeam_axial_distributed
+        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed or
+        !> gapbeam_linear_curvature
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
@@ -182,9 +185,9 @@ module gapbeam_scene
         integer :: node = gapbeam_by_x
         !> Right end of the stretch, of distributed loads and curvatures; default that of the beam
         real(wp) :: to = gapbeam_right_end
-        !> Force, couple, curvature, movement, rotation, or force per length at the left end of the stretch
+        !> Force, couple, curvature, movement, rotation, or force per length or curvature at the left end of the stretch
         real(wp) :: value = 0.0_wp
-        !> Force per length at its right end; of a temperature the strain, where value is the curvature
+        !> Force per length or curvature at its right end; of a temperature the strain, where value is the curvature
         real(wp) :: value_to = 0.0_wp
     end type load_type
 
@@ -318,6 +321,18 @@ contains
 
         load = stretch_load(gapbeam_curvature, value, value, from, to, case)
     end function imposed_curvature
+
+    !> An imposed curvature that varies linearly over a stretch
+    elemental function linear_curvature(value, value_to, from, to, case) result(load)
+        !> At the left and at the right end of the stretch, as for imposed_curvature
+        real(wp), intent(in) :: value, value_to
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = stretch_load(gapbeam_linear_curvature, value, value_to, from, to, case)
+    end function linear_curvature
 
     !> A temperature over a stretch: what it bends and lengthens where nothing holds the beam
     elemental function temperature_load(curvature, strain, from, to, case) result(load)

@@ -16,7 +16,9 @@ KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "ax
 
 
 def special_kind(load):
-    """8: a movement that is a rotation; 9 and 10: couples left and right of a hinge."""
+    """8: a movement that is a rotation; 9 and 10: couples left and right of a hinge; 12: a curvature that is linear."""
+    if isinstance(load.get("kappa"), list):
+        return 12
     return 8 if "rotation" in load else {"left": 9, "right": 10}.get(load.get("at_hinge"))
 
 

@@ -621,6 +621,21 @@ def test_supports_and_couples_at_hinges_agree(library, side, hinge):
         assert abs(step.couple[2]) > 0.0
 
 
+def test_curvatures_that_change_agree(library):
+    scene = {
+        "beam": {"spans": [3.0, 2.0], "EI": 80.0, "GA": 50.0},
+        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2}],
+        "loads": [{"type": "curvature", "from": 0.5, "to": 4.0, "kappa": [0.01, -0.03]}, {"type": "uniform", "q": 1.0}],
+    }  # fmt: skip
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    for one in (beam, f77):
+        np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
+
+
 def test_histories_on_curves_agree(library):
     """Paths past limit points, whole histories, their states and energies have the digits of Python."""
     kinds, rough, events, refused = set(), 0, 0, 0

@@ -46,6 +46,7 @@ SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT, AXIAL_UNIFORM = *range(1, 9), 11
+LINEAR_CURVATURE = 12
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
 KINDS = {
@@ -267,6 +268,9 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             kinds[some] = COUPLES[sides] if sides is None or isinstance(sides, str) else [COUPLES[side] for side in sides]
         if kind == MOVEMENT:
             given = np.array([load.value if load.rotation is None else load.rotation for load in group], dtype=float)
+        elif kind == CURVATURE:
+            given = _pairs(_column(group, key))
+            kinds[some] = np.where(given[:, 0] == given[:, 1], CURVATURE, LINEAR_CURVATURE)
         elif kind == TEMPERATURE:
             given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
         else:
@@ -308,6 +312,13 @@ def _column(items: Sequence[Any], key: str) -> Any:
 def _numbers(items: Sequence[Any], key: str) -> np.ndarray:
     found = np.asarray(_column(items, key), dtype=float)
     return found.reshape(len(items), *found.shape[1:])
+
+
+def _pairs(values: Any) -> np.ndarray:
+    """Numbers at both ends of stretches, given as one or as a pair, n by 2."""
+    if isinstance(values, np.ndarray):
+        return values if values.ndim == 2 else np.column_stack((values, values))
+    return np.array(list(map(at_both_ends, values)), dtype=float).reshape(-1, 2)
 
 
 def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:

@@ -70,7 +70,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if reason == BAD_LAW:
         return _bad_law(item, path, key, partner, message)
     if reason == BAD_LOAD:
-        return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
+        problem = message.partition(": ")[2].removeprefix(f"{key}: ")
+        return SceneError(f"{path}.{KINDS[kind_of(item)][1] if key == 'value_to' else key}", problem)
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:

@@ -20,7 +20,8 @@ from math import inf, isinf
 import numpy as np
 
 from ..base.errors import SceneError
-from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
+from ..scene.ground_tables import at_both_ends
+from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad
 from ..scene.places import locate
 from ..scene.rotations import which_turn
 from ..scene.sides import SIDES
@@ -179,14 +180,15 @@ class Reference:
         count, one, number = len(self.x), self.kind(1), self._number
         left = [({}, {})]  # rotation and shear left of every place
         right = []
-        for i, (h, f, g, q, s, kappa) in enumerate(self.pieces):
+        for i, (h, f, g, q, s, kappa, more) in enumerate(self.pieces):
             a, b = {3 * i + 2: one}, {3 * i + 4: one}
             shear = _sum((number(1 / h), b), (number(-1 / h), a), (number(q * h / 2 + s * h**2 / 6), {-1: one}))
-            bend = number(f * (-q * h**3 / 24 - s * h**4 / 120) - kappa * h / 2 + g * (q * h / 2 + s * h**2 / 6))
+            bent = kappa * h / 2 + more * h**2 / 6
+            bend = number(f * (-q * h**3 / 24 - s * h**4 / 120) - bent + g * (q * h / 2 + s * h**2 / 6))
             turn = _sum((number(1 / h), {3 * i + 3: one}), (number(-1 / h), {3 * i: one}), (number(f * h / 2), a),
                         (number(f * h**2 / 6 - g), shear), (bend, {-1: one}))  # fmt: skip
             right.append((turn, shear))
-            loaded = number(f * (q * h**3 / 6 + s * h**4 / 24) + kappa * h)
+            loaded = number(f * (q * h**3 / 6 + s * h**4 / 24) + kappa * h + more * h**2 / 2)
             last = _sum((one, turn), (number(-f * h), a), (number(-f * h**2 / 2), shear), (loaded, {-1: one}))
             left.append((last, _sum((one, shear), (number(-q * h - s * h**2 / 2), {-1: one}))))
         right.append(({}, {}))
@@ -248,7 +250,7 @@ def _name(x: Fraction, exact_ends: list[Fraction], ends: np.ndarray) -> float:
 
 
 def _piece(a, b, scene: Scene, ends, sections, loads) -> tuple[Fraction, ...]:
-    """Length, 1/EI, 1/GA, load at the left end and its slope, imposed curvature."""
+    """Length, 1/EI, 1/GA, load and imposed curvature at the left end, each followed by its slope."""
     span = next(i for i, x in enumerate(ends[1:]) if a < x)
     soft = []
     for name in ("EI", "GA"):
@@ -258,17 +260,17 @@ def _piece(a, b, scene: Scene, ends, sections, loads) -> tuple[Fraction, ...]:
             if section is not None and start <= a < stop and getattr(section, name) is not None:
                 value = getattr(section, name)
         soft.append(Fraction(0) if isinf(value) else 1 / Fraction(value))
-    q = slope = kappa = Fraction(0)
+    q = slope = kappa = more = Fraction(0)
     for start, stop, load in loads:
         if not start <= a < stop:
             continue
-        if isinstance(load, CurvatureLoad):
-            kappa += Fraction(load.kappa)
-            continue
-        first, last = map(Fraction, (load.q, load.q) if isinstance(load, UniformLoad) else load.q)
+        first, last = map(Fraction, at_both_ends(load.kappa if isinstance(load, CurvatureLoad) else load.q))
         rise = (last - first) / (stop - start)
-        q, slope = q + first + rise * (a - start), slope + rise
-    return (b - a, *soft, q, slope, kappa)
+        if isinstance(load, CurvatureLoad):
+            kappa, more = kappa + first + rise * (a - start), more + rise
+        else:
+            q, slope = q + first + rise * (a - start), slope + rise
+    return (b - a, *soft, q, slope, kappa, more)
 
 
 def _sum(*terms: tuple) -> Form:

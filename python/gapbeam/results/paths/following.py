@@ -63,6 +63,9 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         if getattr(load, "at_hinge", None):
             what = "a couple at a hinge under trains is not available in this version; put it on one side of the hinge"
             raise SceneError(f"loads[{k}].at_hinge", what)
+        if isinstance(getattr(load, "kappa", None), tuple) and load.kappa[0] != load.kappa[1]:
+            what = "a curvature that changes along the beam under trains is not available in this version; give short stretches"
+            raise SceneError(f"loads[{k}].kappa", what)
         if getattr(load, "rotation", None) is not None:
             raise SceneError(f"loads[{k}].rotation", "a support that is turned under trains is not available in this version")
     if beam.depends_on_path:

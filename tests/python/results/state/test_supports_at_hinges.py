@@ -103,7 +103,9 @@ def test_random_beams_beside_rationals(seed, follow):
         assert exact is None
         return
     step = result.steps[-1]
-    assert exact is not None
+    if exact is None:  # a part of it hangs there without load
+        assert step.indifferent
+        return
     kinds = [kind for _, kind, _ in about[2]]
     # In results: supports across the beam, that at the hinge, and the hinge where it has a law or is held
     order = [k for way in ("w", "left", "right", "hinge") for k, kind in enumerate(kinds) if kind == way]
