@@ -104,7 +104,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for load in as_curvatures(scene).loads:
+    for load, given in zip(as_curvatures(scene).loads, scene.loads, strict=True):
         kind = load.__struct_config__.tag
         if kind == "movement":
             continue
@@ -115,6 +115,8 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         else:
             from_, to = fmt.stretch(scene, load)
             ends = list(at_both_ends(load.kappa if kind == "curvature" else load.q))
+            if not any(ends) and getattr(given, "dT", 0.0):  # it lengthens only
+                one["type"], ends = "temperature", 2 * [given.dT]
             one |= {"from": from_, "to": to, "ends": ends}
         found.append(one)
     return found

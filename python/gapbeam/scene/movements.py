@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.errors import SceneError
 from .loads import MovementLoad
-from .names import find
+from .names import DEAD, find
 from .structs import Scene, Support
 
 
@@ -99,6 +99,17 @@ def settle_movements(scene: Scene) -> Scene:
     taken.add_to(moves, np.ones((1, len(scene.loads))))
     others = set(range(len(scene.loads))).difference(taken.load.tolist())
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
+
+
+def moves_supports(scene: Scene) -> bool:
+    """Whether supports move with the load factor.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    """
+    return any(isinstance(load, MovementLoad) and load.case != DEAD for load in scene.loads)
 
 
 def refuse_movements(scene: Scene, problem: str) -> None:
