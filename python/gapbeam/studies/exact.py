@@ -99,12 +99,14 @@ class Reference:
         self.hinges = {index[x] for x in hinges}
         self.supports = scene.supports
         self.support_points = [index[x] for x in held]
-        self.force, self.couple = [Fraction(0)] * len(where), [Fraction(0)] * len(where)
+        # The couples left of hinges are among those at their places
+        self.force, self.couple, self.left_of_hinge = ([Fraction(0)] * len(where) for _ in range(3))
         for load, x in zip(points, loaded, strict=True):
             if isinstance(load, ForceLoad):
                 self.force[index[x]] += Fraction(load.F)
             else:
                 self.couple[index[x]] += Fraction(load.M)
+                self.left_of_hinge[index[x]] += Fraction(load.M if load.at_hinge == "left" else 0.0)
         self.pieces = [_piece(a, b, scene, exact_ends, sections, loads) for a, b in pairwise(where)]
         self.sign = [SIDES[support.side] for support in scene.supports]
         self.level = [Fraction(s.settlement) + k * Fraction(s.gap) for s, k in zip(self.supports, self.sign, strict=True)]
@@ -217,7 +219,7 @@ class Reference:
             else:
                 rows.append(_sum((one, jump), (number(turning[i]), psi_right or psi_left)))
                 if i in self.hinges:
-                    rows.append(m_left)
+                    rows.append(_sum((one, m_left), (number(self.left_of_hinge[i]), {-1: one})))
                 elif 0 < i < count - 1:
                     rows.append(_sum((one, psi_left), (-one, psi_right)))
             balance.append(_sum((number(self.force[i]), {-1: one}), (-one, v_left), (one, v_right), (-one, support_force[i])))
