@@ -4,7 +4,7 @@ module gapbeam_fields
     use gapbeam_tolerances, only: extreme_margin
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
-    use gapbeam_piece, only: is_tapered
+    use gapbeam_piece, only: is_tapered, curvature_at
     use gapbeam_taper, only: fields_in_piece, softness_at
     use gapbeam_taper_extremes, only: find_turning_places, most_places
     use gapbeam_quantities, only: state_count, derived_count, bending_count, bending, shares_of, terms_of_derived, with_derived
@@ -123,6 +123,11 @@ contains
             end associate
             share = shares_of(softness_of(pieces(j)))
             c(:, state_count + 1:) = matmul(c(:, 1:state_count), share(1:state_count, :))
+            if (abs(q%rise) > 0.0_wp) then
+                c(2, 1) = c(2, 1) + q%rise/pieces(j)%length/2
+                c(1, 2) = c(1, 2) + q%rise/pieces(j)%length
+                c(0, state_count + 1:) = c(0, state_count + 1:) + share(state_count + 1, :)*(q%rise/pieces(j)%length)
+            end if
             do k = 1, bending_count
                 if (.not. near(k)) cycle
                 if (tapered) then
@@ -154,7 +159,7 @@ contains
             real(wp), intent(in) :: s
             real(wp) :: values(bending_count)
 
-            values = bending_values(field, pieces(j), q%kappa, s)
+            values = bending_values(field, pieces(j), curvature_at(q, s, pieces(j)%length), s)
         end function values_of
 
     end subroutine find_extremes
@@ -175,9 +180,9 @@ contains
         share = piece%length**2/8
         most = max(abs(load%qa), abs(load%qb))
         slope = abs(load%qb - load%qa)/piece%length
-        bend(1) = abs(load%kappa) + piece%flexibility*(max(abs(left(3)), abs(right(3))) + share*most) &
+        bend(1) = abs(load%kappa) + abs(load%rise) + piece%flexibility*(max(abs(left(3)), abs(right(3))) + share*most) &
             + piece%shear_flexibility*most
-        bend(2) = piece%flexibility*(max(abs(left(4)), abs(right(4))) + share*slope)
+        bend(2) = piece%flexibility*(max(abs(left(4)), abs(right(4))) + share*slope) + abs(load%rise)/piece%length
         bend(3) = most
         bend(4) = slope
         shares = shares_of(softness_of(piece))

@@ -137,7 +137,7 @@ contains
         if (.not. any_load(loads)) return
         if (n == 1 .and. .not. is_tapered(pieces(1))) then
             call condense_load(pieces(1), loads(1), link, k)
-            call add_end_couples(loads(1)%couple_a, loads(1)%couple_b, link, k)
+            call add_end_couples(pieces, loads(1)%couple_a, loads(1)%couple_b, link, k)
             return
         end if
 
@@ -153,10 +153,10 @@ contains
                 left_part = p%flexibility*at%left
                 right_part = p%flexibility*at%right
                 if (p%power + p%shear_power > 0) call turn_ends(p, at%m0, at%m1, q%qa, q%qb, left_part, right_part, slipping)
-                turning = left_part - q%kappa*p%length/2
+                turning = left_part - (q%kappa/2 + q%rise/6)*p%length
                 call add(turn_a, (1 - at%x0/link%length)*turning)
                 call add(turn_b, (at%x0/link%length)*turning)
-                turning = right_part - q%kappa*p%length/2
+                turning = right_part - (q%kappa/2 + q%rise/3)*p%length
                 call add(turn_a, (1 - at%x1/link%length)*turning)
                 call add(turn_b, (at%x1/link%length)*turning)
                 ! What GA has in common along the link slips under couples only, for the moment is zero at both ends
@@ -169,7 +169,7 @@ contains
                         + (abs(q%qa) + abs(q%qb))*p%length**2)
                 end if
                 link%load_sum(k) = link%load_sum(k) + (abs(q%qa) + abs(q%qb))*p%length/2
-                link%turn_sum(k) = link%turn_sum(k) + abs(q%kappa)*p%length + abs(q%kink_a) + abs(q%kink_b)
+                link%turn_sum(k) = link%turn_sum(k) + (abs(q%kappa) + abs(q%rise))*p%length + abs(q%kink_a) + abs(q%kink_b)
                 if (j < n) then
                     call add(slip, -pieces(1)%shear_flexibility*q%couple)
                     slips = slips + pieces(1)%shear_flexibility*abs(q%couple)
@@ -186,19 +186,25 @@ contains
         link%turn_b(k) = total(turn_b) + total(slip)/link%length - loads(n)%kink_b
         link%shear_a(k) = right_end/link%length
         link%shear_b(k) = -total(at%moment)/link%length
-        call add_end_couples(loads(1)%couple_a, loads(n)%couple_b, link, k)
+        call add_end_couples(pieces, loads(1)%couple_a, loads(n)%couple_b, link, k)
     end subroutine condense_loads
 
-    !> Couples just inside the ends: as moments there would
-    pure subroutine add_end_couples(couple_a, couple_b, link, k)
+    !> Couples just inside the ends: as moments there would, but that at the left end does not turn an elastic hinge
+    pure subroutine add_end_couples(pieces, couple_a, couple_b, link, k)
+        type(piece_type), intent(in) :: pieces(:)
         !> Clockwise
         real(wp), intent(in) :: couple_a, couple_b
         !> With its flexibilities and its other loads
         type(link_type), intent(inout) :: link
         integer, intent(in) :: k
+        type(piece_type) :: inside(size(pieces))
+        type(link_type) :: without
 
         if (.not. max(abs(couple_a), abs(couple_b)) > 0.0_wp) return
-        link%turn_a(k) = link%turn_a(k) + (link%faa*couple_a - link%fab*couple_b)
+        inside(:) = pieces
+        inside(1)%hinge = 0.0_wp
+        call condense_flexibility(inside, without)
+        link%turn_a(k) = link%turn_a(k) + (without%faa*couple_a - link%fab*couple_b)
         link%turn_b(k) = link%turn_b(k) + (link%fab*couple_a - link%fbb*couple_b)
         link%shear_a(k) = link%shear_a(k) - (couple_a + couple_b)*link%inverse
         link%shear_b(k) = link%shear_b(k) - (couple_a + couple_b)*link%inverse
@@ -244,12 +250,13 @@ contains
 
         associate (l => piece%length, q => load)
             call moment_integrals(l, 0.0_wp, 0.0_wp, q%qa, q%qb, left_part, right_part)
-            link%turn_a(k) = 0.0_wp + (piece%flexibility*left_part - (q%kappa*l/2 + q%kink_a))
-            link%turn_b(k) = 0.0_wp + (piece%flexibility*right_part - (q%kappa*l/2 + q%kink_b))
+            link%turn_a(k) = 0.0_wp + (piece%flexibility*left_part - ((q%kappa/2 + q%rise/6)*l + q%kink_a))
+            link%turn_b(k) = 0.0_wp + (piece%flexibility*right_part - ((q%kappa/2 + q%rise/3)*l + q%kink_b))
             link%shear_a(k) = (0.0_wp + load_moment(0.0_wp, l, q%qb, q%qa))/l
             link%shear_b(k) = -(0.0_wp + load_moment(0.0_wp, l, q%qa, q%qb))/l
             link%load_sum(k) = (abs(q%qa) + abs(q%qb))*l/2
-            link%turn_sum(k) = abs(q%kink_a) + abs(q%kink_b) + abs(q%kappa)*l + link%bending*((abs(q%qa) + abs(q%qb))*l*(l*l/l))
+            link%turn_sum(k) = abs(q%kink_a) + abs(q%kink_b) + (abs(q%kappa) + abs(q%rise))*l &
+                + link%bending*((abs(q%qa) + abs(q%qb))*l*(l*l/l))
         end associate
     end subroutine condense_load
 
@@ -354,7 +361,7 @@ contains
                 slipping = p%shear_flexibility*(m1 - starts(j)%moment)
                 if (p%power + p%shear_power > 0) call turn_ends(p, starts(j)%moment, m1, q%qa, q%qb, work(j, 2), work(j, 3), &
                                                                 slipping)
-                work(j, 2:3) = work(j, 2:3) - q%kappa*p%length/2
+                work(j, 2:3) = work(j, 2:3) - [q%kappa/2 + q%rise/6, q%kappa/2 + q%rise/3]*p%length
                 call add(turning, work(j, 2) + work(j, 3))
                 call add(slip, slipping)
                 before = work(j, 1)

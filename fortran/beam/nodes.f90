@@ -2,11 +2,14 @@
 module gapbeam_nodes
     implicit none
     private
-    public :: plain, hinge, restrained, jointed, is_through
+    public :: plain, hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right
+    public :: is_through, is_hinge, takes_left, takes_right
 
     !> The moment is the same on both sides; it is known, mostly zero; a rotational restraint takes a share of it; it is the same,
     !> and turns what is on the two sides against each other
     integer, parameter :: plain = 0, hinge = 1, restrained = 2, jointed = 3
+    !> A hinge, and a joint, with a rotational restraint of what is left or right of it
+    integer, parameter :: hinge_left = 4, hinge_right = 5, joint_left = 6, joint_right = 7
 
 contains
 
@@ -17,5 +20,29 @@ contains
 
         through = kind == plain .or. kind == jointed
     end function is_through
+
+    !> Is the moment known on one side at least
+    elemental function is_hinge(kind) result(it_is)
+        integer, intent(in) :: kind
+        logical :: it_is
+
+        it_is = kind == hinge .or. kind == hinge_left .or. kind == hinge_right
+    end function is_hinge
+
+    !> Is the moment left of a node an unknown for itself, since a restraint takes a share of it
+    elemental function takes_left(kind) result(it_does)
+        integer, intent(in) :: kind
+        logical :: it_does
+
+        it_does = kind == restrained .or. kind == hinge_left .or. kind >= joint_left
+    end function takes_left
+
+    !> The same of the moment right of it
+    elemental function takes_right(kind) result(it_does)
+        integer, intent(in) :: kind
+        logical :: it_does
+
+        it_does = kind == restrained .or. kind == hinge_right .or. kind >= joint_left
+    end function takes_right
 
 end module gapbeam_nodes

@@ -3,7 +3,8 @@ module gapbeam_piece
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, greatest_softness
+    public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, greatest_softness, &
+              curvature_at
 
     !> A stretch between two points
     type :: piece_type
@@ -27,6 +28,8 @@ module gapbeam_piece
         real(wp) :: kink_a = 0.0_wp, kink_b = 0.0_wp
         !> Couples (clockwise) just inside its ends, beside hinges there
         real(wp) :: couple_a = 0.0_wp, couple_b = 0.0_wp
+        !> By how much the imposed curvature is greater at the right end than at the left one, in between linear
+        real(wp) :: rise = 0.0_wp
     end type piece_load_type
     type(piece_load_type), parameter :: no_load = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
@@ -58,7 +61,7 @@ contains
         do j = 1, size(loads)
             associate (q => loads(j))
                 if (max(abs(q%qa), abs(q%qb), abs(q%kappa), abs(q%kink_a), abs(q%kink_b)) > 0) return
-                if (max(abs(q%couple_a), abs(q%couple_b)) > 0) return
+                if (max(abs(q%couple_a), abs(q%couple_b), abs(q%rise)) > 0) return
                 if (j < size(loads) .and. max(abs(q%force), abs(q%couple)) > 0) return
             end associate
         end do
@@ -80,7 +83,20 @@ contains
         loads%kink_b = dead%kink_b + factor*live%kink_b
         loads%couple_a = dead%couple_a + factor*live%couple_a
         loads%couple_b = dead%couple_b + factor*live%couple_b
+        loads%rise = dead%rise + factor*live%rise
     end function combine_loads
+
+    !> Curvature that is imposed at a distance from the left end of a piece
+    pure function curvature_at(load, distance, length) result(kappa)
+        type(piece_load_type), intent(in) :: load
+        real(wp), intent(in) :: distance
+        !> Of the piece
+        real(wp), intent(in) :: length
+        real(wp) :: kappa
+
+        kappa = load%kappa
+        if (abs(load%rise) > 0.0_wp) kappa = kappa + load%rise*(distance/length)
+    end function curvature_at
 
     !> 1/EI and 1/GA where they are greatest
     pure function greatest_softness(piece) result(softness)

@@ -182,6 +182,11 @@ contains
         ! Statics, the imposed curvature, and what is not tapered
         fields = fields_at(start, s, piece%length, merge(0.0_wp, piece%flexibility, piece%power > 0), &
                            merge(0.0_wp, piece%shear_flexibility, piece%shear_power > 0), load%qa, load%qb, load%kappa)
+        if (abs(load%rise) > 0.0_wp) then
+            share = s/piece%length
+            fields%rotation = fields%rotation + s*(share*load%rise/2)
+            fields%deflection = fields%deflection + s*(s*(share*load%rise/6))
+        end if
         if (.not. (is_tapered(piece) .and. s > 0.0_wp)) return
         share = s/piece%length
         if (piece%power > 0) then

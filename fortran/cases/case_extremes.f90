@@ -3,7 +3,7 @@
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_beside_point
+    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
@@ -41,7 +41,7 @@ contains
         associate (beam => assembled%beam, units => assembled%units)
             yes = .not. (allocated(beam%ground) .or. has_other_supports(beam) .or. allocated(assembled%axial%point) &
                         .or. .not. all(is_prismatic(assembled%pieces)) &
-                        .or. any(is_beside_point(assembled%model%loads))) &
+                        .or. any(is_alone(assembled%model%loads))) &
                 .and. max(abs(units%deflection), abs(units%force), abs(units%length), abs(moment_unit(units)), &
                           abs(rotation_unit(units)), abs(stiffness_unit(units))) < most_unit_power
         end associate

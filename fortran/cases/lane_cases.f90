@@ -3,7 +3,7 @@
 !> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_beside_point
+    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: most_lane_links
     use gapbeam_tolerances, only: most_unit_power
@@ -49,7 +49,7 @@ contains
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. .not. has_other_supports(beam) .and. all(is_prismatic(assembled%pieces)) &
-                .and. .not. any(is_beside_point(assembled%model%loads)) &
+                .and. .not. any(is_alone(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power
         end associate

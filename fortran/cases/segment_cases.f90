@@ -3,7 +3,7 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_beside_point
+    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: least_segment_links
     use gapbeam_tolerances, only: most_unit_power
@@ -52,7 +52,7 @@ contains
             fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
                 .and. .not. has_other_supports(beam) &
-                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_beside_point(assembled%model%loads)) &
+                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_alone(assembled%model%loads)) &
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
         end associate
     end function fits_segments

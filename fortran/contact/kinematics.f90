@@ -6,7 +6,7 @@
 !> right this gives every independent motion of the chain.
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
-    use gapbeam_band, only: hinge, restrained
+    use gapbeam_nodes, only: restrained, hinge_left, hinge_right, is_hinge
     use gapbeam_law_kinematics, only: mark_held, lets_go_beyond, leaves_all
     use gapbeam_model, only: beam_type, last_place
     use gapbeam_turning, only: find_kinds, turn_with
@@ -58,9 +58,10 @@ contains
         associate (x => followed%x, fixed => followed%fixed)
             do while (start < n)
                 do i = start + 1, n - 1
-                    if (followed%kind(i) == hinge) exit
+                    if (is_hinge(followed%kind(i))) exit
                 end do
-                clamp = any(followed%kind(start:i) == restrained)
+                clamp = any(followed%kind(start:i) == restrained) .or. followed%kind(start) == hinge_right &
+                    .or. followed%kind(i) == hinge_left
                 conditions = count(fixed(start:i)) + merge(1, 0, clamp)
                 if (conditions == 0) then
                     ! The right end is free whatever the left end does

@@ -12,6 +12,10 @@ module gapbeam_model
     public :: beam_type, new_beam, order_supports, last_place, node_of_support, has_other_supports, softest
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
+    public :: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
+
+    !> Rotations that supports hold
+    integer, parameter :: of_node = 0, of_hinge = 1, of_hinge_held_left = 2, left_of_hinge = 3, right_of_hinge = 4
 
     !> A beam; load index 1 dead, 2 live
     type :: beam_type
@@ -28,9 +32,11 @@ module gapbeam_model
         !> Nodes whose rotations supports hold by laws, shape (r); not allocated where there are none. Node n + j of such a support
         !> stands for the rotation at node turning(j): its "deflection", over which its "reaction" is a couple
         integer, allocatable :: turning(:)
-        !> Is that the rotation left of the node less that right of it, positive with a sagging moment, which is the couple, and the
-        !> node a hinge by itself; else it is that of the node, clockwise, and the couple turns the beam back, shape (r)
-        logical, allocatable :: relative(:)
+        !> Which rotation that is, shape (r): of_node, clockwise, and the couple turns the beam back; of_hinge, the rotation left of
+        !> the node less that right of it, positive with a sagging moment, which is the couple, and the node a hinge by itself; or
+        !> left_of_hinge or right_of_hinge, as of_node but of the part of the beam on that side of a hinge. Only one is there,
+        !> so the moment in the hinge is that on its other side: beside left_of_hinge it is of_hinge_held_left. Hinges come first
+        integer, allocatable :: turned(:)
         !> Supports in the caller's order
         type(node_support_type), allocatable :: supports(:)
         !> Their numbers from left to right; those at node i are order(first(i)) to order(first(i + 1) - 1)
@@ -42,7 +48,7 @@ module gapbeam_model
 contains
 
     !> A beam from arrays; see the components of the type for their meaning
-    pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam, turning, relative)
+    pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam, turning, turned)
         !> Links, shape (n)
         type(link_type), intent(in) :: links(:)
         !> Nodes, shape (0:n)
@@ -53,14 +59,13 @@ contains
         !> The beam
         type(beam_type), intent(out) :: beam
         !> Rotations that supports hold, if any
-        integer, intent(in), optional :: turning(:)
-        logical, intent(in), optional :: relative(:)
+        integer, intent(in), optional :: turning(:), turned(:)
         integer :: n
 
         n = size(links)
         ! Components that are not allocated are absent
         if (present(turning)) beam%turning = turning
-        if (present(relative)) beam%relative = relative
+        if (present(turned)) beam%turned = turned
         allocate (beam%links(n), beam%kind(0:n), beam%compliance(0:n), beam%force(2, 0:n), beam%couple(2, 0:n))
         beam%links(:) = links
         beam%kind(:) = kind
@@ -115,6 +120,15 @@ contains
         last = size(beam%links)
         if (allocated(beam%turning)) last = last + size(beam%turning)
     end function last_place
+
+    !> Is a rotation that of one side of a hinge against the other
+    elemental function is_of_hinge(turned) result(it_is)
+        !> As in beam_type
+        integer, intent(in) :: turned
+        logical :: it_is
+
+        it_is = turned == of_hinge .or. turned == of_hinge_held_left
+    end function is_of_hinge
 
     !> The node of the beam at which a support is
     pure function node_of_support(beam, k) result(node)

@@ -6,11 +6,12 @@
 !> a rigid piece a rotation that is known.
 module gapbeam_turning
     use gapbeam_kinds, only: wp
-    use gapbeam_nodes, only: plain, hinge, restrained, jointed
+    use gapbeam_nodes, only: plain, hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, is_hinge, &
+        takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: add_supports
     use gapbeam_law_kinematics, only: mark_held
-    use gapbeam_model, only: beam_type, last_place
+    use gapbeam_model, only: beam_type, last_place, of_node, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
     implicit none
     private
     public :: apply_turning, find_turning, find_kinds, turn_with
@@ -41,35 +42,73 @@ contains
             call add_supports(beam%supports, beam%order(beam%first(v):beam%first(v + 1) - 1), acting, nodes, rhs, level)
             associate (node => nodes(i), r => rhs(i), of => nodes(v), known => rhs(v))
                 if (of%held) then
-                    node%compliance = 0.0_wp
                     ! What a known rotation would make where a link is held against it
                     level(i) = level(i) + abs(known%deflection)*maxval(beam%links(max(1, i):min(i + 1, size(beam%links)))%length)
-                    if (beam%relative(j)) then
+                    if (is_of_hinge(beam%turned(j))) then
                         node%kind = jointed
-                        r%right = r%right + known%deflection
+                        node%compliance = 0.0_wp
+                        r%moment = known%deflection
                     else
-                        node%kind = restrained
-                        r%left = r%left + known%deflection
-                        r%right = r%right - known%deflection
+                        call restrain(beam%turned(j), 0.0_wp, node)
+                        if (takes_left(node%kind)) r%left = r%left + known%deflection
+                        if (takes_right(node%kind)) r%right = r%right - known%deflection
                     end if
                 else if (of%stiffness > 0.0_wp) then
-                    node%compliance = 1/of%stiffness
-                    if (beam%relative(j)) then
+                    if (is_of_hinge(beam%turned(j))) then
                         node%kind = jointed
-                        r%right = r%right + node%compliance*known%shear
+                        node%compliance = 1/of%stiffness
+                        r%moment = node%compliance*known%shear
                     else
-                        node%kind = restrained
+                        call restrain(beam%turned(j), 1/of%stiffness, node)
                         r%couple = r%couple + known%shear
                     end if
-                else if (beam%relative(j)) then
+                else if (is_of_hinge(beam%turned(j))) then
                     node%kind = hinge
-                    r%couple = -known%shear
+                    r%moment = -known%shear
                 else
                     r%couple = r%couple + known%shear
+                    if (beam%turned(j) == left_of_hinge) then
+                        if (node%kind == hinge) r%moment = r%moment - known%shear
+                        if (node%kind == jointed) r%moment = r%moment + node%compliance*known%shear
+                    end if
+                end if
+            end associate
+        end do
+        ! What turns a joint by itself is between it and a restraint
+        do j = 1, size(beam%turning)
+            i = beam%turning(j)
+            if (i < range(1) .or. i > range(2) .or. .not. is_of_hinge(beam%turned(j))) cycle
+            associate (node => nodes(i), r => rhs(i))
+                if (is_hinge(node%kind)) cycle
+                if (node%kind == joint_right) then
+                    r%left = r%left + r%moment
+                else
+                    r%right = r%right + r%moment
                 end if
             end associate
         end do
     end subroutine apply_turning
+
+    !> Let a spring hold the rotation of a node, or of one side of the hinge or joint that it is
+    pure subroutine restrain(turned, compliance, node)
+        !> As in beam_type
+        integer, intent(in) :: turned
+        !> Of the spring
+        real(wp), intent(in) :: compliance
+        type(node_type), intent(inout) :: node
+        logical :: left
+
+        left = turned == left_of_hinge
+        if (turned == of_node) then
+            node%kind = restrained
+        else if (node%kind == hinge) then
+            node%kind = merge(hinge_left, hinge_right, left)
+        else
+            node%joint = node%compliance
+            node%kind = merge(joint_left, joint_right, left)
+        end if
+        node%compliance = compliance
+    end subroutine restrain
 
     !> Rotations from the solution at the nodes of the beam, and the couples that go with them
     pure subroutine find_turning(beam, nodes, rhs, loads, turn_size, answers, rotation_size, couple, couple_size)
@@ -95,8 +134,8 @@ contains
                 couple_size(j) = max(abs(a%moment_left), abs(a%moment_right))
                 if (i > 0) couple_size(j) = max(couple_size(j), abs(answers(i - 1)%moment_right))
                 if (i < n) couple_size(j) = max(couple_size(j), abs(answers(i + 1)%moment_left))
-                if (beam%relative(j)) then
-                    couple(j) = a%moment_left
+                if (is_of_hinge(beam%turned(j))) then
+                    couple(j) = merge(a%moment_right, a%moment_left, beam%turned(j) == of_hinge_held_left)
                 else
                     couple(j) = (a%moment_left - a%moment_right) + loads(i)%couple
                     couple_size(j) = couple_size(j) + abs(loads(i)%couple)
@@ -109,9 +148,12 @@ contains
                     rotation_size(j) = (couple_size(j) + abs(known%shear))/of%stiffness
                 else
                     call turns_beside(beam, loads, turn_size, answers, i, turn, turn_terms)
-                    if (beam%relative(j)) then
+                    if (is_of_hinge(beam%turned(j))) then
                         rotation = turn(1) - turn(2)
                         rotation_size(j) = sum(turn_terms)
+                    else if (beam%turned(j) == left_of_hinge .or. beam%turned(j) == right_of_hinge) then
+                        rotation = turn(merge(1, 2, beam%turned(j) == left_of_hinge))
+                        rotation_size(j) = turn_terms(merge(1, 2, beam%turned(j) == left_of_hinge))
                     else
                         ! Both are the same; the one whose terms are smaller is more exact
                         rotation = turn(minloc(turn_terms, 1))
@@ -158,7 +200,7 @@ contains
         !> The beam, and which supports act
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: acting(:)
-        !> plain, hinge or restrained, shape (0:n)
+        !> plain, restrained, or a hinge, which a restraint may be beside, shape (0:n)
         integer, intent(out) :: kind(0:)
         logical, allocatable :: held(:)
         integer :: j
@@ -170,8 +212,10 @@ contains
         call mark_held(beam%supports, acting, held)
         do j = 1, size(beam%turning)
             associate (holds => held(size(beam%links) + j), here => kind(beam%turning(j)))
-                if (beam%relative(j)) then
+                if (is_of_hinge(beam%turned(j))) then
                     here = merge(plain, hinge, holds)
+                else if (holds .and. here == hinge) then
+                    here = merge(hinge_left, hinge_right, beam%turned(j) == left_of_hinge)
                 else if (holds) then
                     here = restrained
                 end if
@@ -190,8 +234,10 @@ contains
         n = size(beam%links)
         do j = 1, size(beam%turning)
             i = beam%turning(j)
-            if (beam%relative(j)) then
+            if (is_of_hinge(beam%turned(j))) then
                 motion(n + j) = slope(i) - slope(i + 1)
+            else if (beam%turned(j) == left_of_hinge) then
+                motion(n + j) = slope(i)
             else
                 motion(n + j) = slope(min(i + 1, n))
             end if

@@ -26,7 +26,8 @@ module gapbeam_band
     use gapbeam_tolerances, only: pivot_digits
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_nodes, only: plain, hinge, restrained, jointed
+    use gapbeam_nodes, only: plain, hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, is_hinge, &
+        takes_left
     implicit none
     private
     public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, count_unstable_pivots
@@ -40,7 +41,7 @@ module gapbeam_band
 
     !> A node as the contact state at hand sees it
     type :: node_type
-        !> plain, hinge, restrained or jointed
+        !> One of those of gapbeam_nodes
         integer :: kind = plain
         !> Deflection known: a rigid support acts
         logical :: held = .false.
@@ -48,6 +49,8 @@ module gapbeam_band
         real(wp) :: stiffness = 0.0_wp
         !> Compliance of the rotational restraint or of the joint, rad/(force length); 0 is a clamp; used if restrained or jointed
         real(wp) :: compliance = 0.0_wp
+        !> Compliance of the joint where a restraint is beside it
+        real(wp) :: joint = 0.0_wp
     end type node_type
 
     !> Right-hand side at a node
@@ -58,8 +61,10 @@ module gapbeam_band
         real(wp) :: shear = 0.0_wp
         !> Known deflection where held
         real(wp) :: deflection = 0.0_wp
-        !> Applied couple, clockwise; of a hinge the moment in it
+        !> Applied couple, clockwise, by which the moment grows across the node: on the side of a restraint, right of a joint
         real(wp) :: couple = 0.0_wp
+        !> Of a hinge the moment that is known: left of it, but right of it where a restraint is on its left
+        real(wp) :: moment = 0.0_wp
     end type rhs_type
 
     !> Solution at a node: deflection and the moments on its two sides
@@ -139,7 +144,7 @@ contains
                     h = link%inverse
                     p%b = beta + h
                     p%a = phi + link%faa
-                    if (floating .or. node%kind == hinge) then
+                    if (floating .or. node%kind == hinge .or. node%kind == hinge_left) then
                         if (node%held) then
                             p%kind = both_known
                             phi = link%fbb
@@ -223,7 +228,10 @@ contains
         index = 0
         do i = 0, ubound(nodes, 1)
             associate (node => nodes(i), p => pivots(i))
-                if (node%kind == restrained .and. .not. p%floating) index = index - merge(1, 0, p%phi + node%compliance < 0.0_wp)
+                if (takes_left(node%kind) .and. .not. p%floating) then
+                    index = index - merge(1, 0, p%phi + node%compliance + merge(node%joint, 0.0_wp, node%kind == joint_right) &
+                                          < 0.0_wp)
+                end if
                 select case (p%kind)
                 case (full)
                     if (p%reciprocal < 0.0_wp) index = index + merge(1, -1, p%a > 0.0_wp)

@@ -5,7 +5,7 @@ module gapbeam_band_substitution
     use gapbeam_tolerances, only: hidden_change
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_nodes, only: hinge, restrained, jointed
+    use gapbeam_nodes, only: hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, takes_left
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, full, w_known, m_known, both_known, end_of_beam
     implicit none
     private

@@ -11,6 +11,7 @@
 module gapbeam_foundation_chain
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
+    use gapbeam_nodes, only: hinge_left, hinge_right, joint_left, joint_right, is_hinge, takes_left
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, jointed, band_ok, &
         band_mechanism, band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam
     use gapbeam_foundation, only: stretch_link_type

@@ -2,12 +2,14 @@
 !>
 !> gapbeam_band needs no pivoting but for one case, a rigid beam over rigid supports, where a flexibility used
 !> as pivot is exactly zero. Rows, unknowns and signs are those of gapbeam_band; a node with a rotational
-!> restraint has a third unknown, its second moment. Half bandwidth 3.
+!> restraint has a third unknown, its second moment, which is known where a hinge is beside the restraint. Half bandwidth 3.
 module gapbeam_pivoting
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: pivot_hair
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, rhs_type, answer_type, hinge, restrained, jointed
+    use gapbeam_nodes, only: hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, takes_left, &
+        takes_right
+    use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_band_solver, only: solve_band
     implicit none
     private
@@ -76,7 +78,9 @@ contains
         known(:) = .false.
         do i = 0, n
             known(deflection(i)) = nodes(i)%held
-            known(left(i)) = nodes(i)%kind == hinge .or. ((i == 0 .or. i == n) .and. nodes(i)%kind /= restrained)
+            known(left(i)) = nodes(i)%kind == hinge .or. nodes(i)%kind == hinge_right &
+                .or. ((i == 0 .or. i == n) .and. nodes(i)%kind /= restrained)
+            if (nodes(i)%kind == hinge_left) known(right(i)) = .true.
         end do
         index = 0
         do k = 1, unknowns
@@ -101,7 +105,7 @@ contains
         end do
         do i = 0, n
             if (.not. known(left(i))) index = index - 1
-            if (right(i) /= left(i)) index = index - 1
+            if (right(i) /= left(i) .and. .not. known(right(i))) index = index - 1
         end do
     end subroutine count_unstable
 
@@ -122,7 +126,7 @@ contains
             unknowns = unknowns + 1
             deflection(i) = unknowns
             right(i) = left(i)
-            if (nodes(i)%kind == restrained .and. i > 0 .and. i < n) then
+            if ((takes_left(nodes(i)%kind) .or. takes_right(nodes(i)%kind)) .and. i > 0 .and. i < n) then
                 unknowns = unknowns + 1
                 right(i) = unknowns
             end if
@@ -154,24 +158,27 @@ contains
             integer, intent(in) :: i
 
             associate (node => nodes(i), r => rhs(i))
-                if (node%kind == restrained) then
-                    if (i > 0) then
+                if (takes_left(node%kind) .or. takes_right(node%kind)) then
+                    if (i > 0 .and. takes_left(node%kind)) then
                         call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
                         call put(left(i), left(i), -node%compliance)
+                        if (node%kind == joint_right) call put(left(i), left(i), -node%joint)
                         if (i < n) call put(left(i), right(i), node%compliance)
                         b(left(i)) = b(left(i)) + r%left + node%compliance*r%couple
                     end if
-                    if (i < n) then
+                    if (i < n .and. takes_right(node%kind)) then
                         if (i > 0) call put(right(i), left(i), node%compliance)
                         call put(right(i), right(i), -node%compliance)
+                        if (node%kind == joint_left) call put(right(i), right(i), -node%joint)
                         call add_rotation(right(i), i + 1, -1.0_wp, links(i + 1)%faa, links(i + 1)%fab)
                         b(right(i)) = b(right(i)) + r%right - node%compliance*r%couple
                     end if
-                else if (node%kind == hinge .or. i == 0 .or. i == n) then
-                    call put(left(i), left(i), 1.0_wp)
-                    if (i == 0) b(left(i)) = r%couple
-                    if (i == n) b(left(i)) = -r%couple
-                    if (i > 0 .and. i < n) b(left(i)) = r%couple
+                    if (node%kind == hinge_left) call know(right(i), r%moment, matrix, b)
+                    if (node%kind == hinge_right) call know(left(i), r%moment, matrix, b)
+                else if (i == 0 .or. i == n) then
+                    call know(left(i), merge(r%couple, -r%couple, i == 0), matrix, b)
+                else if (node%kind == hinge) then
+                    call know(left(i), r%moment, matrix, b)
                 else
                     call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
                     call add_rotation(left(i), i + 1, -1.0_wp, links(i + 1)%faa, links(i + 1)%fab)
@@ -187,8 +194,7 @@ contains
 
             associate (row => deflection(i), r => rhs(i))
                 if (nodes(i)%held) then
-                    call put(row, row, 1.0_wp)
-                    b(row) = r%deflection
+                    call know(row, r%deflection, matrix, b)
                     return
                 end if
                 b(row) = r%shear
@@ -228,6 +234,16 @@ contains
 
     end subroutine assemble
 
+    !> The row of an unknown that is known
+    pure subroutine know(row, value, matrix, b)
+        integer, intent(in) :: row
+        real(wp), intent(in) :: value
+        real(wp), intent(inout) :: matrix(:, :), b(:)
+
+        matrix(half_bandwidth + 1, row) = matrix(half_bandwidth + 1, row) + 1.0_wp
+        b(row) = value
+    end subroutine know
+
     !> Moment right of a node minus the unknown that stands for it
     pure function jump(nodes, rhs, k) result(couple)
         type(node_type), intent(in) :: nodes(0:)
@@ -236,7 +252,7 @@ contains
         real(wp) :: couple
 
         couple = 0.0_wp
-        if (all(nodes(k)%kind /= [restrained, hinge]) .and. k > 0) couple = rhs(k)%couple
+        if (.not. (takes_left(nodes(k)%kind) .or. takes_right(nodes(k)%kind)) .and. k > 0) couple = rhs(k)%couple
     end function jump
 
 end module gapbeam_pivoting

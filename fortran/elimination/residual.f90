@@ -8,8 +8,8 @@ module gapbeam_residual
     use gapbeam_tolerances, only: splitter
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
-    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained, jointed
-    use gapbeam_nodes, only: is_through
+    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, jointed
+    use gapbeam_nodes, only: joint_left, joint_right, is_through, takes_left, takes_right
     implicit none
     private
     public :: residual_chain, residual_inside, size_type
@@ -46,7 +46,7 @@ contains
         !> First and last node of interest, if not all are
         integer, intent(in), optional :: range(2)
         type(end_type) :: left, right, left_of_next
-        real(wp) :: turn, turn_low, high, low, largest_turn, largest_shear
+        real(wp) :: high, low, largest_turn, largest_shear
         integer :: i, n, begin, finish
 
         n = size(links)
@@ -77,20 +77,8 @@ contains
                         largest_shear = max(largest_shear, (abs(z%moment_left) + abs(a%moment_right))*h)
                     end associate
                 end if
-                if (node%kind == restrained) then
-                    call turn_of_restraint(node%compliance, a%moment_left, a%moment_right, b%couple, turn, turn_low)
-                    high = turn
-                    low = turn_low
-                    call subtract(high, low, left%psi, left%psi_low)
-                    call add(high, low, b%left)
-                    if (i > 0) r%left = high + low
-                    high = right%psi
-                    low = right%psi_low
-                    call subtract(high, low, turn, turn_low)
-                    call add(high, low, b%right)
-                    if (i < n) r%right = high + low
-                    s%left = left%size_of_psi + abs(turn) + abs(b%left)
-                    s%right = right%size_of_psi + abs(turn) + abs(b%right)
+                if (takes_left(node%kind) .or. takes_right(node%kind)) then
+                    call residual_of_restraint(node, a, b, left, right, i > 0, i < n, r, s)
                     compatibility = max(compatibility, abs(r%left), abs(r%right))
                 else if (is_through(node%kind) .and. i > 0 .and. i < n) then
                     high = right%psi
@@ -126,6 +114,45 @@ contains
         compatibility = compatibility/largest_turn
         equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
+
+    !> Residuals of the rotations beside a restraint, where a joint or a hinge may be on one side of it
+    pure subroutine residual_of_restraint(node, a, b, left, right, has_left, has_right, r, s)
+        type(node_type), intent(in) :: node
+        type(answer_type), intent(in) :: a
+        type(rhs_type), intent(in) :: b
+        !> Of the links beside it, and are they there
+        type(end_type), intent(in) :: left, right
+        logical, intent(in) :: has_left, has_right
+        type(rhs_type), intent(inout) :: r
+        type(size_type), intent(inout) :: s
+        real(wp) :: turn, turn_low, high, low
+
+        call turn_of_restraint(node%compliance, a%moment_left, a%moment_right, b%couple, turn, turn_low)
+        if (takes_left(node%kind)) then
+            high = turn
+            low = turn_low
+            call subtract(high, low, left%psi, left%psi_low)
+            call add(high, low, b%left)
+            s%left = left%size_of_psi + abs(turn) + abs(b%left)
+            if (node%kind == joint_right) then
+                call add_product(high, low, node%joint, a%moment_left)
+                s%left = s%left + node%joint*abs(a%moment_left)
+            end if
+            if (has_left) r%left = high + low
+        end if
+        if (takes_right(node%kind)) then
+            high = right%psi
+            low = right%psi_low
+            call subtract(high, low, turn, turn_low)
+            call add(high, low, b%right)
+            s%right = right%size_of_psi + abs(turn) + abs(b%right)
+            if (node%kind == joint_left) then
+                call add_product(high, low, node%joint, a%moment_right)
+                s%right = s%right + node%joint*abs(a%moment_right)
+            end if
+            if (has_right) r%right = high + low
+        end if
+    end subroutine residual_of_restraint
 
     !> The same numbers at the inner nodes of a plain beam without couples, some nodes at a time side by side in wide registers
     pure subroutine residual_inside(nodes, links, rhs, moment, deflection, turn, shear)

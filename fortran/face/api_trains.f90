@@ -11,7 +11,7 @@
 !> The position of a train is that of its first axle. All loads of the beam stay, dead and live ones in full
 module gapbeam_api_trains
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_beside_point
+    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_tapered
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
@@ -71,13 +71,13 @@ contains
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) then
             if (allocated(beam%lowered%beam%turning)) then
-                call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack or one way is not "// &
-                    "available under a train in this version")
+                call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
+                    "at a hinge is not available under a train in this version")
             else if (any(beam%lowered%pieces%hinge > 0.0_wp)) then
                 call bad_argument(error, "beam", "a hinge with a stiffness under a train is not available in this version")
-            else if (any(is_beside_point(beam%lowered%model%loads))) then
-                call bad_argument(error, "beam", "a support that is turned, or a couple at a hinge, is not "// &
-                    "available under a train in this version")
+            else if (any(is_alone(beam%lowered%model%loads))) then
+                call bad_argument(error, "beam", "a support that is turned, a couple at a hinge, or a curvature that "// &
+                    "changes along the beam is not available under a train in this version")
             else if (any(is_tapered(beam%lowered%pieces))) then
                 call bad_argument(error, "beam", "a section that tapers under a train is not available in this version; short "// &
                     "sections, each of one stiffness, come close")

@@ -7,14 +7,14 @@
 !     SPAN(4, NSPAN)    length; EI; GA (GBINF(): rigid in shear); EA (GBINF() if not needed), above 0
 !     HINGE(NHINGE)     places of moment hinges
 !     ISUP(3, NSUP)     side: 0 both, 1 below, -1 above; direction: 0 across the beam, 1 along it, 2 of its rotation, 3 of a
-!                       hinge; node, or -1: SUP(1, .) counts
+!                       hinge, 4 left of a hinge, 5 right of it; node, or -1: SUP(1, .) counts
 !     SUP(5, NSUP)      x; stiffness (GBINF(): rigid); gap; settlement; rotational stiffness (0: free, GBINF(): clamped)
 !     ILOAD(3, NLOAD)   kind: 1 force, 2 couple, 3 distributed, 4 curvature, 5 axial force,
 !                       6 movement of a support, 7 temperature, 8 rotation of a support, 9 couple left of a hinge, 10 right of it,
-!                       11 distributed along the beam, 12 movement of ground; case: 0 live, 1 dead; node, or of 6 and 8 the
-!                       support, of 12 the foundation, or -1
-!     ALOAD(4, NLOAD)   x, or left end of the stretch; right end; value, of 7 curvature; of kinds 3 and 12 the value at the right
-!                       end, of 7 elongation per length
+!                       11 distributed along the beam, 12 movement of ground, 13 linear curvature; case: 0 live, 1 dead; node, or
+!                       of 6 and 8 the support, of 12 the foundation, or -1
+!     ALOAD(4, NLOAD)   x, or left end of the stretch; right end; value, of 7 curvature; of kinds 3, 12 and 13 the value at the
+!                       right end, of 7 elongation per length
 !
 ! and for GHPRLW the laws that supports have instead of a stiffness, polylines from (0, 0) through points, in which equal
 ! displacements are a vertical piece, and whose last slope goes on; a support that holds both ways has it both ways:

@@ -50,15 +50,16 @@ module gapbeam
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
         foundation_type, ground_point_type, ground_law_point_type, &
-        point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, axial_uniform_load, &
-        support_movement, temperature_load, support_rotation, ground_movement, &
+        point_force, point_couple, uniform_load, linear_load, imposed_curvature, linear_curvature, axial_force, &
+        axial_uniform_load, support_movement, temperature_load, support_rotation, ground_movement, &
         gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
         gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, gapbeam_counterclockwise, gapbeam_clockwise, &
+        gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right, &
+        gapbeam_counterclockwise, gapbeam_clockwise, &
         gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-        gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, &
-        gapbeam_broken, &
+        gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature, &
+        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
         gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle, &
         gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter

@@ -197,8 +197,8 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
     double precision, intent(out) :: xend, xpoint(0:np)
     integer, intent(out) :: ispan(np)
     ! Length, EI, GA of the pieces, and loads on them: per length at both ends, imposed curvature, force and couple at the right
-    ! end unless a node is there
-    double precision, intent(out) :: piece(3, np), dead(5, np), live(5, np)
+    ! end unless a node is there, and by how much that curvature rises along it
+    double precision, intent(out) :: piece(3, np), dead(6, np), live(6, np)
     ! Points that are nodes; 0 plain, 1 hinge, 2 rotational restraint of stiffness TURN; dead and live forces and couples
     integer, intent(out) :: npoint(0:nl), kind(0:nl)
     double precision, intent(out) :: turn(0:nl), force(2, 0:nl), couple(2, 0:nl)
@@ -222,8 +222,10 @@ subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, 
                            least_stiffness_of(lowered, j, in_shear)]
             associate (a => lowered%dead(j), b => lowered%live(j), q => units%force - units%length, &
                        bent => rotation_unit(units) - units%length)
-                dead(:, j) = scale([a%qa, a%qb, a%kappa, a%force, a%couple], [q, q, bent, units%force, moment_unit(units)])
-                live(:, j) = scale([b%qa, b%qb, b%kappa, b%force, b%couple], [q, q, bent, units%force, moment_unit(units)])
+                dead(:, j) = scale([a%qa, a%qb, a%kappa, a%force, a%couple, a%rise], &
+                                   [q, q, bent, units%force, moment_unit(units), bent])
+                live(:, j) = scale([b%qa, b%qb, b%kappa, b%force, b%couple, b%rise], &
+                                   [q, q, bent, units%force, moment_unit(units), bent])
             end associate
         end do
         npoint = lowered%node_point

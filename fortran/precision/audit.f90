@@ -7,7 +7,7 @@
 module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: most_left_out, everywhere, audit_allows
-    use gapbeam_nodes, only: hinge, restrained, jointed
+    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, joint_left, joint_right, takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: is_plainly_right, force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
@@ -95,14 +95,11 @@ contains
                 end do
                 ! Moments and rotations
                 jump = a%moment_left - a%moment_right + r%couple
-                if (beam%kind(i) == restrained) then
-                    turn = beam%compliance(i)*jump
-                    turn_size = beam%compliance(i)*(abs(a%moment_left) + abs(a%moment_right) + abs(r%couple))
-                    if (i > 0) call hold(of_restraints, rotations, before - turn, before_size + turn_size)
-                    if (i < n) call hold(of_restraints, rotations, after - turn, after_size + turn_size)
+                if (takes_left(beam%kind(i)) .or. takes_right(beam%kind(i))) then
+                    call audit_restraint(a, r, jump)
                 else if (beam%kind(i) == hinge) then
-                    call hold(of_equilibrium, moments, max(abs(a%moment_left - r%couple), abs(a%moment_right - r%couple)), &
-                              abs(r%couple))
+                    call hold(of_equilibrium, moments, max(abs(a%moment_left - r%moment), abs(jump)), &
+                              abs(r%moment) + abs(r%couple))
                 else
                     turn_size = abs(a%moment_left) + abs(a%moment_right) + abs(r%couple)
                     if (.not. abs(jump) <= limit*turn_size) call hold(of_equilibrium, moments, jump, turn_size)
@@ -129,6 +126,28 @@ contains
         call hold(of_equilibrium, moments, answers(n)%moment_right, 0.0_wp)
 
     contains
+
+        !> A node with a restraint, and where there is a hinge or a joint beside that
+        subroutine audit_restraint(a, r, jump)
+            type(answer_type), intent(in) :: a
+            type(rhs_type), intent(in) :: r
+            !> What of the moment the restraint takes
+            real(wp), intent(in) :: jump
+            real(wp) :: turn, turn_size, joint
+
+            turn = beam%compliance(i)*jump
+            turn_size = beam%compliance(i)*(abs(a%moment_left) + abs(a%moment_right) + abs(r%couple))
+            if (takes_left(beam%kind(i)) .and. i > 0) then
+                joint = merge(work%nodes(i)%joint*a%moment_left, 0.0_wp, beam%kind(i) == joint_right)
+                call hold(of_restraints, rotations, before - (turn + joint), before_size + turn_size + abs(joint))
+            end if
+            if (takes_right(beam%kind(i)) .and. i < n) then
+                joint = merge(work%nodes(i)%joint*a%moment_right, 0.0_wp, beam%kind(i) == joint_left)
+                call hold(of_restraints, rotations, after - (turn - joint), after_size + turn_size + abs(joint))
+            end if
+            if (beam%kind(i) == hinge_left) call hold(of_equilibrium, moments, a%moment_right - r%moment, abs(r%moment))
+            if (beam%kind(i) == hinge_right) call hold(of_equilibrium, moments, a%moment_left - r%moment, abs(r%moment))
+        end subroutine audit_restraint
 
         !> The same where supports hold rotations: the beam with what they do as couples, restraints and joints, then their laws
         subroutine audit_turning()
@@ -157,6 +176,7 @@ contains
             without%compliance(:) = nodes(0:n)%compliance
             loaded = work
             loaded%loads(0:n) = rhs(0:n)
+            loaded%nodes(0:n) = nodes(0:n)
             call audit_beam(without, closed, undecided, floats, leeway, answers(0:n), shear, reaction, loaded, ledger, measured)
             hidden_couple = everywhere*maxval(abs(answers(:n)%moment_left))
             left_out = maxval(work%load_size)*maxval(beam%links%length)

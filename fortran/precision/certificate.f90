@@ -330,7 +330,7 @@ contains
         real(wp) :: q, kappa, softest(2)
 
         q = max(abs(dead%qa) + factor*abs(live%qa), abs(dead%qb) + factor*abs(live%qb))
-        kappa = abs(dead%kappa) + factor*abs(live%kappa)
+        kappa = abs(dead%kappa) + abs(dead%rise) + factor*(abs(live%kappa) + abs(live%rise))
         ! Each error, and what rounds: the absolute values of the fields
         error = field_type(change%deflection + unit*abs(start%deflection), change%rotation + unit*abs(start%rotation), &
                            change%moment + unit*abs(start%moment), change%shear + unit*abs(start%shear))

@@ -4,7 +4,7 @@
 !> solution with the functional as right-hand side, is how much the result moves when a row is off by one.
 module gapbeam_functionals
     use gapbeam_kinds, only: wp
-    use gapbeam_nodes, only: restrained, is_through
+    use gapbeam_nodes, only: is_through, takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_model, only: beam_type
     implicit none
@@ -119,9 +119,9 @@ contains
             logical, intent(in) :: left
             real(wp), intent(in) :: amount
 
-            if (nodes(k)%kind == restrained .and. left) then
+            if (takes_left(nodes(k)%kind) .and. left) then
                 rhs(k)%left = rhs(k)%left + amount
-            else if (nodes(k)%kind == restrained .or. (is_through(nodes(k)%kind) .and. k > 0 .and. k < n)) then
+            else if ((takes_right(nodes(k)%kind) .and. .not. left) .or. (is_through(nodes(k)%kind) .and. k > 0 .and. k < n)) then
                 rhs(k)%right = rhs(k)%right + amount
             end if
         end subroutine add_moment

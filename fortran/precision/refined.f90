@@ -51,7 +51,7 @@ contains
             call copy_load_terms(beam, links)
         end if
         call new_beam(links, beam%kind, fine_reciprocal(beam%compliance), real(beam%force, qp), real(beam%couple, qp), &
-                      fine_support(beam%supports), fine, beam%turning, beam%relative)
+                      fine_support(beam%supports), fine, beam%turning, beam%turned)
         call join_pieces(fine%supports)
         fine%watch = beam%watch
     end subroutine refine_beam
@@ -152,7 +152,7 @@ contains
 
         fine = fine_load_type(real(load%qa, qp), real(load%qb, qp), real(load%kappa, qp), real(load%force, qp), &
                               real(load%couple, qp), real(load%kink_a, qp), real(load%kink_b, qp), real(load%couple_a, qp), &
-                              real(load%couple_b, qp))
+                              real(load%couple_b, qp), real(load%rise, qp))
     end function fine_load
 
 end module gapbeam_refined

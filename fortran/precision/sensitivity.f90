@@ -8,13 +8,13 @@
 module gapbeam_sensitivity
     use gapbeam_kinds, only: wp, dp
     use gapbeam_link, only: link_type
-    use gapbeam_nodes, only: is_through
-    use gapbeam_band, only: rhs_type, answer_type, factor_chain, restrained, band_mechanism, band_needs_pivoting
+    use gapbeam_nodes, only: is_through, takes_left, takes_right
+    use gapbeam_band, only: rhs_type, answer_type, factor_chain, band_mechanism, band_needs_pivoting
     use gapbeam_band_substitution, only: solve_chain
     use gapbeam_residual, only: residual_chain
     use gapbeam_pivoting, only: solve_pivoting
     use gapbeam_law_margins, only: margin_rates
-    use gapbeam_model, only: beam_type, node_of_support
+    use gapbeam_model, only: beam_type, node_of_support, left_of_hinge, of_hinge_held_left, is_of_hinge
     use gapbeam_workspace, only: workspace_type
     use gapbeam_functionals, only: add_functional, functional_of, effects, of_deflections, of_rotations, of_moments, &
         of_shears, of_reactions
@@ -114,7 +114,7 @@ contains
             couple = dot_product([1.0_wp, abs(factor)], abs(beam%couple(:, i)))
             if (.not. couple > 0.0_wp) cycle
             sensitivity%of_couple = max(sensitivity%of_couple, epsilon(1.0_dp)*couple)
-            if (work%nodes(i)%kind == restrained) then
+            if (takes_left(work%nodes(i)%kind)) then
                 call add_turn(i, .true., work, work%nodes(i)%compliance*couple)
                 call add_turn(i, .false., work, work%nodes(i)%compliance*couple)
             else
@@ -140,9 +140,10 @@ contains
             real(wp), intent(in) :: turn
 
             associate (s => work%sizes(k))
-                if (work%nodes(k)%kind == restrained .and. left) then
+                if (takes_left(work%nodes(k)%kind) .and. left) then
                     s%left = s%left + turn
-                else if (work%nodes(k)%kind == restrained .or. (is_through(work%nodes(k)%kind) .and. k > 0 .and. k < n)) then
+                else if ((takes_right(work%nodes(k)%kind) .and. .not. left) &
+                         .or. (is_through(work%nodes(k)%kind) .and. k > 0 .and. k < n)) then
                     s%right = s%right + turn
                 end if
             end associate
@@ -329,16 +330,17 @@ contains
             associate (at => beam%turning(j), nodes => work%nodes(0:size(beam%links)))
                 if (couple .or. work%nodes(v)%stiffness > 0.0_wp) then
                     ! Of a spring the rotation is its couple over its stiffness
-                    share(1:2) = merge([1.0_wp, 0.0_wp], [1.0_wp, -1.0_wp], beam%relative(j))
+                    share(1:2) = merge([1.0_wp, 0.0_wp], [1.0_wp, -1.0_wp], is_of_hinge(beam%turned(j)))
+                    if (beam%turned(j) == of_hinge_held_left) share(1:2) = [0.0_wp, 1.0_wp]
                     if (.not. couple) share(:) = share/work%nodes(v)%stiffness
                     call add_functional(beam, nodes, of_moments, at, share, rhs)
-                else if (at == size(beam%links)) then
+                else if (at == size(beam%links) .or. beam%turned(j) == left_of_hinge) then
                     share(2) = 1.0_wp
                     call add_functional(beam, nodes, of_rotations, at - 1, share, rhs)
                 else
-                    share(1) = merge(-1.0_wp, 1.0_wp, beam%relative(j))
+                    share(1) = merge(-1.0_wp, 1.0_wp, is_of_hinge(beam%turned(j)))
                     call add_functional(beam, nodes, of_rotations, at, share, rhs)
-                    if (.not. beam%relative(j)) return
+                    if (.not. is_of_hinge(beam%turned(j))) return
                     call add_functional(beam, nodes, of_rotations, at - 1, [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp], rhs)
                 end if
             end associate

@@ -51,7 +51,7 @@ contains
         call cut_into_panels([0.0_wp], [0.0_wp], panels)
         do j = 1, size(assembled%pieces)
             associate (live => assembled%live(j), length => assembled%pieces(j)%length)
-                if (max(abs(live%qa), abs(live%qb), abs(live%kappa)) > 0.0_wp) then
+                if (max(abs(live%qa), abs(live%qb), abs(live%kappa), abs(live%rise)) > 0.0_wp) then
                     intervals = 1
                     if (is_tapered(assembled%pieces(j))) intervals = intervals_in(assembled%pieces(j))
                     do k = 1, intervals
@@ -64,7 +64,7 @@ contains
                         do i = 1, number
                             there = field_at(j, length*points(i))
                             call add(parts, length*weights(i)*((live%qa + (live%qb - live%qa)*points(i))*there%deflection &
-                                                               - live%kappa*there%moment))
+                                                               - (live%kappa + live%rise*points(i))*there%moment))
                         end do
                     end do
                 end if

@@ -5,7 +5,7 @@ module gapbeam_query
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: bending_values, values_at, find_extremes
-    use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_piece, only: piece_load_type, combine_loads, curvature_at
     use gapbeam_quantities, only: quantity_count, bending_count, bending, of_axial_force, of_axial_displacement, &
         of_pressure, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
@@ -165,7 +165,9 @@ contains
         all_of_them(:) = 0.0_wp
         do i = 1, size(piece)
             load = combine_loads(assembled%dead(piece(i)), assembled%live(piece(i)), factor)
-            all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), load%kappa, &
+            all_of_them(bending) = bending_values(bent(i), assembled%pieces(piece(i)), &
+                                                  curvature_at(load, scale(distance(i), -assembled%units%length), &
+                                                               assembled%pieces(piece(i))%length), &
                                                   scale(distance(i), -assembled%units%length))
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement), along_ground)

@@ -4,7 +4,7 @@ module gapbeam_support_values
     use gapbeam_model, only: node_support_type, both
     use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: last_breakpoint
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_normal, gapbeam_rotational, gapbeam_relative
+    use gapbeam_scene, only: support_type, gapbeam_axial, gapbeam_normal, gapbeam_relative
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit
     use gapbeam_smooth_laws, only: past_the_gap
@@ -82,7 +82,7 @@ contains
                     end if
                     if (turns(s)) then
                         ! The moment of a hinge is inside the beam
-                        if (s%direction /= gapbeam_relative) couple(k) = 0.0_wp - reaction(k)
+                        if (holds_beam(s)) couple(k) = 0.0_wp - reaction(k)
                         cycle
                     end if
                     if (.not. assembled%couple_share(k) > 0.0_wp) cycle
@@ -100,19 +100,27 @@ contains
         integer, allocatable :: host(:)
         integer :: k
 
-        if (.not. any(assembled%model%supports%direction == gapbeam_rotational)) return
+        if (.not. any(holds_beam(assembled%model%supports))) return
         allocate (host(0:maxval(assembled%support_point)), source=0)
         associate (s => assembled%model%supports, at => assembled%support_point)
             do k = size(couple), 1, -1
                 if (s(k)%direction == gapbeam_normal) host(at(k)) = k
             end do
             do k = 1, size(couple)
-                if (s(k)%direction /= gapbeam_rotational .or. host(at(k)) == 0) cycle
+                if (.not. holds_beam(s(k)) .or. host(at(k)) == 0) cycle
                 couple(host(at(k))) = couple(host(at(k))) + couple(k)
                 couple(k) = 0.0_wp
             end do
         end associate
     end subroutine give_couples
+
+    !> Does a support hold a rotation against what is outside the beam, not as a hinge
+    elemental function holds_beam(support) result(it_does)
+        type(support_type), intent(in) :: support
+        logical :: it_does
+
+        it_does = turns(support) .and. support%direction /= gapbeam_relative
+    end function holds_beam
 
     !> The same of a support along the beam
     pure subroutine value_along(assembled, state, k, reaction, deflection, opening, condition)

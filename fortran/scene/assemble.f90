@@ -312,9 +312,6 @@ contains
             associate (n => size(assembled%model%loads))
                 if (.not. is_hinge(point)) then
                     call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
-                else if (.not. assembled%hinged(point)) then
-                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "at a hinge with a stiffness it is not "// &
-                                "available in this version; put the couple on one side of the hinge")
                 else if (size(assembled%model%foundations) > 0) then
                     call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside a foundation it is not available in "// &
                                 "this version; put the couple on one side of the hinge")

@@ -7,11 +7,16 @@ module gapbeam_assemble_hinges
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type, turns
-    use gapbeam_scene, only: support_type, gapbeam_relative
-    use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law
+    use gapbeam_scene, only: support_type, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
+    use gapbeam_model, only: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge
+    use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law, at_hinge
     implicit none
     private
-    public :: find_hinges, make_hinges, number_rotations, kind_of_rotation, assemble_hinges
+    public :: find_hinges, make_hinges, check_side, unclear, number_rotations, kind_of_rotation, assemble_hinges
+
+    !> What a support does not say
+    character(len=*), parameter :: unclear = "there is a hinge here, so it is unclear which side is held; say that by a "// &
+        "support of direction rotational left or right"
 
 contains
 
@@ -67,39 +72,76 @@ contains
         end do
     end subroutine make_hinges
 
-    !> Number the rotations that supports hold, in the order of the supports
+    !> Is it clear which side of a hinge a support holds, and only one held
+    subroutine check_side(assembled, k, held, error)
+        !> With its points
+        type(assembled_type), intent(in) :: assembled
+        !> Number of the support
+        integer, intent(in) :: k
+        !> Sides of its point that supports hold: 1 left, 2 right
+        integer, intent(inout) :: held
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (kind => kind_of_rotation(assembled%model%supports(k)), m => size(assembled%model%supports), &
+                   hinged => assembled%hinged(assembled%support_point(k)), &
+                   elastic => assembled%joint(assembled%support_point(k)) > 0.0_wp)
+            if (kind == 1 .and. (hinged .or. elastic)) then
+                call refuse(error, of_supports, k, m, at_hinge, "rotation", unclear)
+            else if (kind >= 3 .and. elastic) then
+                call refuse(error, of_supports, k, m, bad_law, "direction", "the hinge here has a stiffness; make a "// &
+                            "support of direction relative of it, with that stiffness")
+            else if (kind >= 3 .and. .not. hinged) then
+                call refuse(error, of_supports, k, m, bad_law, "at_hinge", "there is no hinge at its place; leave it out")
+            else if (kind >= 3) then
+                held = ior(held, kind - 2)
+                if (held < 3) return
+                call refuse(error, of_supports, k, m, bad_law, "at_hinge", "the other side of the hinge is held too, which "// &
+                            "is not available in this version; hold one side, or move one of the two supports aside")
+            end if
+        end associate
+    end subroutine check_side
+
+    !> Number the rotations that supports hold: of hinges, then others, in the order of the supports
     pure subroutine number_rotations(assembled, number)
-        !> With its nodes and supports; its turning and relative out
+        !> With its nodes and supports; its turning and turned out
         type(assembled_type), intent(inout) :: assembled
-        !> 0 where none is held, shape (0:n, 2)
+        !> 0 where none is held, shape (0:n, 4)
         integer, allocatable, intent(out) :: number(:, :)
-        integer :: k, r
+        integer, parameter :: turned(4) = [of_node, of_hinge, left_of_hinge, right_of_hinge]
+        integer :: k, r, turn
 
         associate (beam => assembled%beam, given => assembled%model%supports)
-            allocate (number(0:ubound(assembled%node_point, 1), 2), source=0)
-            allocate (beam%turning(count(turns(given))), beam%relative(count(turns(given))))
+            allocate (number(0:ubound(assembled%node_point, 1), 4), source=0)
+            allocate (beam%turning(count(turns(given))), beam%turned(count(turns(given))))
             r = 0
-            do k = 1, size(given)
-                if (.not. turns(given(k))) cycle
-                associate (node => assembled%node_of_point(assembled%support_point(k)), kind => kind_of_rotation(given(k)))
-                    if (number(node, kind) > 0) cycle
-                    r = r + 1
-                    number(node, kind) = r
-                    beam%turning(r) = node
-                    beam%relative(r) = given(k)%direction == gapbeam_relative
-                end associate
+            do turn = 1, 2
+                do k = 1, size(given)
+                    if (.not. turns(given(k)) .or. ((given(k)%direction == gapbeam_relative) .neqv. turn == 1)) cycle
+                    associate (node => assembled%node_of_point(assembled%support_point(k)), kind => kind_of_rotation(given(k)))
+                        if (number(node, kind) > 0) cycle
+                        r = r + 1
+                        number(node, kind) = r
+                        beam%turning(r) = node
+                        beam%turned(r) = turned(kind)
+                        if (turned(kind) == left_of_hinge .and. number(node, 2) > 0) then
+                            beam%turned(number(node, 2)) = of_hinge_held_left
+                        end if
+                    end associate
+                end do
             end do
             beam%turning = beam%turning(:r)
-            beam%relative = beam%relative(:r)
+            beam%turned = beam%turned(:r)
         end associate
     end subroutine number_rotations
 
-    !> 1 of a node, 2 of the two sides of a hinge
+    !> 1 of a node, 2 of the two sides of a hinge, 3 left of a hinge, 4 right of it
     pure function kind_of_rotation(support) result(kind)
         type(support_type), intent(in) :: support
         integer :: kind
 
         kind = merge(2, 1, support%direction == gapbeam_relative)
+        if (support%direction == gapbeam_rotational_left) kind = 3
+        if (support%direction == gapbeam_rotational_right) kind = 4
     end function kind_of_rotation
 
     !> Compliances of the elastic hinges, if there are any

@@ -3,9 +3,10 @@ module gapbeam_assemble_loads
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_link, only: condense_link, piece_load_type, no_load
+    use gapbeam_piece, only: is_tapered
     use gapbeam_range, only: first_lost_link
-    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_temperature, &
-        gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
+    use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_linear_curvature, &
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
     use gapbeam_assembled_model, only: assembled_type, fingerprint, is_along, is_movement, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
@@ -15,7 +16,7 @@ module gapbeam_assemble_loads
     use gapbeam_input_error, only: refuse, of_loads, bad_load
     implicit none
     private
-    public :: assemble_loads, find_loaded, put_load, is_beside_point
+    public :: assemble_loads, find_loaded, put_load, is_alone
 
 contains
 
@@ -34,13 +35,12 @@ contains
             return
         end if
         assembled%fingerprint = fingerprint(assembled%model)
-        call check_turned(assembled, error)
-        if (allocated(error)) return
         call sum_loads(assembled)
         call assemble_foundations(assembled, error)
         if (.not. allocated(error)) call check_rigid_ground(assembled, error)
         if (allocated(error)) return
         call change_units(assembled, error)
+        if (.not. allocated(error)) call check_together(assembled, error)
         if (.not. allocated(error)) call assemble_axial(assembled, error)
         if (allocated(error)) return
         associate (links => assembled%beam%links)
@@ -58,14 +58,20 @@ contains
         if (.not. allocated(error)) assembled%depends_on_path = depends_on_path(assembled)
     end subroutine assemble_loads
 
-    !> Refuse to turn a support where another one holds the rotation as well
-    subroutine check_turned(assembled, error)
+    !> Refuse to turn a support where another one holds the rotation as well, and curvatures that change along tapered sections
+    subroutine check_together(assembled, error)
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer :: k
 
         do k = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(k), point => assembled%support_point)
+                if (load%kind == gapbeam_linear_curvature) then
+                    if (.not. any(is_tapered(assembled%pieces(assembled%load_from(k) + 1:assembled%load_to(k))))) cycle
+                    call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, "value_to", "a curvature that "// &
+                                "changes along a section that tapers is not available in this version; give short ones")
+                    return
+                end if
                 if (load%kind /= gapbeam_support_rotation) cycle
                 if (count(point == point(load%node) .and. assembled%model%supports%rotation > 0.0_wp) < 2) cycle
                 call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, "support", "another support at its "// &
@@ -73,7 +79,7 @@ contains
                 return
             end associate
         end do
-    end subroutine check_turned
+    end subroutine check_together
 
     !> Sums of the loads on all pieces and nodes in the user's units
     pure subroutine sum_loads(assembled)
@@ -142,6 +148,14 @@ contains
 
         yes = any(load%kind == [gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right])
     end function is_beside_point
+
+    !> Is a load such a one, or a curvature that changes along the beam: cases with those are solved one by one, trains refused
+    elemental function is_alone(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = is_beside_point(load) .or. load%kind == gapbeam_linear_curvature
+    end function is_alone
 
     !> Put such a load on the pieces beside its point
     pure subroutine put_beside(load, point, piece_loads)
@@ -219,6 +233,12 @@ contains
 
         if (load%kind == gapbeam_curvature .or. load%kind == gapbeam_temperature) then
             piece_loads(a + 1:b)%kappa = piece_loads(a + 1:b)%kappa + load%value
+        else if (load%kind == gapbeam_linear_curvature) then
+            whole = distance(b)
+            do j = a + 1, b
+                piece_loads(j)%kappa = piece_loads(j)%kappa + between(distance(j - 1)/whole)
+                piece_loads(j)%rise = piece_loads(j)%rise + (load%value_to - load%value)*((distance(j) - distance(j - 1))/whole)
+            end do
         else if (abs(load%value - load%value_to) <= 0.0_wp) then
             piece_loads(a + 1:b)%qa = piece_loads(a + 1:b)%qa + load%value
             piece_loads(a + 1:b)%qb = piece_loads(a + 1:b)%qb + load%value

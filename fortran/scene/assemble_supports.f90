@@ -4,11 +4,11 @@ module gapbeam_assemble_supports
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
-        gapbeam_normal, gapbeam_axial, gapbeam_relative, gapbeam_axial_force, gapbeam_axial_distributed
+        gapbeam_normal, gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type, is_along, turns
-    use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation
+    use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation, check_side, unclear
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge, bad_law
@@ -63,20 +63,24 @@ contains
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         !> The rigid support of each kind at a point, 0: none; kinds are the sides -1..1, 3 clamp, along the beam, elastic ones
-        !> too, 5 and for those that push one way 4 and 6, of a rotation 7 to 9, of a hinge 10 to 12
+        !> too, 5 and for those that push one way 4 and 6, of a rotation 7 to 9, of a hinge 10 to 12, left and right of it 13 to 18
         integer, allocatable :: rigid(:, :)
         !> Do supports hold the rotation of a point by a stiffness
         logical, allocatable :: restrained(:)
+        !> Sides of hinges that supports hold: 1 left, 2 right, 3 both
+        integer, allocatable :: held(:)
         integer :: k, m, stat, point, centre
 
         m = size(assembled%model%supports)
-        allocate (rigid(-1:12, 0:ubound(assembled%point_span, 1)), restrained(0:ubound(assembled%point_span, 1)), stat=stat)
+        allocate (rigid(-1:18, 0:ubound(assembled%point_span, 1)), restrained(0:ubound(assembled%point_span, 1)), &
+                  held(0:ubound(assembled%point_span, 1)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         rigid(:, :) = 0
         restrained(:) = .false.
+        held(:) = 0
         do k = 1, m
             if (assembled%model%supports(k)%rotation > 0.0_wp) restrained(assembled%support_point(k)) = .true.
         end do
@@ -84,14 +88,13 @@ contains
             point = assembled%support_point(k)
             associate (s => assembled%model%supports(k))
                 if (s%rotation > 0.0_wp .and. (assembled%hinged(point) .or. assembled%joint(point) > 0.0_wp)) then
-                    call refuse(error, of_supports, k, m, at_hinge, "rotation", &
-                                "there is a hinge here, so it is unclear which side is held; move one aside")
+                    call refuse(error, of_supports, k, m, at_hinge, "rotation", unclear)
                 else if (s%direction == gapbeam_axial) then
                     call note(5 + s%side, "direction", "hold the beam along its axis")
                 else if (turns(s)) then
-                    if (s%direction /= gapbeam_relative .and. assembled%hinged(point)) then
-                        call refuse(error, of_supports, k, m, at_hinge, "rotation", &
-                                    "there is a hinge here, so it is unclear which side is held; move one aside")
+                    call check_side(assembled, k, held(point), error)
+                    if (allocated(error)) then
+                        return
                     else if (restrained(point)) then
                         call refuse(error, of_supports, k, m, bad_law, "rotation", "another support holds the rotation here "// &
                                     "by a stiffness; leave one of them out")
@@ -240,7 +243,7 @@ contains
         type(node_support_type), allocatable :: supports(:)
         logical, allocatable :: clamped(:)
         integer, allocatable :: first(:), last(:)
-        !> Numbers of the rotations that supports hold, of nodes and of hinges, shape (0:n, 2)
+        !> Numbers of the rotations that supports hold, by kinds, shape (0:n, 4)
         integer, allocatable :: rotation(:, :)
         integer :: k, j, m, n, place, stat
 

@@ -122,9 +122,8 @@ contains
             associate (a => assembled%dead(j), b => assembled%live(j))
                 most(1) = max(most(1), abs(a%qa), abs(a%qb), abs(b%qa), abs(b%qb))
                 most(2) = max(most(2), abs(a%force), abs(b%force))
-                most(3) = max(most(3), abs(a%couple), abs(b%couple), abs(a%couple_a), abs(b%couple_a), abs(a%couple_b), &
-                              abs(b%couple_b))
-                most(4) = max(most(4), abs(a%kappa), abs(b%kappa))
+                most(3) = max(most(3), maxval(abs([a%couple, b%couple, a%couple_a, b%couple_a, a%couple_b, b%couple_b])))
+                most(4) = max(most(4), abs(a%kappa), abs(b%kappa), abs(a%rise), abs(b%rise))
                 most(5) = max(most(5), abs(a%kink_a), abs(b%kink_a), abs(a%kink_b), abs(b%kink_b))
             end associate
         end do
@@ -369,7 +368,7 @@ contains
         finite = abs(load%qa) <= huge(1.0_wp) .and. abs(load%qb) <= huge(1.0_wp) .and. abs(load%kappa) <= huge(1.0_wp) &
             .and. abs(load%force) <= huge(1.0_wp) .and. abs(load%couple) <= huge(1.0_wp) &
             .and. abs(load%kink_a) <= huge(1.0_wp) .and. abs(load%kink_b) <= huge(1.0_wp) &
-            .and. abs(load%couple_a) <= huge(1.0_wp) .and. abs(load%couple_b) <= huge(1.0_wp)
+            .and. max(abs(load%couple_a), abs(load%couple_b), abs(load%rise)) <= huge(1.0_wp)
     end function is_finite
 
     !> The load of a piece in other units
@@ -380,6 +379,7 @@ contains
         load%qa = scale(load%qa, units%length - units%force)
         load%qb = scale(load%qb, units%length - units%force)
         load%kappa = scale(load%kappa, units%length - rotation_unit(units))
+        load%rise = scale(load%rise, units%length - rotation_unit(units))
         load%kink_a = scale(load%kink_a, -rotation_unit(units))
         load%kink_b = scale(load%kink_b, -rotation_unit(units))
         load%couple_a = scale(load%couple_a, -moment_unit(units))

@@ -7,8 +7,9 @@ module gapbeam_assembled_model
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
-        gapbeam_unchanged, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, gapbeam_support_rotation, &
-        gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_rotational, gapbeam_relative
+        gapbeam_linear_curvature, gapbeam_unchanged, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, &
+        gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_rotational, gapbeam_relative, &
+        gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
@@ -88,10 +89,8 @@ module gapbeam_assembled_model
         type(layer_type), allocatable :: layers(:)
         integer, allocatable :: layer_first(:)
         type(law_piece_type), allocatable :: law_pieces(:)
-        !> Points that are nodes, shape (0:nlink); node_point(1:) is also the last piece of every link
-        integer, allocatable :: node_point(:)
-        !> Node of every point, -1: none, shape (0:npiece)
-        integer, allocatable :: node_of_point(:)
+        !> Points that are nodes, shape (0:nlink), the last pieces of links; node of every point, -1: none, shape (0:npiece)
+        integer, allocatable :: node_point(:), node_of_point(:)
         !> The beam in the engine's units
         type(beam_type) :: beam
         !> For every support of the beam its number in the model: those across the beam that can carry, and those of rotations
@@ -103,8 +102,7 @@ module gapbeam_assembled_model
         !> Settlement of every support as the user gave it, where movements with the dead loads have been added to it; movement that
         !> grows with the load factor, where any does. In the user's units, shape (nsupport)
         real(wp), allocatable :: given_settlement(:), growth(:)
-        !> How far loads move ground at load factor 1: the deflection at which layers begin to act at both ends of their pieces, in
-        !> the units of these, shape (2, size(layers)); not allocated where they do not
+        !> How far loads move both ends of layers at load factor 1, in units of these, shape (2, size(layers)); if they do at all
         real(wp), allocatable :: layer_growth(:, :)
         !> Does a state depend on the loading history to it (gapbeam_assemble_laws), or are there loads that move supports
         logical :: depends_on_path = .false.
@@ -120,7 +118,6 @@ contains
     pure function growth_of(assembled) result(growth)
         type(assembled_type), intent(in) :: assembled
         real(wp) :: growth(size(assembled%normal))
-
         integer :: k
 
         growth(:) = 0.0_wp
@@ -135,7 +132,8 @@ contains
         type(support_type), intent(in) :: support
         logical :: it_does
 
-        it_does = support%direction == gapbeam_rotational .or. support%direction == gapbeam_relative
+        it_does = any(support%direction == [gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
+                                            gapbeam_rotational_right])
     end function turns
 
     !> Unit of the displacement of a support, as a power of two
@@ -164,7 +162,8 @@ contains
         type(load_type), intent(in) :: load
         logical :: yes
 
-        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed])
+        yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed, &
+                                gapbeam_linear_curvature])
     end function is_stretch
 
     !> Is a load a force along the beam, and nothing else

@@ -7,10 +7,9 @@ module gapbeam_check
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, gapbeam_by_x, &
         gapbeam_unchanged, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, gapbeam_ground_movement, &
-        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-        gapbeam_axial_distributed, gapbeam_live, gapbeam_dead
+        gapbeam_ground_movement, gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
+        gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
+        gapbeam_axial_distributed, gapbeam_linear_curvature, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_taper_extremes, only: most_power
@@ -185,9 +184,9 @@ contains
         if (all(s%side /= [gapbeam_both, gapbeam_below, gapbeam_above])) then
             call refuse_entry(error, here, "side", not_expected, &
                               "expected 0 (both), 1 (below) or -1 (above), got "//trim(whole(s%side)))
-        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative])) then
-            call refuse_entry(error, here, "direction", not_expected, "expected 0 (normal), 1 (axial), 2 (rotational) or "// &
-                              "3 (relative), got "//trim(whole(s%direction)))
+        else if (all(s%direction /= [gapbeam_normal, gapbeam_axial]) .and. .not. turns(s)) then
+            call refuse_entry(error, here, "direction", not_expected, "expected 0 (normal), 1 (axial), 2 (rotational), "// &
+                              "3 (relative), 4 or 5 (rotational left or right of a hinge), got "//trim(whole(s%direction)))
         else if (.not. s%stiffness >= 0.0_wp) then
             call refuse_number(error, here, "stiffness", s%stiffness, "a number, 0 or more (infinite: rigid)")
         else if (.not. abs(s%gap) <= huge(s%gap)) then
@@ -225,7 +224,7 @@ contains
             .or. any(model%sections%friction > 0.0_wp)
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
-                call check_load(load, here, ends, held, error)
+                call check_load(load, here, ends, held, size(model%foundations) > 0, error)
                 if (allocated(error)) return
                 if (is_movement(load) .or. is_of_support(load)) call check_movement(model, load, here, error)
             end associate
@@ -234,33 +233,38 @@ contains
     end subroutine check_loads
 
     !> One load
-    pure subroutine check_load(load, here, ends, axially_held, error)
+    pure subroutine check_load(load, here, ends, axially_held, on_ground, error)
         type(load_type), intent(in) :: load
         type(entry_type), intent(in) :: here
         real(wp), intent(in) :: ends(0:)
-        logical, intent(in) :: axially_held
+        !> Does anything hold the beam along its axis, and are there foundations
+        logical, intent(in) :: axially_held, on_ground
         type(error_type), allocatable, intent(out) :: error
 
         select case (load%kind)
         case (gapbeam_force, gapbeam_couple, gapbeam_axial_force, gapbeam_couple_left, gapbeam_couple_right)
             call check_place(load%x, load%node, here, ends, error)
         case (gapbeam_movement, gapbeam_support_rotation, gapbeam_ground_movement)
-        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed)
+        case (gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed, gapbeam_linear_curvature)
             call check_stretch(load%x, load%to, here, ends(ubound(ends, 1)), error)
         case default
             call refuse_entry(error, here, "kind", not_expected, &
                               "expected 1 (force), 2 (couple), 3 (distributed), 4 (curvature), 5 (axial force), "// &
                               "6 (movement), 7 (temperature), 8 (rotation), 9 or 10 (couple left or right of a hinge), "// &
-                              "11 (distributed along the beam), 12 (movement of ground), got "//trim(whole(load%kind)))
+                              "11 (distributed along the beam), 12 (movement of ground), 13 (linear curvature), got "// &
+                              trim(whole(load%kind)))
         end select
         if (allocated(error)) return
         if (all(load%case /= [gapbeam_live, gapbeam_dead])) then
             call refuse_entry(error, here, "case", not_expected, "expected 0 (live) or 1 (dead), got "//trim(whole(load%case)))
         else if (.not. abs(load%value) <= huge(load%value)) then
             call refuse_number(error, here, "value", load%value, "a finite number")
-        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature, gapbeam_ground_movement]) &
+        else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature, gapbeam_ground_movement, gapbeam_linear_curvature]) &
                  .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
+        else if (load%kind == gapbeam_linear_curvature .and. on_ground) then
+            call refuse_entry(error, here, "value_to", bad_load, "a curvature that changes along the beam beside a foundation "// &
+                              "is not available in this version; give short stretches, each of one curvature")
         else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
                               "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")

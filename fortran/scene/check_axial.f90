@@ -66,7 +66,8 @@ contains
                 else if (with_law(k) .and. falls(k)) then
                     call say("law", "a force that falls "//where//in_version//"; give a law that rises or stays")
                 else if (turns(s)) then
-                    call check_rest("direction", "a support that holds a rotation by a law, a slack or one way")
+                    call check_rest("direction", "a support that holds a rotation by a law, a slack, one way or at a "// &
+                                    "hinge")
                     if (.not. allocated(error) .and. stiff) then
                         call say("direction", "beside a rigid beam (infinite EI) it"//in_version//"; give EI")
                     end if

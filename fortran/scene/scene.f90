@@ -12,14 +12,15 @@ module gapbeam_scene
     private
     public :: span_type, section_type, support_type, law_point_type, load_type, model_type
     public :: foundation_type, ground_point_type, ground_law_point_type
-    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, axial_force, axial_uniform_load, &
-              support_movement, temperature_load, support_rotation, ground_movement
+    public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, linear_curvature, axial_force, &
+              axial_uniform_load, support_movement, temperature_load, support_rotation, ground_movement
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
-    public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative
+    public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
+              gapbeam_rotational_right
     public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
               gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-              gapbeam_axial_distributed, gapbeam_ground_movement
+              gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -39,11 +40,13 @@ module gapbeam_scene
     !> Directions of a support: across the beam, along it; it holds the rotation of the beam, or as a hinge the parts on its two
     !> sides against each other
     integer, parameter :: gapbeam_normal = 0, gapbeam_axial = 1, gapbeam_rotational = 2, gapbeam_relative = 3
+    !> At a hinge: it holds the rotation of the part of the beam left of that, or right of it
+    integer, parameter :: gapbeam_rotational_left = 4, gapbeam_rotational_right = 5
     !> Kinds of load
     integer, parameter :: gapbeam_force = 1, gapbeam_couple = 2, gapbeam_distributed = 3, gapbeam_curvature = 4, &
                           gapbeam_axial_force = 5, gapbeam_movement = 6, gapbeam_temperature = 7, gapbeam_support_rotation = 8, &
                           gapbeam_couple_left = 9, gapbeam_couple_right = 10, gapbeam_axial_distributed = 11, &
-                          gapbeam_ground_movement = 12
+                          gapbeam_ground_movement = 12, gapbeam_linear_curvature = 13
     !> Cases of a load: scaled by the load factor, in full from the start
     integer, parameter :: gapbeam_live = 0, gapbeam_dead = 1
     !> How a support with a law unloads: back along it, parallel to its first piece, or not at all once its force has fallen
@@ -100,7 +103,7 @@ module gapbeam_scene
         real(wp) :: settlement = 0.0_wp
         !> Rotational stiffness (force*length/rad): 0 free, infinite clamped; it acts where the support is open too, as a guide
         real(wp) :: rotation = 0.0_wp
-        !> gapbeam_normal, gapbeam_axial, gapbeam_rotational or gapbeam_relative
+        !> gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative; gapbeam_rotational_left or _right at a hinge
         integer :: direction = gapbeam_normal
         !> Of a support with a law: gapbeam_elastic, gapbeam_plastic or gapbeam_broken
         integer :: unloading = gapbeam_elastic
@@ -170,7 +173,7 @@ module gapbeam_scene
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
         !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed or
-        !> gapbeam_ground_movement
+        !> gapbeam_ground_movement or gapbeam_linear_curvature
         integer :: kind
         !> gapbeam_live or gapbeam_dead
         integer :: case = gapbeam_live
@@ -181,9 +184,9 @@ module gapbeam_scene
         integer :: node = gapbeam_by_x
         !> Right end of the stretch, of distributed loads and curvatures; default that of the beam
         real(wp) :: to = gapbeam_right_end
-        !> Force, couple, curvature, movement, rotation, or force per length at the left end of the stretch
+        !> Force, couple, curvature, movement, rotation, or force per length or curvature at the left end of the stretch
         real(wp) :: value = 0.0_wp
-        !> Force per length, or movement of ground, at its right end; of a temperature the strain, where value is the curvature
+        !> Force per length, curvature or movement of ground at its right end; of a temperature the strain, value the curvature
         real(wp) :: value_to = 0.0_wp
     end type load_type
 
@@ -334,6 +337,18 @@ contains
 
         load = stretch_load(gapbeam_curvature, value, value, from, to, case)
     end function imposed_curvature
+
+    !> An imposed curvature that varies linearly over a stretch
+    elemental function linear_curvature(value, value_to, from, to, case) result(load)
+        !> At the left and at the right end of the stretch, as for imposed_curvature
+        real(wp), intent(in) :: value, value_to
+        !> As for uniform_load
+        real(wp), intent(in) :: from, to
+        integer, intent(in), optional :: case
+        type(load_type) :: load
+
+        load = stretch_load(gapbeam_linear_curvature, value, value_to, from, to, case)
+    end function linear_curvature
 
     !> A temperature over a stretch: what it bends and lengthens where nothing holds the beam
     elemental function temperature_load(curvature, strain, from, to, case) result(load)

@@ -16,10 +16,19 @@ KINDS = {"force": 1, "moment": 2, "uniform": 3, "linear": 3, "curvature": 4, "ax
 
 
 def special_kind(load):
-    """8: a movement that is a rotation; 12: one of a foundation; 9 and 10: couples left and right of a hinge."""
+    """8: a movement that is a rotation; 12: one of a foundation; 9, 10: couples left, right of a hinge; 13: a linear curvature."""
+    if isinstance(load.get("kappa"), list):
+        return 13
     if load["type"] == "movement" and "support" not in load:
         return 12
     return 8 if "rotation" in load else {"left": 9, "right": 10}.get(load.get("at_hinge"))
+
+
+def direction(support):
+    """4 and 5: left and right of a hinge."""
+    return {"left": 4, "right": 5}.get(support.get("at_hinge"), 0) or DIRECTIONS.index(support.get("direction", "normal"))
+
+
 RULES = {"block": 0, "single": 1}
 GROUND_LAWS = {
     "plastic": (1, ("stiffness", "limit")),
@@ -160,11 +169,15 @@ def with_rotations(scene):
     supports, held = [], []
     for k, support in enumerate(scene["supports"]):
         given = support.get("rotation")
-        supports.append({key: value for key, value in support.items() if key != "rotation" or not isinstance(given, dict)})
+        if "at_hinge" in support and given is not None and not isinstance(given, dict):
+            given = {"stiffness": math.inf if given == "fixed" else given}
+        left = {"rotation", "at_hinge"} if isinstance(given, dict) else ()
+        supports.append({key: value for key, value in support.items() if key not in left})
         if isinstance(given, dict):
-            place = {key: support[key] for key in ("x", "node") if key in support}
+            place = {key: support[key] for key in ("x", "node", "at_hinge") if key in support}
             held.append({**place, **given, "direction": "rotational", "name": f"rotation of {support.get('name', k)}"})
-    more = [hinge for hinge in scene.get("hinges", ()) if set(hinge) & {"slack", "side", "law", "unloading"}]
+    beside = any("at_hinge" in support for support in scene["supports"])
+    more = [hinge for hinge in scene.get("hinges", ()) if beside or set(hinge) & {"slack", "side", "law", "unloading"}]
     held += [{**hinge, "direction": "hinge"} for hinge in more]
     for one in held:
         one["gap"] = one.pop("slack", 0.0)
@@ -219,7 +232,7 @@ def columns(scene):
         "support_gap": real(supports, "gap", 0.0),
         "support_settlement": real(supports, "settlement", 0.0),
         "support_rotation": np.array([turns.get(s.get("rotation", "free"), s.get("rotation")) for s in supports], dtype=float),
-        "support_direction": np.array([DIRECTIONS.index(s.get("direction", "normal")) for s in supports], dtype=np.int32),
+        "support_direction": np.array([direction(s) for s in supports], dtype=np.int32),
         "load_kind": np.array([special_kind(load) or KINDS[load["type"]] for load in loads], dtype=np.int32),
         "load_case": np.array([load.get("case") == "dead" for load in loads], dtype=np.int32),
         "load_x": np.array([load.get("x", load.get("from", 0.0)) or 0.0 for load in loads], dtype=float),

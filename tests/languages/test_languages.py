@@ -621,6 +621,47 @@ def test_restraints_and_hinges_with_laws_agree(library):
     assert states[1] == {"bilateral", "branch 1", "branch 2"}
 
 
+@pytest.mark.parametrize("hinge", [{}, {"stiffness": 30.0}, {"slack": 0.01}])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_supports_and_couples_at_hinges_agree(library, side, hinge):
+    """Rigid, elastic and with a law, left and right of free hinges and others, beside a couple."""
+    for rotation in ("fixed", 40.0, {"law": [[0.02, 1.0], [0.2, 1.5]]}):
+        scene = {
+            "beam": {"spans": [3.0, 2.0], "EI": 80.0, "hinges": [] if hinge else [3.0]},
+            "hinges": [{"x": 3.0, **hinge}] if hinge else [],
+            "supports": [{"node": 0, "rotation": "fixed"}, {"node": 2},
+                         {"node": 1, "side": "below", "gap": 0.001, "rotation": rotation, "at_hinge": side}],
+            "loads": [{"type": "uniform", "q": 1.0},
+                      {"type": "moment", "x": 3.0, "M": 0.7, "at_hinge": "right"}],
+        }  # fmt: skip
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert not message
+        f77 = F77Beam(library, scene)
+        assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+        step = result.steps[-1]
+        for one in (beam, f77):
+            expected = step.reaction, step.deflection, step.opening, step.couple
+            for values, known in zip(one.at_supports()[:4], expected, strict=True):
+                np.testing.assert_array_equal(values, known)
+        assert abs(step.couple[2]) > 0.0
+
+
+def test_curvatures_that_change_agree(library):
+    scene = {
+        "beam": {"spans": [3.0, 2.0], "EI": 80.0, "GA": 50.0},
+        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2}],
+        "loads": [{"type": "curvature", "from": 0.5, "to": 4.0, "kappa": [0.01, -0.03]}, {"type": "uniform", "q": 1.0}],
+    }  # fmt: skip
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    for one in (beam, f77):
+        np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
+
+
 def test_histories_on_curves_agree(library):
     """Paths past limit points, whole histories, their states and energies have the digits of Python."""
     kinds, rough, events, refused = set(), 0, 0, 0

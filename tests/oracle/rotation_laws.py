@@ -58,7 +58,19 @@ def pieces(side=0, stiffness=INFINITE, gap=0, points=()):
     return [*found, slack] if gap or side else found
 
 
-def solve(spans, stiffness, laws, q=0, forces=()):
+def moved(law, by):
+    """The pieces of a law whose support has been moved."""
+    found = []
+    for piece in law:
+        if isinstance(piece, Vertical):
+            found.append(piece._replace(at=piece.at + by))
+        else:
+            low, high = (None if end is None else end + by for end in (piece.low, piece.high))
+            found.append(piece._replace(low=low, high=high, at=piece.at + by))
+    return found
+
+
+def solve(spans, stiffness, laws, q=0, forces=(), couples=()):
     """Forces and displacements of the laws.
 
     Parameters
@@ -67,10 +79,12 @@ def solve(spans, stiffness, laws, q=0, forces=()):
     stiffness : Fraction
         EI.
     laws : list of (x, kind, pieces)
-        Kind ``"w"`` of a deflection, ``"turn"`` of a rotation, ``"hinge"`` of the rotation left less that right of x.
+        Kind ``"w"`` of a deflection, ``"turn"`` of a rotation, ``"hinge"`` of the rotation left less that right of x, ``"left"``
+        and ``"right"`` of one of these.
     q : Fraction
         Uniform load.
     forces : list of (x, F)
+    couples : list of (x, "left" or "right", M)
 
     Returns
     -------
@@ -97,10 +111,12 @@ def solve(spans, stiffness, laws, q=0, forces=()):
             load[at[i]] += q * (length / 2, length**2 / 12, length / 2, -(length**2) / 12)[i]
     for x, force in forces:
         load[number[Fraction(x), "w"]] += force
+    for x, side, couple in couples:
+        load[number[Fraction(x), side]] += couple
     rows = []
     for x, kind, _ in laws:
         row = [Fraction(0)] * count
-        row[number[Fraction(x), "w" if kind == "w" else "left"]] = Fraction(1)
+        row[number[Fraction(x), kind if kind in ("w", "right") else "left"]] = Fraction(1)
         if kind == "hinge":
             row[number[Fraction(x), "right"]] = Fraction(-1)
         rows.append(row)

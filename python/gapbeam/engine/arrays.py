@@ -268,7 +268,7 @@ class Places(Record):
         Length, EI, GA of every piece, n by 3.
     dead, live : numpy.ndarray
         Load per length at the left and right end of every piece, imposed curvature, force and couple at its right end
-        unless a node is there, n by 5.
+        unless a node is there, and by how much the curvature rises along it, n by 6.
     node_points : numpy.ndarray of int
         The points that are nodes.
     kinds : numpy.ndarray of int

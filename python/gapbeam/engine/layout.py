@@ -12,8 +12,8 @@ from . import calls as _engine
 from .arrays import Columns, Places
 from .laws import CurveValues
 
-AXIAL, ROTATIONAL, RELATIVE = 1, 2, 3
-"""Directions of supports along the beam, of its rotation, and of a hinge, as in gapbeam_scene."""
+AXIAL, ROTATIONAL, RELATIVE = 1, (2, 4, 5), 3
+"""Directions of supports along the beam, of its rotation (also left and right of a hinge), and of a hinge, as in gapbeam_scene."""
 
 
 class Curve(Protocol):

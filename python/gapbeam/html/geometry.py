@@ -8,6 +8,7 @@ import numpy as np
 
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
+from ..scene.ground_tables import at_both_ends
 from ..scene.names import DEAD, label, labels
 from ..scene.temperature import as_curvatures
 
@@ -50,9 +51,9 @@ def beam_data(result: Result) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end
-        and imposed curvature; ``forces`` at the joints, dead and live; on the ground ``grid``, number of the piece and place of
-        every row of a state.
+        ``x`` the joints; ``pieces`` length, 1/EI, 1/GA of each; ``dead`` and ``live`` load per length at its left and right end,
+        imposed curvature, and by how much that rises; ``forces`` at the joints, dead and live; on the ground ``grid``, number of
+        the piece and place of every row of a state.
     """
     places = result._beam.places
     forces = np.zeros((len(places.point_x), 2))
@@ -62,8 +63,8 @@ def beam_data(result: Result) -> dict[str, Any]:
     found: dict[str, Any] = {
         "x": places.point_x.tolist(),
         "pieces": np.column_stack((places.pieces[:, 0], flexibility)).tolist(),
-        "dead": places.dead[:, :3].tolist(),
-        "live": places.live[:, :3].tolist(),
+        "dead": places.dead[:, [0, 1, 2, 5]].tolist(),
+        "live": places.live[:, [0, 1, 2, 5]].tolist(),
         "forces": forces.tolist(),
         "hinges": [*map(float, result.scene.beam.hinges), *result.scene.positions(result.scene.hinges).tolist()],
     }
@@ -103,7 +104,7 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for load in as_curvatures(scene).loads:
+    for load, given in zip(as_curvatures(scene).loads, scene.loads, strict=True):
         kind = load.__struct_config__.tag
         if kind == "movement":
             continue
@@ -113,7 +114,9 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
             one["value"] = load.M if kind == "moment" else load.F
         else:
             from_, to = fmt.stretch(scene, load)
-            ends = list(load.q) if kind == "linear" else 2 * [load.kappa if kind == "curvature" else load.q]
+            ends = list(at_both_ends(load.kappa if kind == "curvature" else load.q))
+            if not any(ends) and getattr(given, "dT", 0.0):  # it lengthens only
+                one["type"], ends = "temperature", 2 * [given.dT]
             one |= {"from": from_, "to": to, "ends": ends}
         found.append(one)
     return found

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..base.errors import EngineError
 from ..results.envelopes.over_path import is_exact
-from ..results.event_words import LIMITS, event_in_words
+from ..results.event_words import event_in_words, limit_in_words
 from ..results.paths.branches import BranchPath
 from .states import FIELD_OF, Recorder, stands
 
@@ -229,7 +229,8 @@ def _events(result: Result, way: Way) -> list[dict[str, Any]]:
     places = _places(result)
     if on_path:
         for one in result.limits:
-            found.append({"at": _nearest(places, one.factor, 0.0), "factor": one.factor, "words": LIMITS[one.kind].lower()})
+            words = limit_in_words(result, one.kind).lower()
+            found.append({"at": _nearest(places, one.factor, 0.0), "factor": one.factor, "words": words})
     along = 0.0
     for event in result.events:
         along = _nearest(places, event.factor, along)

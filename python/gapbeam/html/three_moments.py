@@ -130,7 +130,8 @@ def _choose(result: Result, step: Step) -> tuple[int, int] | None:
     """Choose the inner support with the largest moment, about which both pieces can bend: its number, and that of its point."""
     beam, scene = step._beam, result.scene
     x, pieces = beam.places.point_x, beam.places.pieces
-    turned = any(getattr(load, "rotation", None) is not None or getattr(load, "at_hinge", None) for load in scene.loads)
+    turned = any(getattr(load, "rotation", None) is not None or getattr(load, "at_hinge", None)
+                 or isinstance(getattr(load, "kappa", None), tuple) for load in scene.loads)  # fmt: skip
     tapered = [stretch(scene, section) for section in scene.sections if is_tapered(section)]
     found = []
     for k, at in enumerate(scene.positions(scene.supports).tolist()):

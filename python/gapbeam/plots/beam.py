@@ -283,16 +283,16 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
                          facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
 
 
-def _spiral(axes: Axes | Turned, x: float, end: float, color: str, label: str) -> None:
-    outward = -8.0 if x <= 1e-9 * end else 8.0 if x >= end * (1.0 - 1e-9) else 0.0
+def _spiral(axes: Axes | Turned, x: float, end: float, color: str, label: str, side: str | None = None) -> None:
+    outward = -8.0 if x <= 1e-9 * end or side == "left" else 8.0 if x >= end * (1.0 - 1e-9) or side else 0.0
     axes.scatter([x], [0.0], marker=_SPIRAL, s=area(7.0), facecolors="none", edgecolors=color, zorder=6,
                  linewidths=0.9, transform=shifted(axes, outward), label=label)  # fmt: skip
 
 
 def _rotation(axes: Axes | Turned, support: "Support", x: float, end: float) -> None:
-    """Draw what holds a rotation by a law, with a slack or one way: a spiral, or a hinge that is not white."""
+    """Draw what holds a rotation by a law, with a slack, one way or beside a hinge: a spiral, or a hinge that is not white."""
     if support.direction == "rotational":
-        _spiral(axes, x, end, VERMILION, "rotations with laws")
+        _spiral(axes, x, end, VERMILION, "rotations at hinges" if support.at_hinge else "rotations with laws", support.at_hinge)
     else:
         axes.scatter([x], [0.0], s=26, c="0.8", edgecolors=VERMILION, linewidths=1.2, zorder=6, marker="o",
                      label="hinges with laws")  # fmt: skip

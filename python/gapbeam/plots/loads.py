@@ -10,6 +10,7 @@ import numpy as np
 
 from ..base.characters import visible, with_minus_signs
 from ..results.formatting import count, number, stretch, unit
+from ..scene.ground_tables import at_both_ends
 from ..scene.loads import (
     AxialLoad,
     AxialUniformLoad,
@@ -213,7 +214,7 @@ def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
             blocks.append(Block(*stretch(scene, load), 0.0, 0.0, ", ".join(told), words, True))
             continue
         if isinstance(load, CurvatureLoad):
-            first = last = share * load.kappa
+            first, last = (share * one for one in at_both_ends(load.kappa))
         elif isinstance(load, UniformLoad):
             first = last = share * load.q
         else:

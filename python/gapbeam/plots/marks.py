@@ -77,7 +77,9 @@ class Marks:
         return np.concatenate((found, *between))
 
     def extreme(self, value: float, x: float, more: str = "") -> None:
-        """Write an extreme and its place, which are never left out."""
+        """Write an extreme and its place, which are never left out, but once only of a constant."""
+        if not more and (self._number(value), fmt.number(x, DIGITS)) in self.written:
+            return
         self._write(value, x, with_minus_signs(f"{self._number(value)} at {fmt.number(x, DIGITS)}{more}"), must=True)
 
     def peak(self, value: float, x: float) -> None:

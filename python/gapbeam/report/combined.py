@@ -90,9 +90,9 @@ def bound_in_words(bound: float | None) -> str:
     Returns
     -------
     str
-        To stand before other words; empty where there is none.
+        To stand before other words; empty where there is none, or nothing bends.
     """
-    if bound is None:
+    if not bound:  # it is of bending, and nothing may be there
         return ""
     return f"Error bound {bound:.0e} (relative); " if bound < 1.0 else "All values are within their error bounds; "
 

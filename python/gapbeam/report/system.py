@@ -27,8 +27,11 @@ LEFT_OUT = {
 MOST_CASES = 8
 """Load cases that are named in one line."""
 
-OTHERS = {"axial": "axial", "rotational": "of a rotation with a law", "hinge": "hinges with a law"}
-"""Kinds of supports that are not across the beam, by their direction."""
+OTHERS = {
+    "axial": "axial", "rotational": "of a rotation with a law", "at_hinge": "of a rotation at a hinge",
+    "hinge": "hinges with a law",
+}  # fmt: skip
+"""Kinds of supports that are not across the beam, by their direction, or by what has it."""
 
 def write_system(say: "Writer", result: "Result") -> None:
     """Print what was solved: beam, supports, loads, equations, and what was left out."""
@@ -72,11 +75,12 @@ def _beam(scene: Scene) -> str:
 def _supports(scene: Scene) -> str:
     """Tell how many supports there are of which kind, in one line."""
     normal = [support for support in scene.supports if support.direction == "normal"]
+    others = ["at_hinge" if support.at_hinge else support.direction for support in scene.supports]
     kinds = [
         (sum(support.side == "both" for support in normal), "two-way"),
         (sum(support.side == "below" for support in normal), "one-sided from below"),
         (sum(support.side == "above" for support in normal), "one-sided from above"),
-        *((sum(support.direction == way for support in scene.supports), kind) for way, kind in OTHERS.items()),
+        *((others.count(way), kind) for way, kind in OTHERS.items()),
         (sum(support.gap > 0 for support in normal), "with a gap"),
         (sum(support.gap < 0 for support in normal), "set high (negative gap)"),
         (sum(math.isfinite(support.stiffness) for support in normal), "elastic"),

@@ -213,6 +213,7 @@ def support_data(result: Result, step: Step, x: list[float], lost: np.ndarray | 
             "x": x[k],
             "side": support.side,
             "direction": support.direction,
+            **({"at_hinge": support.at_hinge} if support.at_hinge else {}),
             "deflection": w,
             "reaction": reaction,
             "couple": couple,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..scene.movements import moves_supports
 from ..scene.names import DEAD, cases_of, label
 from ..scene.rotations import at_support
 from . import formatting as fmt
@@ -29,6 +30,25 @@ WITHOUT_CONTACT = {"opens": "lets go", "closes": "holds"}
 """Words for supports along the beam, and for rotations."""
 LOST = ("yields", "softens", "breaks")
 """Events after which a support carries no more than before."""
+
+
+def limit_in_words(result: Result, kind: str) -> str:
+    """Word a limit of the load.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    kind : str
+        Of the limit, a key of `LIMITS`.
+
+    Returns
+    -------
+    str
+        Where nothing moves freely, as between supports that loads move, it is no mechanism.
+    """
+    is_free = kind != "mechanism" or result.motion is not None or not moves_supports(result.scene)
+    return LIMITS[kind] if is_free else "Limit of movements"
 
 
 def state_in_words(state: str) -> str:
@@ -165,7 +185,7 @@ def limits_of_load_in_words(result: Result, envelope: PathEnvelope | None, most:
         told |= {(k, event) for k, event in limit.causes}
     for limit in result.limits[:most]:
         causes = ", ".join(happening(k, limit.factor, event) for k, event in limit.causes)
-        words = f"{LIMITS[limit.kind]} {share_in_words(scene, limit.factor)}{f': {causes}' if causes else ''}"
+        words = f"{limit_in_words(result, limit.kind)} {share_in_words(scene, limit.factor)}{f': {causes}' if causes else ''}"
         lines.append(f"{words}.")
     if len(result.limits) > most:
         lines.append(f"... and {fmt.count(len(result.limits) - most, 'more limit')}.")

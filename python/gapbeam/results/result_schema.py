@@ -75,6 +75,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "x": ("number", "Position (length, from the left end of the beam)."),
         "side": ("Side", "Side on which it holds the beam, as in the scene."),
         "direction": ("Normal", "Direction, as in the scene."),
+        "at_hinge?": ("Way", "On which side of a hinge it holds the rotation; only of one that does."),
         "deflection": ("number", "Deflection of the beam there (length), positive downward; of an axial support to the right; the "
                                  "rotation (rad) of what holds one, clockwise, of a hinge that left of it less that right of it."),
         "reaction": ("number", "Force of the support on the beam (force), positive upward; of an axial one to the right; the "

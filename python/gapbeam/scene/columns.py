@@ -29,6 +29,8 @@ from .loads import (
     UniformLoad,
 )
 from .movements import number_of_moved, what_moves
+from .names import find
+from .sides import AT_HINGE, DIRECTIONS, SIDES, refuse_sides
 from .structs import Scene
 from .table import kind_of
 from .tables import Table
@@ -40,27 +42,12 @@ BY_X = -1
 """Instead of a node: the place is given by x."""
 NOT_GIVEN = -np.finfo(float).max
 """Instead of a place, the right end of a stretch, or a stiffness of a section."""
-SIDES = {
-    "both": 0, "below": 1, "above": -1, "left": 1, "right": -1, "counterclockwise": 1, "clockwise": -1, "sagging": 1,
-    "hogging": -1,
-}  # fmt: skip
-DIRECTIONS = {"normal": 0, "axial": 1, "rotational": 2, "hinge": 3}
-ONE_WAY = {
-    "normal": ("below", "above"), "axial": ("left", "right"), "rotational": ("counterclockwise", "clockwise"),
-    "hinge": ("sagging", "hogging", "counterclockwise", "clockwise"),
-}  # fmt: skip
-"""Sides of supports that act one way, by their direction."""
-WHAT = {
-    "normal": "a support across the beam is below or above it", "axial": "an axial support pushes to the left or to the right",
-    "rotational": "a support that holds the rotation turns the beam counterclockwise or clockwise",
-    "hinge": "a hinge takes sagging or hogging moments",
-}  # fmt: skip
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 SETTLEMENT, ROTATION = 3, 4
 """Rows of the settlement and of the rotational stiffness in the numbers of supports."""
 ROTATIONS = {"free": 0.0, "fixed": np.inf}
 FORCE, COUPLE, DISTRIBUTED, CURVATURE, AXIAL_FORCE, MOVEMENT, TEMPERATURE, ROTATION_OF_SUPPORT = range(1, 9)
-AXIAL_UNIFORM, GROUND_MOVEMENT = 11, 12
+AXIAL_UNIFORM, GROUND_MOVEMENT, LINEAR_CURVATURE = 11, 12, 13
 MOVEMENTS = {"support": MOVEMENT, "rotation": ROTATION_OF_SUPPORT, "foundation": GROUND_MOVEMENT}
 COUPLES = {None: COUPLE, "left": 9, "right": 10}
 """Couples, by the side of a hinge on which they act."""
@@ -172,7 +159,8 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     sides = _column(items, "side")
     codes[0, :-1] = _coded(sides, SIDES)
     codes[1, :-1] = _words(items, "direction", DIRECTIONS)
-    _refuse_sides(sides, codes)
+    refuse_sides(sides, codes)
+    codes[1, :-1] += np.where(codes[1, :-1] == DIRECTIONS["rotational"], _words(items, "at_hinge", AT_HINGE), 0).astype(np.int32)
     codes[2, :-1], found[0, :-1] = _places("supports", items, range(len(items)))
     for row, key in enumerate(("stiffness", "gap", "settlement"), 1):
         found[row, :-1] = _numbers(items, key)
@@ -189,24 +177,6 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
         if isinstance(law, Struct):
             codes[4, i], found[5:-1, i] = law.code, law.parameters()
     return codes, found
-
-
-def _refuse_sides(sides: Any, codes: np.ndarray) -> None:
-    """Refuse sides of another direction: an axial support that is below, one across the beam that pushes to the left."""
-    words = np.asarray(sides)
-    if not codes[1, :-1].any() and np.isin(words, ("both", *ONE_WAY["normal"])).all():
-        return
-    for direction, ways in ONE_WAY.items():
-        of_it = codes[1, :-1] == DIRECTIONS[direction]
-        wrong = np.flatnonzero(of_it & (codes[0, :-1] != 0) & ~np.isin(words, ways))
-        if not len(wrong):
-            continue
-        i = int(wrong[0])
-        side = sides if isinstance(sides, str) else sides[i]
-        other = ', or direction = "axial"' if direction == "normal" and side in ONE_WAY["axial"] else ""
-        both = "" if direction == "normal" else ' or "both"'
-        ask = f'"{ways[0]}", "{ways[1]}"{both}' if both else f'"{ways[0]}" or "{ways[1]}"'
-        raise SceneError(f"supports[{i}].side", f'{WHAT[direction]}; use side = {ask}{other}, got "{side}"')
 
 
 def points_given(law: Any) -> list[tuple[float, float]] | None:
@@ -300,6 +270,9 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         if kind == MOVEMENT:
             both = [at_both_ends(load.value if load.rotation is None else load.rotation) for load in group]
             given = np.array(both, dtype=float)
+        elif kind == CURVATURE:
+            given = _pairs(_column(group, key))
+            kinds[some] = np.where(given[:, 0] == given[:, 1], CURVATURE, LINEAR_CURVATURE)
         elif kind == TEMPERATURE:
             given = np.array([effect_of(scene, k, load) for k, load in zip(np.arange(len(items))[some], group, strict=True)])
         else:
@@ -335,12 +308,19 @@ def _numbers(items: Sequence[Any], key: str) -> np.ndarray:
     return found.reshape(len(items), *found.shape[1:])
 
 
+def _pairs(values: Any) -> np.ndarray:
+    """Numbers at both ends of stretches, given as one or as a pair, n by 2."""
+    if isinstance(values, np.ndarray):
+        return values if values.ndim == 2 else np.column_stack((values, values))
+    return np.array(list(map(at_both_ends, values)), dtype=float).reshape(-1, 2)
+
+
 def _words(items: Sequence[Any], key: str, codes: dict[str, int]) -> Any:
     return _coded(_column(items, key), codes)
 
 
 def _coded(values: Any, codes: dict[str, int]) -> Any:
-    if isinstance(values, str):
+    if values is None or isinstance(values, str):
         return codes[values]
     if isinstance(values, np.ndarray):
         return sum(code * (values == word) for word, code in codes.items())

@@ -13,10 +13,10 @@ import numpy as np
 
 from ..base.errors import SceneError
 from ..base.records import read_only
-from .columns import SIDES
 from .cut_loads import Placement, check_parts, cut_loads
 from .movements import replace_settlements
 from .names import cases_of, find
+from .sides import SIDES
 from .structs import Combination, Scene, Support
 from .tables import Table
 from .trains import joined, train_name

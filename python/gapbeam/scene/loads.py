@@ -116,11 +116,12 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
 
     Parameters
     ----------
-    kappa : float
-        Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above).
+    kappa : float or (float, float)
+        Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above). Or (at from, at to),
+        linear in between: not beside foundations, along tapered sections and under trains.
     """
 
-    kappa: float
+    kappa: float | tuple[float, float]
 
 
 class TemperatureLoad(_StretchLoad, kw_only=True, gc=False, tag="temperature"):

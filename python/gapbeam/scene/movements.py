@@ -101,6 +101,17 @@ def settle_movements(scene: Scene) -> Scene:
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
 
 
+def moves_supports(scene: Scene) -> bool:
+    """Whether supports move with the load factor.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    """
+    return any(isinstance(load, MovementLoad) and load.case != DEAD for load in scene.loads)
+
+
 def supports_moved(scene: Scene, factor: float) -> np.ndarray:
     """Give how far loads have moved every support.
 

@@ -178,6 +178,9 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
     if not scene.analysis.history:
         raise SceneError("analysis.history", "has no load factor; give one at least, for example [1.0]")
+    if scene.analysis.follow == "events" and not any(scene.analysis.history):
+        problem = "has no load factor other than 0, so there is nothing to follow"
+        raise SceneError("analysis.history", f"{problem}; give one, or for dead loads alone leave the others out")
     for i, factor in enumerate(scene.analysis.history):
         if not isfinite(factor):
             raise SceneError(f"analysis.history[{i}]", f"expected a finite number, got {number(factor)}")

@@ -10,9 +10,10 @@ from typing import Any
 from msgspec import Struct
 
 from ..base.errors import SceneError
-from .columns import KINDS, ONE_WAY, SIDES
+from .columns import KINDS
 from .ground_laws import PowerGround, varies
 from .rotations import turns
+from .sides import ONE_WAY, SIDES
 from .structs import Scene
 from .table import kind_of
 from .wording import number, shown
@@ -69,7 +70,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if reason == BAD_LAW:
         return _bad_law(item, path, key, partner, message)
     if reason == BAD_LOAD:
-        return SceneError(f"{path}.{key}", message.partition(": ")[2].removeprefix(f"{key}: "))
+        problem = message.partition(": ")[2].removeprefix(f"{key}: ")
+        return SceneError(f"{path}.{KINDS[kind_of(item)][1] if key == 'value_to' else key}", problem)
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:
@@ -182,7 +184,7 @@ def _support_refusal(scene: Scene, reason: int, i: int, other: int, key: str) ->
         ways = " or ".join(f'"{way}"' for way in ONE_WAY[item.direction])
         return SceneError(f"{path}.gap", f"only a support with side = {ways} has a gap")
     if reason == AT_HINGE:
-        problem = "there is a hinge here, so it is unclear which side is held; move one aside"
+        problem = 'there is a hinge here, so it is unclear which side is held; say at_hinge = "left" or "right"'
         return SceneError(f"{path}.rotation", problem)
     x = number(scene.positions([item])[0])
     if reason == TWICE and key == "law":

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
@@ -14,6 +15,7 @@ from ..base.errors import SceneError
 from .joints import Hinge, Rotation
 from .loads import MovementLoad
 from .names import column_of
+from .places import same_place
 from .structs import Scene, Support
 from .tables import Table
 from .wording import number
@@ -82,7 +84,7 @@ def which_turn(supports: Sequence[Support]) -> np.ndarray:
 
 
 def spread_rotations(scene: Scene) -> None:
-    """Make supports of the rotations that are held by more than a stiffness: of tables ``rotation``, and of such hinges.
+    """Make supports of the rotations that are held by more than a stiffness, or beside a hinge, and of such hinges.
 
     A support that turns both ways freely within a slack gets a law, since only a law has a gap both ways.
 
@@ -104,30 +106,70 @@ def spread_rotations(scene: Scene) -> None:
     >>> scene.supports[2].name, scene.supports[2].direction, scene.supports[2].gap, scene.supports[2].law
     ('rotation of 0', 'rotational', 0.01, [(0.0, 1.0)])
     """
+    beside = not isinstance(scene.supports, Table) or scene.supports.column("at_hinge") is not None
     with_laws = [hinge for hinge in scene.hinges if _is_more(hinge)]
     if isinstance(scene.supports, Table):
-        if with_laws:
+        if with_laws or beside:
             scene.supports = list(scene.supports)
         else:
             return
-    if not with_laws and not any(isinstance(one.rotation, Rotation) or turns(one) for one in scene.supports):
+    at_hinges = [k for k, one in enumerate(scene.supports) if one.at_hinge is not None]
+    _check_at_hinges(scene, at_hinges)
+    if at_hinges:
+        places = _places(scene, [scene.supports[k] for k in at_hinges])
+        with_laws = [hinge for hinge in scene.hinges if _is_more(hinge) or _is_elastic_at(scene, hinge, places)]
+    if not with_laws and not any(isinstance(one.rotation, Rotation) or one.at_hinge or turns(one) for one in scene.supports):
         return
     found = _Spread(list(scene.supports))
     for k, support in enumerate(scene.supports):
-        if isinstance(support.rotation, Rotation):
-            _check_slack(support.rotation, f"supports[{k}].rotation.slack")
-            found.supports[k] = replace(support, rotation="free")
+        rotation = _as_table(support)
+        if rotation is not None:
+            _check_slack(rotation, f"supports[{k}].rotation.slack")
+            found.supports[k] = replace(support, rotation="free", at_hinge=None)
             name = f"rotation of {k if support.name is None else visible(support.name)}"
-            made = _held(support.rotation, support.rotation.stiffness, direction="rotational", name=name)
+            made = _held(rotation, rotation.stiffness, direction="rotational", name=name, at_hinge=support.at_hinge)
             found.of_support[k] = found.add(replace(made, node=support.node, x=support.x))
     for k, hinge in enumerate(scene.hinges):
-        if _is_more(hinge):
+        if hinge in with_laws:
             _check_slack(hinge, f"hinges[{k}].slack")
             made = _held(hinge, float("inf") if hinge.stiffness is None else hinge.stiffness, direction="hinge")
             found.add(replace(made, node=hinge.node, x=hinge.x, name=f"hinge {k}" if hinge.name is None else hinge.name))
-    scene.hinges = [hinge for hinge in scene.hinges if not _is_more(hinge)]
+    scene.hinges = [hinge for hinge in scene.hinges if hinge not in with_laws]
     scene.supports = [_with_slack(one) if turns(one) else one for one in found.supports]
     scene.loads = _on_rotations(scene, found.of_support)
+
+
+def _as_table(support: Support) -> Rotation | None:
+    """Give how a support holds its rotation, where it becomes a support of its own."""
+    if isinstance(support.rotation, Rotation):
+        return support.rotation
+    if support.at_hinge is None or turns(support):
+        return None
+    return Rotation() if support.rotation == "fixed" else Rotation(stiffness=support.rotation)
+
+
+def _check_at_hinges(scene: Scene, which: Sequence[int]) -> None:
+    """Refuse a side of a hinge where a support holds no rotation."""
+    for k in which:
+        support = scene.supports[k]
+        if isinstance(support.rotation, float | int) and not support.rotation >= 0.0:
+            expected = '"free", "fixed" or a number, 0 or more'
+            raise SceneError(f"supports[{k}].rotation", f"expected {expected}, got {number(support.rotation)}")
+        if support.direction != "rotational" and support.rotation in ("free", 0.0):
+            problem = "it says on which side of a hinge a rotation is held, and none is here; give rotation, or leave it out"
+            raise SceneError(f"supports[{k}].at_hinge", problem)
+
+
+def _places(scene: Scene, items: Sequence[Any]) -> np.ndarray:
+    """Give the places of supports or hinges, NaN of those that are told later to have none."""
+    ends = scene.span_ends()
+    nodes = [None if one.node is None or not 0 <= one.node < len(ends) else float(ends[one.node]) for one in items]
+    return np.array([one.x if node is None else node for one, node in zip(items, nodes, strict=True)], dtype=float)
+
+
+def _is_elastic_at(scene: Scene, hinge: Hinge, places: np.ndarray) -> bool:
+    """Whether a hinge has a stiffness and stands at one of some places."""
+    return bool(hinge.stiffness) and bool(same_place(_places(scene, [hinge]), places).any())
 
 
 def _is_more(hinge: Hinge) -> bool:
@@ -141,7 +183,7 @@ def _check_slack(of: Hinge | Rotation, place: str) -> None:
         raise SceneError(place, f"expected a number, 0 or more, got {number(of.slack)}")
 
 
-def _held(of: Hinge | Rotation, stiffness: float, **keys: str) -> Support:
+def _held(of: Hinge | Rotation, stiffness: float, **keys: Any) -> Support:
     law = list(of.law) if isinstance(of.law, list) else of.law
     return Support(side=of.side, stiffness=stiffness, gap=of.slack, law=law, unloading=of.unloading, **keys)
 

@@ -141,6 +141,9 @@ class Support(Point, kw_only=True, gc=False):
     rotation : {"free", "fixed"}, float or table
         Whether the beam can rotate: free (default), fixed, or a rotational stiffness (force*length/rad). It stays active
         when the support has lifted off, as in a guide. Or a table with slack, side or law (`Rotation`).
+    at_hinge : {"left", "right"}, optional
+        Of a rotation that is held exactly at a hinge: of which part of the beam, that left of the hinge or that right of it. Then
+        it is a support of its own in results, and so is such a hinge with a stiffness.
     direction : {"normal", "axial", "rotational", "hinge"}
         Normal (default) is across the beam; axial holds it horizontally, only with axial loads. Rotational holds its rotation, and
         hinge the parts on its two sides against each other: what rotation and hinges with a slack, a side or a law become.
@@ -163,6 +166,7 @@ class Support(Point, kw_only=True, gc=False):
     gap: float = 0.0
     settlement: float = 0.0
     rotation: Literal["free", "fixed"] | NotNegative | Rotation = "free"
+    at_hinge: Literal["left", "right"] | None = None
     direction: Literal["normal", "axial", "rotational", "hinge"] = "normal"
     friction: NotNegative = 0.0
     law: Law | None = None

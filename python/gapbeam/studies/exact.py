@@ -20,10 +20,11 @@ from math import inf, isinf
 import numpy as np
 
 from ..base.errors import SceneError
-from ..scene.columns import SIDES
-from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad, UniformLoad
+from ..scene.ground_tables import at_both_ends
+from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad
 from ..scene.places import locate
 from ..scene.rotations import which_turn
+from ..scene.sides import SIDES
 from ..scene.structs import Scene
 from ..scene.tapers import is_tapered
 from ..scene.temperature import as_curvatures
@@ -98,12 +99,14 @@ class Reference:
         self.hinges = {index[x] for x in hinges}
         self.supports = scene.supports
         self.support_points = [index[x] for x in held]
-        self.force, self.couple = [Fraction(0)] * len(where), [Fraction(0)] * len(where)
+        # The couples left of hinges are among those at their places
+        self.force, self.couple, self.left_of_hinge = ([Fraction(0)] * len(where) for _ in range(3))
         for load, x in zip(points, loaded, strict=True):
             if isinstance(load, ForceLoad):
                 self.force[index[x]] += Fraction(load.F)
             else:
                 self.couple[index[x]] += Fraction(load.M)
+                self.left_of_hinge[index[x]] += Fraction(load.M if load.at_hinge == "left" else 0.0)
         self.pieces = [_piece(a, b, scene, exact_ends, sections, loads) for a, b in pairwise(where)]
         self.sign = [SIDES[support.side] for support in scene.supports]
         self.level = [Fraction(s.settlement) + k * Fraction(s.gap) for s, k in zip(self.supports, self.sign, strict=True)]
@@ -179,14 +182,15 @@ class Reference:
         count, one, number = len(self.x), self.kind(1), self._number
         left = [({}, {})]  # rotation and shear left of every place
         right = []
-        for i, (h, f, g, q, s, kappa) in enumerate(self.pieces):
+        for i, (h, f, g, q, s, kappa, more) in enumerate(self.pieces):
             a, b = {3 * i + 2: one}, {3 * i + 4: one}
             shear = _sum((number(1 / h), b), (number(-1 / h), a), (number(q * h / 2 + s * h**2 / 6), {-1: one}))
-            bend = number(f * (-q * h**3 / 24 - s * h**4 / 120) - kappa * h / 2 + g * (q * h / 2 + s * h**2 / 6))
+            bent = kappa * h / 2 + more * h**2 / 6
+            bend = number(f * (-q * h**3 / 24 - s * h**4 / 120) - bent + g * (q * h / 2 + s * h**2 / 6))
             turn = _sum((number(1 / h), {3 * i + 3: one}), (number(-1 / h), {3 * i: one}), (number(f * h / 2), a),
                         (number(f * h**2 / 6 - g), shear), (bend, {-1: one}))  # fmt: skip
             right.append((turn, shear))
-            loaded = number(f * (q * h**3 / 6 + s * h**4 / 24) + kappa * h)
+            loaded = number(f * (q * h**3 / 6 + s * h**4 / 24) + kappa * h + more * h**2 / 2)
             last = _sum((one, turn), (number(-f * h), a), (number(-f * h**2 / 2), shear), (loaded, {-1: one}))
             left.append((last, _sum((one, shear), (number(-q * h - s * h**2 / 2), {-1: one}))))
         right.append(({}, {}))
@@ -215,7 +219,7 @@ class Reference:
             else:
                 rows.append(_sum((one, jump), (number(turning[i]), psi_right or psi_left)))
                 if i in self.hinges:
-                    rows.append(m_left)
+                    rows.append(_sum((one, m_left), (number(self.left_of_hinge[i]), {-1: one})))
                 elif 0 < i < count - 1:
                     rows.append(_sum((one, psi_left), (-one, psi_right)))
             balance.append(_sum((number(self.force[i]), {-1: one}), (-one, v_left), (one, v_right), (-one, support_force[i])))
@@ -248,7 +252,7 @@ def _name(x: Fraction, exact_ends: list[Fraction], ends: np.ndarray) -> float:
 
 
 def _piece(a, b, scene: Scene, ends, sections, loads) -> tuple[Fraction, ...]:
-    """Length, 1/EI, 1/GA, load at the left end and its slope, imposed curvature."""
+    """Length, 1/EI, 1/GA, load and imposed curvature at the left end, each followed by its slope."""
     span = next(i for i, x in enumerate(ends[1:]) if a < x)
     soft = []
     for name in ("EI", "GA"):
@@ -258,17 +262,17 @@ def _piece(a, b, scene: Scene, ends, sections, loads) -> tuple[Fraction, ...]:
             if section is not None and start <= a < stop and getattr(section, name) is not None:
                 value = getattr(section, name)
         soft.append(Fraction(0) if isinf(value) else 1 / Fraction(value))
-    q = slope = kappa = Fraction(0)
+    q = slope = kappa = more = Fraction(0)
     for start, stop, load in loads:
         if not start <= a < stop:
             continue
-        if isinstance(load, CurvatureLoad):
-            kappa += Fraction(load.kappa)
-            continue
-        first, last = map(Fraction, (load.q, load.q) if isinstance(load, UniformLoad) else load.q)
+        first, last = map(Fraction, at_both_ends(load.kappa if isinstance(load, CurvatureLoad) else load.q))
         rise = (last - first) / (stop - start)
-        q, slope = q + first + rise * (a - start), slope + rise
-    return (b - a, *soft, q, slope, kappa)
+        if isinstance(load, CurvatureLoad):
+            kappa, more = kappa + first + rise * (a - start), more + rise
+        else:
+            q, slope = q + first + rise * (a - start), slope + rise
+    return (b - a, *soft, q, slope, kappa, more)
 
 
 def _sum(*terms: tuple) -> Form:

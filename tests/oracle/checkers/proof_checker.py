@@ -45,11 +45,11 @@ class Beam:  # springs (place, form, rest, compliance) and loads; a form has the
                 first, last = map(exact, load[key] if isinstance(load[key], list) else [load[key]] * 2)
                 begin, rise = self.x[pieces.start], (last - first) / (self.x[pieces.stop] - self.x[pieces.start])
                 for i in pieces: spread[key][i] = [spread[key][i][k] + first + rise * (self.x[i + k] - begin) for k in (0, 1)]
-        for i, (EI, GA) in enumerate(zip(map(inverse, stiff["EI"]), map(inverse, stiff["GA"]), strict=True)):
-            L, (qa, qb), t, s = self.x[i + 1] - self.x[i], spread["q"][i], (i, RIGHT if i in self.hinges else LEFT), (i + 1, LEFT)
+        for i, (EI, GA, q, k) in enumerate(zip(*(map(inverse, v) for v in stiff.values()), *spread.values(), strict=True)):
+            L, (qa, qb), (ka, kb), t, s = self.x[i + 1] - self.x[i], q, k, (i, RIGHT if i in self.hinges else LEFT), (i + 1, LEFT)
             chord = {s: ONE / 2, t: ONE / 2, (i, W): 1 / L, (i + 1, W): -1 / L}
-            self.springs.append((i, {s: ONE, t: -ONE}, spread["kappa"][i][0] * L - (qa + qb) * L**3 / 24 * EI, L * EI))
-            self.springs.append((i, chord, (qa - qb) * L**3 / 720 * EI, L / 12 * EI + GA / L))
+            self.springs.append((i, {s: ONE, t: -ONE}, (ka + kb) / 2 * L - (qa + qb) * L**3 / 24 * EI, L * EI))
+            self.springs.append((i, chord, (kb - ka) / 12 * L + (qa - qb) * L**3 / 720 * EI, L / 12 * EI + GA / L))
             self.load[i, W] += (2 * qa + qb) * L / 6
             self.load[i + 1, W] += (qa + 2 * qb) * L / 6
     def where(self, x):  # an x counts from the span end left of it, as a double

@@ -206,6 +206,7 @@ MANY_LOADS = {
     "beam": gapbeam.Beam(spans=[6.0, 6.0, 6.0], EI=[1e4, 2e4, 1e4], GA=3e4, hinges=[14.0]),
     "supports": [*pages.SUPPORTS[:3], gapbeam.Support(node=3, rotation=2e3)],
     "loads": [*pages.LOADS, gapbeam.LinearLoad(q=(1.0, 7.0), to=9.0), gapbeam.CurvatureLoad(kappa=1e-3, from_=4.0),
+              gapbeam.CurvatureLoad(kappa=(1e-3, -2e-3), from_=5.0),
               gapbeam.MomentLoad(x=7.0, M=30.0)],
 }  # fmt: skip
 

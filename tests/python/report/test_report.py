@@ -222,3 +222,16 @@ def test_the_signs_of_an_upright_beam_are_those_of_its_picture():
     text = report_text(gapbeam.solve(made))
     assert "Deflection to the right, moment with tension on the right" in text
     assert "Deflection downward" not in text
+
+
+def test_where_the_axis_alone_carries(tmp_path):
+    """A bar that is heated between two supports: no error bound of bending, one label of its constant force, dT on its page."""
+    result = gapbeam.solve({
+        "beam": {"spans": [4.0], "EI": 100.0, "EA": 1e3, "alpha": 1e-5}, "loads": [{"type": "temperature", "dT": 30.0}],
+        "supports": [{"node": 0}, {"node": 1}, {"node": 0, "direction": "axial"}, {"node": 1, "direction": "axial"}],
+    })  # fmt: skip
+    assert "Error bound" not in report_text(result)
+    texts = [text.get_text() for axes in result.plot().axes for text in axes.texts]
+    assert len([text for text in texts if text.endswith("0.3 at 0")]) == 1
+    result.to_html(tmp_path / "page.html")
+    assert re.search(r'"type": ?"temperature".*"ends": ?\[30.0, ?30.0\]', (tmp_path / "page.html").read_text())

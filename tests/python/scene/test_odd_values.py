@@ -23,7 +23,7 @@ def message(**parts):
     ("key", "shown"), [("", '""'), ("a.b", '"a.b"'), ("a b", '"a b"'), ("\x1b[2J", r'"\u001b[2J"'), ("Ä", '"Ä"'), ("a-1_", "a-1_")]
 )
 def test_keys_stand_as_in_toml(key, shown):
-    keys = "node, x, name, side, stiffness, gap, settlement, rotation, direction, friction, law and unloading"
+    keys = "node, x, name, side, stiffness, gap, settlement, rotation, at_hinge, direction, friction, law and unloading"
     assert message(supports=[{"x": 1.0, key: 1}]) == f"supports[0].{shown}: unknown key; the keys are {keys}"
     assert message(**{key: 1}).startswith(f"{shown}: unknown key; the keys are title, units")
     assert message(beam=BEAM | {key: 1}).startswith(f"beam.{shown}: unknown key; the keys are spans, EI")

@@ -67,7 +67,7 @@ stifness = 3 -> supports[0].stifness: unknown key; did you mean "stiffness"?
 Stiffness = 3 -> supports[0].Stiffness: unknown key; did you mean "stiffness"?
 zzz = 1 ->
     supports[0].zzz: unknown key; the keys are node, x, name, side, stiffness, gap, settlement, rotation,
-    direction, friction, law and unloading
+    at_hinge, direction, friction, law and unloading
 """
 
 
@@ -299,7 +299,7 @@ def test_support(given, expected):
 
 @pytest.mark.parametrize("place", [{"x": 6.0}, {"node": 1}, {"x": 6.000000000000001}])
 def test_rotation_held_at_a_hinge(place):
-    problem = "there is a hinge here, so it is unclear which side is held; move one aside"
+    problem = 'there is a hinge here, so it is unclear which side is held; say at_hinge = "left" or "right"'
     expected = f"supports[0].rotation: {problem}"
     assert message(beam=BEAM | {"hinges": [6.0]}, supports=[place | {"rotation": "fixed"}]) == expected
     assert message(beam=BEAM | {"hinges": [3.0, 6.0, 9.0]}, supports=[place | {"rotation": 5.0}]) == expected

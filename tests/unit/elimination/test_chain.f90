@@ -5,6 +5,7 @@ program test_chain
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: link_type, piece_type, piece_load_type, condense_link
     use gapbeam_band, only: node_type, rhs_type, answer_type, pivot_type, factor_chain, band_ok, plain, hinge, restrained, jointed
+    use gapbeam_nodes, only: hinge_left, hinge_right, joint_left, joint_right
     use gapbeam_band_substitution, only: solve_chain
     use gapbeam_plain, only: plain_type, is_plain, ends_hold, prepare_plain, solve_plain
     use gapbeam_three_moment, only: fits_three_moment, solve_three_moment
@@ -133,8 +134,8 @@ contains
         integer :: free, first, second, state, place
 
         do free = 0, 2
-            do first = 1, 3
-                do second = 1, 3
+            do first = 1, 9
+                do second = 1, 9
                     call make(6, 7.0_wp, 3.0_wp, nodes, links, rhs)
                     nodes%held = .false.
                     nodes%stiffness = 5.0_wp
@@ -144,7 +145,7 @@ contains
                     call factor_chain(nodes, links, pivots, state, place)
                     call solve_pivoting(nodes, links, rhs, other, regular)
                     ! Part of a beam that hangs on a hinge alone turns about it
-                    call check((state == band_ok) .eqv. (free == 0 .or. first /= 2), "whether it is held")
+                    call check((state == band_ok) .eqv. (free == 0 .or. all(first /= [2, 5, 9])), "whether it is held")
                     if (state /= band_ok) cycle
                     call check(regular, "regular")
                     work = rhs
@@ -157,8 +158,9 @@ contains
         end do
     end subroutine joints
 
-    !> A node with a compliant joint that is bent from the start, a hinge with a known moment, or neither
-    subroutine join(how, node, r)
+    !> A node with a compliant joint that is bent from the start, a hinge with a known moment, each with a restraint left or right of
+    !> it, or with a couple, or neither
+    recursive subroutine join(how, node, r)
         integer, intent(in) :: how
         type(node_type), intent(inout) :: node
         type(rhs_type), intent(inout) :: r
@@ -170,7 +172,20 @@ contains
             r%right = r%right + 0.02_wp
         case (2)
             node%kind = hinge
-            r%couple = 1.5_wp
+            r%moment = 1.5_wp
+        case (4, 5)
+            node%kind = merge(hinge_left, hinge_right, how == 4)
+            node%compliance = 0.3_wp
+            r%moment = 1.5_wp
+            r%couple = 0.7_wp
+        case (6, 7)
+            node%kind = merge(joint_left, joint_right, how == 6)
+            node%compliance = 0.3_wp
+            node%joint = 0.2_wp
+            r%couple = 0.7_wp
+        case (8, 9)
+            call join(how - 7, node, r)
+            r%couple = 0.7_wp
         case default
             node%kind = plain
         end select

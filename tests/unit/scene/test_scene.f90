@@ -8,7 +8,7 @@ program test_scene
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, span_type, section_type, support_type, load_type, point_force, point_couple, &
         uniform_load, imposed_curvature, gapbeam_infinity, gapbeam_below, gapbeam_above, gapbeam_axial, gapbeam_distributed, &
-        gapbeam_dead
+        gapbeam_dead, gapbeam_rotational, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_units, only: units_type, units_with_loads, moment_unit, turning_unit, bound_outside, no_exponent
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_input_error, only: named, of_spans, of_hinges, of_supports, of_loads, of_sections, no_span, not_expected, &
@@ -185,7 +185,17 @@ contains
         model%hinges = [6.0_wp]
         model%supports = [model%supports, support_type(node=1, stiffness=1.0_wp, rotation=2.0_wp)]
         call expect(model, of_supports, 3, at_hinge, "rotation", "a restraint at a hinge")
-        model%supports(3)%rotation = 0.0_wp
+        model%supports(3) = support_type(node=1, direction=gapbeam_rotational)
+        call expect(model, of_supports, 3, at_hinge, "rotation", "one that is a support of its own")
+        model%supports(3) = support_type(x=5.0_wp, direction=gapbeam_rotational_left)
+        call expect(model, of_supports, 3, bad_law, "at_hinge", "left of no hinge")
+        model%supports(3) = support_type(node=1, direction=gapbeam_rotational_left)
+        model%supports = [model%supports, support_type(node=1, direction=gapbeam_rotational_right)]
+        call expect(model, of_supports, 4, bad_law, "at_hinge", "both sides of a hinge")
+        model%hinge_stiffness = [2.0_wp]
+        call expect(model, of_supports, 3, bad_law, "direction", "beside a hinge with a stiffness")
+        deallocate (model%hinge_stiffness)
+        model%supports = [model%supports(:2), support_type(node=1, stiffness=1.0_wp)]
         model%loads = [point_couple(1.0_wp, x=6.0_wp)]
         call expect(model, of_loads, 1, at_hinge, "", "a couple at a hinge")
         model%loads = [uniform_load(1.0_wp, from=5.0_wp, to=4.0_wp)]

@@ -115,9 +115,12 @@ function along(state, scale, from, to, below) {
   });
 }
 
-/* Loads over a stretch that act neither down nor up: imposed curvatures, and loads along the beam. */
+/* What stands before the values of loads without a unit. */
+const UNITLESS = { curvature: "\u03ba ", temperature: "dT " };
+
+/* Loads over a stretch that act neither down nor up: imposed curvatures, temperatures that lengthen, and loads along the beam. */
 function isFlat(load) {
-  return load.type === "curvature" || load.type === "axial_uniform";
+  return load.type in UNITLESS || load.type === "axial_uniform";
 }
 
 function drawLoads(state, scale, y, axis) {
@@ -131,8 +134,8 @@ function drawLoads(state, scale, y, axis) {
       const left = scale.x(one.from), right = scale.x(one.to), foot = top - MODEL.level * one.level;
       parts.push(path([[left, foot], [left, foot - a], [right, foot - b], [right, foot]], isFlat(one) ? "band bent" : "band", true));
       const [from, to] = one.ends.map((q) => number(one.type === "axial_uniform" ? Math.abs(factor * q) : factor * q, 4));
-      const unit = one.type === "curvature" ? "" : ` ${DATA.units.uniform[0]}`;
-      const sign = one.type === "curvature" ? "\u03ba " : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
+      const unit = one.type in UNITLESS ? "" : ` ${DATA.units.uniform[0]}`;
+      const sign = one.type in UNITLESS ? UNITLESS[one.type] : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
       const text = `${sign}${from === to ? from : `${from} to ${to}`}${unit}`;
       if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
     } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));

@@ -148,12 +148,13 @@ class State {
     const [length, flexible, soft] = this.beam.pieces[k], t = s / length, square = length * length;
     if (name === "axial_force" && this.n_grid) return this.inPart(this.beam.x[k] + s, left);
     if (name === "axial_force") return !this.n ? 0 : this.n_left ? this.n[k] * (1 - t) + this.n_left[k] * t : this.n[k];
-    const load = [0, 1, 2].map((i) => this.beam.dead[k][i] + this.factor * this.beam.live[k][i]);
+    const load = [0, 1, 2, 3].map((i) => this.beam.dead[k][i] + this.factor * this.beam.live[k][i]);
     const m0 = this.m[k], m1 = this.m_left[k];
     const c = (load[0] * square) / 2, d = ((load[1] - load[0]) * square) / 6;
     let bubble = c * t * (1 - t) + d * t * (1 - t * t);
     let shear = (m1 - m0) / length + (c * (1 - 2 * t) + d * (1 - 3 * t * t)) / length;
-    let w = this.w[k] * (1 - t) + this.w[k + 1] * t - (load[2] * square * t * (1 - t)) / 2 + square * flexible * (
+    let w = this.w[k] * (1 - t) + this.w[k + 1] * t - square * t * (1 - t) * (load[2] / 2 + (load[3] * (1 + t)) / 6)
+      + square * flexible * (
       (m0 * t * (1 - t) * (2 - t)) / 6 + (m1 * t * (1 - t * t)) / 6 + (c * t * (1 - 2 * t * t + t ** 3)) / 12
       + d * t * (7 / 60 - (t * t) / 6 + t ** 4 / 20));
     for (const [a, force] of this.forces(k, s)) {

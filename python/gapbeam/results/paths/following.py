@@ -55,14 +55,17 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         what = "a section that tapers under trains is not available in this version; give short sections, each of one stiffness"
         raise SceneError("sections", what)
     if which_turn(scene.supports).any():
-        what = "a restraint or hinge with a law, a slack or a side under trains is not available in this version"
-        raise SceneError("supports", f"{what}; leave one of them out")
+        what = "a restraint or hinge with a law, a slack or a side, or a restraint at a hinge,"
+        raise SceneError("supports", f"{what} under trains is not available in this version; leave one of them out")
     if any(hinge.stiffness for hinge in scene.hinges):
         raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
     for k, load in enumerate(scene.loads):
         if getattr(load, "at_hinge", None):
             what = "a couple at a hinge under trains is not available in this version; put it on one side of the hinge"
             raise SceneError(f"loads[{k}].at_hinge", what)
+        if isinstance(getattr(load, "kappa", None), tuple) and load.kappa[0] != load.kappa[1]:
+            what = "a curvature that changes along the beam under trains is not available in this version; give short stretches"
+            raise SceneError(f"loads[{k}].kappa", what)
         if getattr(load, "rotation", None) is not None:
             raise SceneError(f"loads[{k}].rotation", "a support that is turned under trains is not available in this version")
     if beam.depends_on_path:

@@ -17,9 +17,8 @@ import numpy as np
 from ...base.records import Pickled, read_only
 from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LINES, Beam
 from ...engine.case_certificates import BOUNDED
-from ...engine.quantities import FIELDS
 from ...engine.states import Along, Solution
-from ...engine.units import bound_in_scene
+from ...engine.units import bound_in_scene, scaled
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
@@ -197,7 +196,9 @@ class Step(Pickled):
         x, stiffness = self._beam.columns.hinge[:, :-1]
         which = np.flatnonzero(stiffness > 0.0)
         which = which[np.argsort(x[which])]
-        moment = self.values(*self._beam.find(x[which], left=False))[FIELDS.index("moment")]
+        nodes = np.abs(self._beam.places.point_x[self._beam.places.node_points] - x[which, None]).argmin(axis=1)
+        # Between the couples on its two sides, if there are any
+        moment = scaled(self.solution.moment_left[nodes], self._beam.units.field[2])
         turned = moment / stiffness[which]
         return tuple(map(HingeState._make, zip(x[which].tolist(), moment.tolist(), turned.tolist(), strict=True)))
 

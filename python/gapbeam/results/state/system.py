@@ -6,6 +6,8 @@ import warnings
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ...engine.beam import METHODS
 from ...engine.layout import RELATIVE, ROTATIONAL
 
@@ -82,7 +84,7 @@ def system_of(result: Result) -> System:
         "shear": beam.has_shear,
         "foundation": beam.ground_layers > 0,
         "hinges": beam.has_hinges or (directions == RELATIVE).any(),
-        "rotational restraints": beam.has_restraints or (directions == ROTATIONAL).any(),
+        "rotational restraints": beam.has_restraints or np.isin(directions, ROTATIONAL).any(),
         "iteration": beam.is_one_sided or beam.has_one_sided_ground,
         "deflections": not three_moment,
         "second order": result.compression is None,

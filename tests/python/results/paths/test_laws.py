@@ -381,8 +381,9 @@ def test_prepared_cases():
         gapbeam.prepare(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}))
     with pytest.raises(SceneError, match="depends on the loading history"):
         gapbeam.prepare(snap())
-    with pytest.raises(SceneError, match="has no load factor"):
-        gapbeam.solve(snap(history=[]))
+    for factors, words in (([], "has no load factor; give one"), ([0.0, 0.0], "has no load factor other than 0")):
+        with pytest.raises(SceneError, match=words):
+            gapbeam.solve(snap(history=factors))
     with pytest.raises(SceneError, match="expected a finite number, got inf"):
         gapbeam.solve(snap(history=[1.0, math.inf]))
 

@@ -101,6 +101,7 @@ def test_supports_that_meet_are_named():
     assert result.status == "limit-load"
     assert result.limits[0].factor == pytest.approx(0.4, rel=1e-14)
     assert result.reason.endswith("supports that loads move may leave no room between them there")
+    assert str(result).splitlines()[1].startswith("Limit of movements at load factor 0.4")
 
 
 def test_combinations():
