@@ -20,10 +20,12 @@ module gapbeam_ground_refinement
     public :: refine_factor
 
     !> Steps at most
-    integer, parameter :: most_steps = 5
+    integer, parameter :: most_steps = 7
     !> Steps that are no longer than these shares of the factor are the last ones: where the slope is that of double precision, or
     !> of two points in quadruple precision
     real(wp), parameter :: exact = 2.0_wp**(-52), fine_enough = 2.0_wp**(-42)
+    !> Share of the factor by which two points are apart at least that give the slope of a support's margin
+    real(wp), parameter :: apart = 2.0_wp**(-46)
 
 contains
 
@@ -77,20 +79,24 @@ contains
                                   fine_place)
             place = real(fine_place, wp)
             if (k > 1) then
-                if (change%support == 0 .or. margin*last_margin > 0.0_qp) then
-                    slope = real((margin - last_margin)/(factor - last), wp)
-                else
-                    ! That on the other side, a force for a distance, or a distance for a force
-                    found = abs(factor - last) <= fine_enough*last
+                if (change%support > 0 .and. .not. margin*last_margin > 0.0_qp) then
+                    ! That on the other side, a force for a distance, or a distance for a force: as far to this side instead
+                    found = .not. abs(margin) > 0.0_qp
                     if (found) return
+                    factor = last - (factor - last)
+                    cycle
                 end if
+                slope = real((margin - last_margin)/(factor - last), wp)
             end if
             last = factor
             last_margin = margin
             if (.not. abs(slope) > 0.0_wp) return
             step = -margin/slope
+            ! The slope of double precision may be that on the other side
+            if (k == 1 .and. change%support > 0) step = sign(max(abs(step), real(apart*factor, qp)), step)
             if (.not. abs(step) < last) return
             factor = real(factor + step, wp)
+            if (k == 1 .and. change%support > 0) cycle
             found = abs(step) <= merge(exact, fine_enough, k == 1)*last
             ! It would be the same factor again
             found = found .or. .not. abs(factor - last) > 0.0_wp

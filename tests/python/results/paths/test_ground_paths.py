@@ -1,5 +1,7 @@
 """The load path of beams on the ground: every change at its own factor, whatever the grid, and few solves for it."""
 
+import copy
+
 import gapbeam
 import pytest
 import scenes
@@ -122,3 +124,27 @@ def test_a_beam_tips_where_its_loads_begin_to_do_work():
     result = gapbeam.solve(made)
     assert result.status == "no-equilibrium"
     assert result.path.segments[-1].stop == pytest.approx(4.0 * 1.5**2 / 2 / 9.0, rel=1e-13)
+
+
+def smaller(made, share):
+    """A scene with a share of all loads, gaps and settlements: everything is that share of it, at the same load factors."""
+    new = copy.deepcopy(made)
+
+    def times(value):
+        return [times(one) for one in value] if isinstance(value, list) else value * share
+
+    for item in (*new["loads"], *new["supports"], *new["foundation"]):
+        for key in item.keys() & {"F", "M", "q", "kappa", "gap", "settlement", "law"}:
+            item[key] = times(item[key])
+        if "profile" in item:
+            item["profile"] = [[x, share * gap] for x, gap in item["profile"]]
+    return new
+
+
+@pytest.mark.parametrize("seed", [18, 21, 51, 199, 218, 235, 240, 254])
+def test_factors_of_supports_do_not_hang_on_the_unit_of_force(seed):
+    """They are exact: in other units the last step towards them is another one."""
+    made = random_scene(seed)
+    one, same = (gapbeam.solve(each | {"analysis": {"follow": "events"}}).events for each in (made, smaller(made, 2.0**-200)))
+    assert [event.factor for event in one] == pytest.approx([event.factor for event in same], rel=ROUNDINGS, abs=0)
+    assert any(event.support is not None for event in one)

@@ -203,15 +203,15 @@ def what_acts(made, factor):
     return zones, [abs(held.reaction) > 1e-25 for held in right.supports]
 
 
-@pytest.mark.parametrize("seed", [2, 7, 12, 15, 18, 21, 23, 29])
+@pytest.mark.parametrize("seed", [2, 7, 12, 15, 18, 21, 23, 29, 47])
 def test_random_paths_change_where_the_oracle_does(seed):
-    """In 50 digits the zones are others, or the supports that carry, 1e-14 below and above each factor."""
+    """In 50 digits the zones are others, or the supports that carry, 2e-15 below and above each factor."""
     made = random_moving_scene(seed)
     events = [event for event in gapbeam.solve(made | {"analysis": EVENTS}).events if event.branch == 1]
     assert events
     with mp.workdps(80):
         for event in events:
-            below, above = (what_acts(made, mpf(event.factor) * (1 + mpf(d))) for d in ("-1e-14", "1e-14"))
+            below, above = (what_acts(made, mpf(event.factor) * (1 + mpf(d))) for d in ("-2e-15", "2e-15"))
             assert below != above, event
 
 
