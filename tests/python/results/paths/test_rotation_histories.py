@@ -25,6 +25,7 @@ def pair_of(seed):
     law = {"law": law_of(rng, yields), "unloading": "plastic" if yields else "elastic"}
     history = [rng.choice([1.0, 0.5, 2.0, -0.5, -1.0, 0.0, 1.5]) for _ in range(rng.randint(1, 5))]
     history = [factor for k, factor in enumerate(history) if k == 0 or factor != history[k - 1]]
+    history = history if any(history) else [1.0]
     about = {"loads": [{"type": "uniform", "q": rng.choice([1.0, 2.0, 4.0]), "to": 2.0}],
              "analysis": {"follow": "events", "history": history}}  # fmt: skip
     if rng.random() < 0.5:
