@@ -205,3 +205,17 @@ def test_what_is_refused(keys, problem):
 def test_events_are_refused():
     with pytest.raises(gapbeam.EngineError, match="not followed from event to event in this version; take steps"):
         solved([uniform(1.0)], analysis={"follow": "events"})
+
+
+def test_rigid_ground_that_moves():
+    """Ground that sinks under its right half is ground with a corner; at load factor 1/2 it has sunk by half."""
+    ground = [ROCK | {"to": 6.0, "name": "left"}, ROCK | {"from": 6.0, "name": "right"}]
+    loads = [uniform(1.0, case="dead"), {"type": "movement", "foundation": "right", "value": [0.0, 0.02]}]
+    given = {**scene([10.0], [], loads, EI=100.0), "foundation": ground, "analysis": {"steps": 2}}
+    result = gapbeam.solve(given)
+    for step, sunk in zip(result.steps, (0.01, 0.02), strict=True):
+        still = {**scene([10.0], [], loads[:1], EI=100.0), "foundation": [ground[0], ground[1] | {"gap": [0.0, sunk]}]}
+        expected = gapbeam.solve(still).steps[-1].contact
+        assert [one.foundation for one in step.contact] == [one.foundation for one in expected]
+        near([(one.from_, one.to, one.resultant) for one in step.contact],
+             [(one.from_, one.to, one.resultant) for one in expected])  # fmt: skip
