@@ -29,7 +29,6 @@ from .loads import (
     UniformLoad,
 )
 from .movements import number_of_moved, what_moves
-from .names import find
 from .sides import AT_HINGE, DIRECTIONS, SIDES, refuse_sides
 from .structs import Scene
 from .table import kind_of
