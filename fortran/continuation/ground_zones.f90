@@ -5,7 +5,7 @@ module gapbeam_ground_zones
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_foundations
     use gapbeam_scene, only: gapbeam_both
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_runs, only: run_type, ground_runs
     use gapbeam_pieces, only: gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch

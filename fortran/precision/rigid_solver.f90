@@ -196,7 +196,8 @@ contains
             solution%pushing(:) = 0
             do h = 1, size(rigid%holds)
                 associate (hold => rigid%holds(h))
-                    if (.not. abs(rigid%push(h)) > 0.0_qp) cycle
+                    ! Beside the others it is nothing but rounding
+                    if (.not. abs(rigid%push(h)) > rigid%noise%force) cycle
                     solution%push(hold%border) = real(rigid%push(h), wp)
                     solution%pushing(hold%border) = hold%layer
                 end associate

@@ -2,9 +2,8 @@
 module gapbeam_check_rigid_ground
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
-    use gapbeam_words, only: shown, whole
+    use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_layers, only: layer_type
     use gapbeam_link, only: piece_load_type
     use gapbeam_scene, only: gapbeam_normal
     use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear
