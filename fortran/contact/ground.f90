@@ -284,8 +284,8 @@ contains
                     if (acts == 0 .or. is_curve(layer, acts)) cycle
                     if (layer%rigid) then
                         ! It takes all load that lies there
-                        dead = stretch_load_type()
-                        live = stretch_load_type()
+                        dead = stretch_load_type(kappa=dead%kappa)
+                        live = stretch_load_type(kappa=live%kappa)
                         exit
                     end if
                     law = law_piece(layer, ground%laws, acts)

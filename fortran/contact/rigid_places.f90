@@ -7,7 +7,7 @@ module gapbeam_rigid_places
     use gapbeam_zone_fields, only: ends_of, fields_at_ends
     use gapbeam_ground, only: ground_type, combined_load
     use gapbeam_rigid_contact, only: contact_type, level_of, slope_of, binding_layer
-    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node
+    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, straightened
     implicit none
     private
     public :: move_place, stop_beam
@@ -31,7 +31,7 @@ contains
             if (rigid%holds(h)%follows .or. .not. rigid%touching(h)) return
             next = contact
             if (contact%from > 0.0_wp .and. contact%from < ground%pieces(contact%piece)%length) then
-                moment = side*(answer%moment_left + answer%moment_right)/2
+                moment = side*((answer%moment_left + answer%moment_right)/2 - straightened(ground, rigid, contact%piece))
                 push = side*rigid%push(h)
                 associate (before => z%to(border) - z%from(border), after => z%to(border + 1) - z%from(border + 1))
                     if (moment < -rigid%noise%moment) then
@@ -86,7 +86,7 @@ contains
                         deepest = depth
                         best = z%from(i) + at
                     end do
-                    if (best > 0.0_wp .and. lies_between(rigid, i, side)) then
+                    if (best > 0.0_wp .and. lies_between(ground, rigid, i, side)) then
                         call add(rigid, contact_type(j, k, z%from(i), z%to(i)))
                     else if (best > 0.0_wp) then
                         call add(rigid, contact_type(j, k, best, best))
@@ -97,17 +97,21 @@ contains
     end subroutine stop_beam
 
     !> Does the ground hold the beam at both ends of a stretch and press it there, as it does all along a zone
-    function lies_between(rigid, i, side) result(lies)
+    function lies_between(ground, rigid, i, side) result(lies)
+        type(ground_type), intent(in) :: ground
         type(rigid_type), intent(in) :: rigid
         integer, intent(in) :: i, side
         logical :: lies
+        real(wp) :: moment(2)
         integer :: ends(2)
 
         ends = [hold_at(rigid, i - 1, side), hold_at(rigid, i, side)]
         lies = .false.
         if (any(ends == 0)) return
+        moment = [rigid%work%answers(i - 1)%moment_right, rigid%work%answers(i)%moment_left] &
+            - straightened(ground, rigid, rigid%zones%piece(i))
         lies = all(rigid%touching(ends)) .and. rigid%holds(ends(1))%layer == rigid%holds(ends(2))%layer .and. &
-            max(side*rigid%work%answers(i - 1)%moment_right, side*rigid%work%answers(i)%moment_left) <= rigid%noise%moment
+            maxval(side*moment) <= rigid%noise%moment
     end function lies_between
 
     !> Stop the beam at a node beyond the ground

@@ -7,7 +7,7 @@ module gapbeam_rigid_state
     use gapbeam_rigid_contact, only: contact_type, hold_type, binding_layer, same_line
     implicit none
     private
-    public :: rigid_type, find_noise, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load
+    public :: rigid_type, find_noise, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load, straightened
 
     !> What is nothing beside rounding
     type :: noise_type
@@ -120,6 +120,16 @@ contains
         if (other < 1 .or. other > size(rigid%zones%piece)) return
         is_zone = any(rigid%zones%acts(:, other) > 0)
     end function is_zone_beyond
+
+    !> Moment that holds a piece straight against the curvature imposed on it
+    pure function straightened(ground, rigid, piece) result(moment)
+        type(ground_type), intent(in) :: ground
+        type(rigid_type), intent(in) :: rigid
+        integer, intent(in) :: piece
+        real(wp) :: moment
+
+        moment = (ground%dead(piece)%kappa + rigid%factor*ground%live(piece)%kappa)/ground%pieces(piece)%flexibility
+    end function straightened
 
     !> Load per length at a distance from the left end of a piece
     pure function along_load(ground, rigid, piece, at) result(q)

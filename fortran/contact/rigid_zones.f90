@@ -6,7 +6,8 @@ module gapbeam_rigid_zones
     use gapbeam_zone_fields, only: fields_at_ends
     use gapbeam_ground, only: ground_type
     use gapbeam_rigid_contact, only: contact_type
-    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load
+    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load, &
+        straightened
     implicit none
     private
     public :: move_zone
@@ -89,7 +90,8 @@ contains
         associate (z => rigid%zones, answers => rigid%work%answers)
             inside = z%to(i) - z%from(i)
             outside = z%to(beyond) - z%from(beyond)
-            moment = side*[answers(beyond - 1)%moment_right, answers(beyond)%moment_left]
+            moment = side*([answers(beyond - 1)%moment_right, answers(beyond)%moment_left] &
+                           - straightened(ground, rigid, z%piece(beyond)))
         end associate
         change = side*merge(-shear(2), shear(1), end == 1)
         if (end == 1) moment = moment([2, 1])
@@ -141,8 +143,8 @@ contains
         end if
     end function is_pressed
 
-    !> A zone that reaches a node leaves it, or goes on beyond it, where moments do not vanish there, and leaves it where the ground
-    !> would have to pull
+    !> A zone that reaches a node leaves it, or goes on beyond it, where its moment is not that of the node, and leaves it where the
+    !> ground would have to pull
     subroutine leave_node(ground, rigid, contact, i, end, at)
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(inout) :: rigid
@@ -151,7 +153,7 @@ contains
         integer, intent(in) :: i, end
         !> Distance of that end of the zone from the left end of the piece
         real(wp), intent(inout) :: at
-        real(wp) :: moment, couple, pull, step, q
+        real(wp) :: moment, couple, kink, pull, step, q
         logical :: goes_on, bends
         integer :: node, border, other, layer
 
@@ -161,12 +163,19 @@ contains
             couple = beam%couple(1, node) + rigid%factor*beam%couple(2, node)
             moment = merge(answer%moment_left + couple, answer%moment_right - couple, end == 1)
             goes_on = is_zone_beyond(rigid, i, end)
-            if (goes_on) moment = couple
-            bends = abs(moment) > rigid%noise%moment
-            if (beam%kind(node) == hinge) bends = .false.
-            if (beam%kind(node) == restrained) bends = bends .and. beam%compliance(node) > 0.0_wp
             other = contact%piece + merge(-1, 1, end == 1)
+            kink = 0.0_wp
+            if (other >= 1 .and. other <= size(ground%pieces)) kink = straightened(ground, rigid, other)
+            if (goes_on) moment = kink + merge(couple, -couple, end == 1)
+            if (beam%kind(node) == hinge) moment = 0.0_wp
+            associate (held => straightened(ground, rigid, contact%piece))
+                bends = abs(moment - held) > rigid%noise%moment
+                kink = kink - held
+            end associate
+            if (beam%kind(node) == restrained) bends = bends .and. beam%compliance(node) > 0.0_wp
             layer = layer_beyond(ground, contact, other)
+            ! Nor does it go on where the curvature is another one
+            if (abs(kink) > rigid%noise%moment) layer = 0
             step = 0.0_wp
             if (bends .and. layer > 0 .and. .not. (goes_on .or. abs(couple) > 0.0_wp)) step = outward(ground, rigid, i, end, side)
             if (step > 0.0_wp) then

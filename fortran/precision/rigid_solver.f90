@@ -18,7 +18,7 @@ module gapbeam_rigid_solver
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_rigid_contact_quad, only: fine_contact_type => contact_type, same_line
-    use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type
+    use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type, straightened
     use gapbeam_rigid_ground_quad, only: settle_fine_contacts => settle_contacts
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
     implicit none
@@ -182,8 +182,8 @@ contains
         associate (z => rigid%zones, answers => rigid%work%answers)
             do i = 1, size(z%piece)
                 if (all(z%acts(:, i) == 0)) cycle
-                answers(i - 1)%moment_right = 0.0_qp
-                answers(i)%moment_left = 0.0_qp
+                answers(i - 1)%moment_right = straightened(fine, rigid, z%piece(i))
+                answers(i)%moment_left = answers(i - 1)%moment_right
             end do
             allocate (acting(size(rigid%grounded%beam%supports)))
             acting(:) = .true.

@@ -62,8 +62,8 @@ contains
                 problem = "the beam is rigid there, too"
             else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
                 problem = "the beam has a finite GA there"
-            else if (abs(dead%kappa) + abs(live%kappa) > 0.0_wp .or. bends(dead) .or. bends(live)) then
-                problem = "an imposed curvature acts there"
+            else if (bends(dead) .or. bends(live)) then
+                problem = "a load turns the beam at a place there"
             end if
         end associate
         if (.not. allocated(problem)) return

@@ -26,12 +26,14 @@ def excess(scene: dict, result) -> dict[str, float]:
     step, beam, inf = result.steps[-1], scene["beam"], float("inf")
     ends = np.append(0.0, np.cumsum(beam["spans"]))
     length = float(ends[-1])
-    forces, couples, lines = [], [], []
+    forces, couples, lines, bends = [], [], [], []
     for load in scene["loads"]:
         if load["type"] == "force":
             forces.append((load["x"], load["F"]))
         elif load["type"] == "moment":
             couples.append((load["x"], load["M"]))
+        elif load["type"] == "curvature":
+            bends.append((load.get("from", 0.0), load.get("to", length), load["kappa"]))
         else:
             q = load["q"] if isinstance(load["q"], list) else [load["q"]] * 2
             lines.append((load.get("from", 0.0), load.get("to", length), *q))
@@ -41,7 +43,7 @@ def excess(scene: dict, result) -> dict[str, float]:
         *ends,
         *(x for x, _ in forces + couples),
         *beam.get("hinges", ()),
-        *(x for line in lines for x in line[:2]),
+        *(x for line in lines + bends for x in line[:2]),
     ]
     places += [x for c in step.contact for x in (c.from_, c.to)]
     for f in scene["foundation"]:
@@ -62,6 +64,7 @@ def excess(scene: dict, result) -> dict[str, float]:
     w, psi, moment, shear = float(at.deflection[0]), float(at.rotation[0]), 0.0, 0.0
     found = dict.fromkeys(("equilibrium", "bending", "through", "touch", "pull", "supports"), 0.0)
     levels = [float(np.abs(level(f, places, length)).max()) for f in scene["foundation"]]
+    size["moment"] += max((abs(value) for *_, value in bends), default=0.0) * max(beam["EI"])
     size["deflection"] = max(
         *levels,
         size["moment"] * length**2 / min(beam["EI"]),
@@ -90,8 +93,9 @@ def excess(scene: dict, result) -> dict[str, float]:
             p -= pressure
         t = np.linspace(0.0, 1.0, SAMPLES) * h
         fall = (p[1] - p[0]) / h
+        kappa = sum(value for a, b, value in bends if a < middle < b)
         along = (
-            w + psi * t - (moment * t**2 / 2 + shear * t**3 / 6 - p[0] * t**4 / 24 - fall * t**5 / 120) / ei
+            w + psi * t + kappa * t**2 / 2 - (moment * t**2 / 2 + shear * t**3 / 6 - p[0] * t**4 / 24 - fall * t**5 / 120) / ei
         )
         told = result.at(x + t).deflection
         found["bending"] = max(found["bending"], float(np.abs(along - told)[1:-1].max()) / size["deflection"])
@@ -103,7 +107,7 @@ def excess(scene: dict, result) -> dict[str, float]:
             found["through"] = max(found["through"], float(depth.max()) / size["deflection"])
             if any(c.from_ < middle < c.to for c in zones):
                 found["touch"] = max(found["touch"], float(np.abs(depth).max()) / size["deflection"])
-        psi -= (moment * h + shear * h**2 / 2 - p[0] * h**3 / 6 - fall * h**4 / 24) / ei
+        psi += kappa * h - (moment * h + shear * h**2 / 2 - p[0] * h**3 / 6 - fall * h**4 / 24) / ei
         w = float(along[-1])
         moment += shear * h - p[0] * h**2 / 2 - fall * h**3 / 6
         shear -= p.sum() / 2 * h

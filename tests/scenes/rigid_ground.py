@@ -5,12 +5,14 @@ import random
 from itertools import pairwise
 
 
-def rigid_scene(seed):
+def rigid_scene(seed, warm=False):
     """A scene of one to three spans on one or two rigid foundations below.
 
     Parameters
     ----------
     seed : int
+    warm : bool
+        Also with imposed curvatures.
 
     Returns
     -------
@@ -35,6 +37,10 @@ def rigid_scene(seed):
         else:
             left, right = sorted(rng.uniform(0, length) for _ in range(2))
             loads.append({"type": "linear", "from": left, "to": right, "q": [rng.uniform(-5, 15), rng.uniform(-5, 15)]})
+    for _ in range(rng.randint(1, 2) if warm else 0):
+        left, right = sorted(rng.choice((0.0, length, rng.uniform(0, length))) for _ in range(2))
+        if left < right:
+            loads.append({"type": "curvature", "from": left, "to": right, "kappa": rng.uniform(-2e-3, 2e-3)})
     return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
 
 
@@ -88,6 +94,8 @@ def turned_round(scene):
     for load in scene["loads"]:
         if load["type"] == "uniform":
             loads.append(load)
+        elif load["type"] == "curvature":
+            loads.append(load | {"from": length - load["to"], "to": length - load["from"]})
         elif load["type"] == "linear":
             loads.append(load | {"from": length - load["to"], "to": length - load["from"], "q": load["q"][::-1]})
         else:
@@ -112,7 +120,7 @@ def upside_down(scene):
     ]
     loads = []
     for load in scene["loads"]:
-        key = {"force": "F", "moment": "M"}.get(load["type"], "q")
+        key = {"force": "F", "moment": "M", "curvature": "kappa"}.get(load["type"], "q")
         value = load[key]
         loads.append(load | {key: [-one for one in value] if isinstance(value, list) else -value})
     return {"beam": scene["beam"], "supports": supports, "foundation": ground, "loads": loads}
