@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 import msgspec
@@ -70,6 +70,9 @@ def proof_data(
     for k, load in enumerate(scene.loads):
         if moves_ground(load):
             raise SceneError(f"loads[{k}]", "proofs do not know ground that moves; write it as the gap of the foundation")
+    for k, ground in enumerate(scene.foundation):
+        if ground.k == inf:
+            raise SceneError(f"foundation[{k}].k", "proofs do not know rigid ground; give it a stiffness")
     at = scene.analysis.history[-1] if factor is None else factor
     if not isfinite(at):
         raise SceneError("--factor", f"expected a finite number, got {shown(at)}")

@@ -351,3 +351,18 @@ def test_the_attack_sees_what_the_checker_refutes(monkeypatch):
     monkeypatch.setattr(proofs, "proof_data", wrong)
     assert proofs.proof_faults(made, 0) == ["proof: refuted: support 0 is not open"]
     assert proofs.proof_faults(made, 1) == []  # another seed than those of the sample
+
+
+@pytest.mark.parametrize(
+    ("keys", "problem"),
+    [
+        ({"foundation": [{"k": float("inf"), "side": "below"}]}, r"foundation\[0\].k: proofs do not know rigid ground"),
+        (
+            {"foundation": [{"k": 2.0, "side": "below"}], "loads": [{"type": "movement", "foundation": 0, "value": 0.1}]},
+            r"loads\[0\]: proofs do not know ground that moves",
+        ),
+    ],
+)
+def test_what_no_proof_knows(keys, problem):
+    with pytest.raises(gapbeam.SceneError, match=problem):
+        proof_data({**scene([6.0], [], [uniform(1.0)]), **keys})
