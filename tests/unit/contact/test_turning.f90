@@ -5,7 +5,7 @@ program test_turning
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_band, only: hinge
-    use gapbeam_model, only: node_support_type, order_supports, below, above, both
+    use gapbeam_model, only: node_support_type, order_supports, below, above, both, of_node, of_hinge
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: outcome_type
@@ -63,7 +63,7 @@ contains
         supports(7:8) = rigid_plastic(5, 1.0_wp)
         call make_beam([0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp], supports(1:2), sample)
         sample%beam%turning = [0, 2, 1]
-        sample%beam%relative = [.false., .false., .true.]
+        sample%beam%turned = [of_node, of_node, of_hinge]
         sample%beam%kind(1) = hinge
         call order_supports(supports, sample%beam)
         closed = [.true., .true., .true., .false., .true., .false., .true., .false.]
@@ -105,7 +105,7 @@ contains
         call make_beam([0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp], supports(1:2), sample)
         sample%beam%kind(2) = 2
         sample%beam%turning = [0, 1]
-        sample%beam%relative = [.false., .true.]
+        sample%beam%turned = [of_node, of_hinge]
         sample%beam%kind(1) = hinge
         call order_supports(supports, sample%beam)
         closed = .false.
@@ -138,7 +138,7 @@ contains
         supports(3) = node_support_type(2, below, infinite(), 0.0_wp)
         call make_beam([1.0_wp], [1.0_wp], [0.0_wp], [1.0_wp], supports(1:2), sample)
         sample%beam%turning = [0]
-        sample%beam%relative = [.false.]
+        sample%beam%turned = [of_node]
         call order_supports(supports, sample%beam)
         closed = .true.
         call solve(sample, 8.0_wp, closed, work, outcome)

@@ -158,8 +158,8 @@ contains
         end do
     end subroutine joints
 
-    !> A node with a compliant joint that is bent from the start, a hinge with a known moment, each with a restraint left or right of
-    !> it, or with a couple, or neither
+    !> A node with a compliant joint that is bent from the start, or a hinge with a known moment: each with a restraint left or
+    !> right of it, with a couple, or with neither
     recursive subroutine join(how, node, r)
         integer, intent(in) :: how
         type(node_type), intent(inout) :: node
