@@ -479,7 +479,7 @@ class CBeam:
 
     def follow_ground(self, factor, rule="block"):
         """Status and events of a beam on foundations: factor, support, foundation, place, change, branch."""
-        options, number, most = Options(c.sizeof(Options), RULES[rule], 0), c.c_int(-1), 1000
+        options, number, most = Options(c.sizeof(Options), RULES[rule], 0), c.c_int(0), 1000
         values, codes = np.empty((2, most)), np.empty((4, most), np.int32)
         status = self.c.gapbeam_follow_ground(
             self.handle, c.c_double(factor), c.byref(options), most, pointer(values[0]), *map(pointer, codes[:3]),
