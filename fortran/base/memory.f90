@@ -16,7 +16,7 @@ module gapbeam_memory
     !> Bytes it takes for every link, every support and every piece: one and a half times the most that was measured, of beams in
     !> which the search goes through part after part (test_memory.c and test_memory.py show that it is enough); on
     !> the ground of beams on uneven ground with a law of three pieces, which went through it at every point
-    integer(int64), parameter :: per_link(9) = [2800, 5400, 5400, 9600, 6400, 48, 25600, 64, 600], &
+    integer(int64), parameter :: per_link(9) = [2850, 5500, 5450, 9700, 6500, 48, 25800, 64, 600], &
         per_support(9) = [200, 600, 500, 1000, 600, 0, 1000, 64, 600], per_piece(9) = [0, 350, 0, 350, 600, 100, 0, 300, 5000]
     !> Bytes for small arrays and the allocator itself
     integer(int64), parameter :: besides = 65536

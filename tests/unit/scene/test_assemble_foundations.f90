@@ -295,7 +295,8 @@ contains
         call expect(foundation_type(), bad_law, "k", "it never carries")
         call expect(foundation_type(k=-1.0_wp), not_expected, "k", "a modulus below 0")
         call expect(foundation_type(k=1.0_wp, k_to=nan), not_expected, "k", "a modulus that is no number")
-        call expect(foundation_type(k=gapbeam_infinity), bad_law, "k", "a rigid foundation")
+        call expect(foundation_type(k=gapbeam_infinity), bad_law, "side", "rigid ground that holds both ways")
+        call expect(foundation_type(k=1.0_wp, k_to=gapbeam_infinity, side=gapbeam_below), bad_law, "k", "ground rigid at one end")
         call expect(foundation_type(k=1.0_wp, side=7), not_expected, "side", "no side")
         call expect(foundation_type(k=1.0_wp, side=gapbeam_below, gap=nan), not_expected, "gap", "a gap that is no number")
         call expect(foundation_type(k=1.0_wp, side=gapbeam_below, gap=0.1_wp), bad_law, "", "a gap and a profile", &
