@@ -174,6 +174,7 @@ contains
         integer, allocatable :: ways(:)
         integer :: m, stat
 
+        m = 0
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) then
             m = count_supports(prepared%beam)

@@ -25,10 +25,11 @@ contains
     function warm_bar() result(model)
         type(model_type) :: model
 
-        model%spans = [span_type(length, EI=1e3_wp, EA=EA)]
-        model%supports = [support_type(node=0), support_type(node=1), support_type(node=0, direction=gapbeam_axial)]
-        model%loads = [uniform_load(8.0_wp, from=0.0_wp, to=length, case=gapbeam_dead), &
-                       temperature_load(0.0_wp, strain, from=0.0_wp, to=length)]
+        allocate (model%spans, source=[span_type(length, EI=1e3_wp, EA=EA)])
+        allocate (model%supports, &
+                  source=[support_type(node=0), support_type(node=1), support_type(node=0, direction=gapbeam_axial)])
+        allocate (model%loads, source=[uniform_load(8.0_wp, from=0.0_wp, to=length, case=gapbeam_dead), &
+                                       temperature_load(0.0_wp, strain, from=0.0_wp, to=length)])
     end function warm_bar
 
     !> Is a number another one, but for rounding
