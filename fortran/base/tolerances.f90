@@ -21,7 +21,7 @@ module gapbeam_tolerances
     public :: everywhere, audit_allows, movement_safety, fine_error, upward, rough, nearly_settled, fine_ends, movable_ends
     public :: no_displacement, min_tied_zone, least_tied_share, no_tied_force, no_ground_work, fine_rounding, near_motion
     public :: ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance, same_extreme
-    public :: rigid_noise, shortest_zone, rigid_places, fine_rigid_places
+    public :: rigid_noise, shortest_zone, same_level, rigid_places, fine_rigid_places
     public :: worst_shear_digits, largest_error_share, second_order, greatest_squared, smallest_squared, greatest_product
     public :: smallest_product, least_load, unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error
 
@@ -289,6 +289,9 @@ module gapbeam_tolerances
     !> Deflections, moments and forces of a smaller share of the greatest are nothing where it is asked whether a beam touches rigid
     !> ground; tuned. Read by contact/rigid_state
     real(wp), parameter :: rigid_noise = 2.0_wp**20*epsilon(1.0_wp)
+    !> Levels of rigid ground whose difference is a smaller share of them are one: rounding of data, which are doubles in any
+    !> precision. Read by contact/rigid_contact, contact/rigid_order
+    real(wp), parameter :: same_level = 16*real(epsilon(1.0_dp), wp)
     !> Zones on rigid ground that shrink below this share of their piece are single places; tuned. Read by contact/rigid_zones
     real(wp), parameter :: shortest_zone = 2.0_wp**(-26)
     !> Share of the beam by which places of contact with rigid ground may still move in double precision: its square is nothing.

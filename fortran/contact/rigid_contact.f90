@@ -4,11 +4,12 @@
 !> single places the ground pushes with point forces. So a zone parts the beam: beyond its ends deflection and slope are known.
 module gapbeam_rigid_contact
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: same_level
     use gapbeam_ground_laws, only: contact_line
     use gapbeam_ground, only: ground_type, zones_type, new_zones
     implicit none
     private
-    public :: contact_type, hold_type, lay_out, level_of, slope_of, binding_layer, same_line
+    public :: contact_type, hold_type, lay_out, level_of, slope_of, place_at_node, binding_layer, same_line, layer_beyond
 
     !> A place at which the beam touches a layer, or a zone
     type :: contact_type
@@ -67,13 +68,27 @@ contains
         real(wp) :: rounding
 
         associate (a => ground%layers(layers(1)), b => ground%layers(layers(2)))
-            ! Data are doubles in any precision
-            rounding = 16*real(epsilon(1.0d0), wp)*max(abs(a%contact_a), abs(a%contact_b), abs(b%contact_a), abs(b%contact_b))
+            rounding = same_level*max(abs(a%contact_a), abs(a%contact_b), abs(b%contact_a), abs(b%contact_b))
             same = a%side == b%side .and. abs(a%contact_b - b%contact_a) <= rounding .and. &
                 abs(slope_of(ground, piece, layers(1)) - slope_of(ground, piece + 1, layers(2))) &
                 *min(ground%pieces(piece)%length, ground%pieces(piece + 1)%length) <= 2*rounding
         end associate
     end function same_line
+
+    !> The layer that goes on in the piece before or after, 0: none does
+    pure function layer_beyond(ground, piece, layer, other) result(beyond)
+        type(ground_type), intent(in) :: ground
+        !> A piece and a layer of it, and the piece beside, which need not exist
+        integer, intent(in) :: piece, layer, other
+        integer :: beyond
+
+        beyond = 0
+        if (other < 1 .or. other > size(ground%pieces)) return
+        do beyond = ground%first(other), ground%first(other + 1) - 1
+            if (same_line(ground, min(piece, other), merge([layer, beyond], [beyond, layer], other > piece))) return
+        end do
+        beyond = 0
+    end function layer_beyond
 
     !> The layer of a side that stops the beam first at a node, 0: there is none
     pure function binding_layer(ground, node, side) result(layer)
@@ -94,6 +109,20 @@ contains
             end do
         end do
     end function binding_layer
+
+    !> The single place where a layer ends at a node
+    pure function place_at_node(ground, node, layer) result(place)
+        type(ground_type), intent(in) :: ground
+        integer, intent(in) :: node, layer
+        type(contact_type) :: place
+        integer :: piece
+        real(wp) :: at
+
+        piece = max(1, node)
+        if (layer < ground%first(piece) .or. layer >= ground%first(piece + 1)) piece = piece + 1
+        at = merge(ground%pieces(piece)%length, 0.0_wp, piece == node)
+        place = contact_type(piece, layer, at, at)
+    end function place_at_node
 
     !> Stretches between contacts, and what holds the beam at their ends
     subroutine lay_out(ground, contacts, zones, holds, place)

@@ -1,9 +1,10 @@
 !> Zones and places in which a beam touches rigid ground, found by Newton's method.
 !>
-!> At the end of a zone the moment vanishes, and where the beam touches at a single place it is parallel to the ground. On contacts
-!> whose ends are off by e the beam is off by the order of e**2 or less, since what it is held to there is what it comes to by
-!> itself: so each goes where moment or slope would vanish, and they converge quadratically without any equation of their own.
-!> Where the beam goes through the ground it is stopped, and what would have to pull lets go.
+!> At the end of a zone the moment vanishes. On zones whose ends are off by e the beam is off by the order of e**2 or less, since
+!> what it is held to there is what it comes to by itself: so each end goes where the moment would vanish, and they converge
+!> quadratically without any equation of their own. Where the beam touches at a single place it is parallel to the ground, and a
+!> spring there tells how far the place has to go (rigid_held, fix_slope). Where the beam goes through the ground it is stopped,
+!> and what would have to pull lets go.
 module gapbeam_rigid_ground
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_rigid_rounds
@@ -14,7 +15,7 @@ module gapbeam_rigid_ground
     use gapbeam_rigid_contact, only: contact_type
     use gapbeam_rigid_held, only: solve_held
     use gapbeam_rigid_order, only: put_in_order
-    use gapbeam_rigid_state, only: rigid_type, find_noise
+    use gapbeam_rigid_state, only: rigid_type, find_noise, is_zone
     use gapbeam_rigid_zones, only: move_zone
     use gapbeam_rigid_places, only: move_place, stop_beam
     implicit none
@@ -93,7 +94,7 @@ contains
             end if
         end do
         do i = 1, size(rigid%zones%piece)
-            if (all(rigid%zones%acts(:, i) == 0)) call stop_beam(ground, rigid, i)
+            if (.not. is_zone(rigid, i)) call stop_beam(ground, rigid, i)
         end do
         call put_in_order(ground, rigid%found, rigid%number)
     end subroutine move_contacts

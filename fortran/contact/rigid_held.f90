@@ -11,7 +11,7 @@ module gapbeam_rigid_held
     use gapbeam_zone_fields, only: fields_at_ends
     use gapbeam_ground, only: ground_type, grounded_type, place_stretches
     use gapbeam_rigid_contact, only: hold_type, lay_out
-    use gapbeam_rigid_state, only: rigid_type
+    use gapbeam_rigid_state, only: rigid_type, is_zone
     implicit none
     private
     public :: solve_held
@@ -120,11 +120,11 @@ contains
 
         associate (beam => rigid%grounded%beam)
             missing = beam%force(1, border) + factor*beam%force(2, border)
-            if (is_free(border)) then
+            if (border > 0 .and. .not. is_zone(rigid, border)) then
                 call fields_at_ends(rigid%grounded, factor, rigid%work, border, rotation, shear)
                 missing = missing - shear(2)
             end if
-            if (is_free(border + 1)) then
+            if (border < size(rigid%zones%piece) .and. .not. is_zone(rigid, border + 1)) then
                 call fields_at_ends(rigid%grounded, factor, rigid%work, border + 1, rotation, shear)
                 missing = missing + shear(1)
             end if
@@ -132,18 +132,6 @@ contains
                 if (beam%supports(k)%node == border) missing = missing - rigid%work%reaction(k)
             end do
         end associate
-
-    contains
-
-        !> Is there a stretch that is no zone
-        pure function is_free(stretch)
-            integer, intent(in) :: stretch
-            logical :: is_free
-
-            is_free = .false.
-            if (stretch >= 1 .and. stretch <= size(rigid%zones%piece)) is_free = all(rigid%zones%acts(:, stretch) == 0)
-        end function is_free
-
     end function balance
 
     !> Does a rigid support hold the beam just where the ground is
@@ -152,15 +140,9 @@ contains
         logical, intent(in) :: acting(:)
         type(hold_type), intent(in) :: hold
         logical :: held
-        integer :: k
 
-        held = .false.
-        do k = 1, size(supports)
-            associate (support => supports(k))
-                if (support%node /= hold%border .or. .not. (is_rigid(support) .and. acting(k))) cycle
-                held = held .or. (support%side /= -hold%side .and. .not. abs(support%contact - hold%level) > 0.0_wp)
-            end associate
-        end do
+        held = any(supports%node == hold%border .and. is_rigid(supports) .and. acting(:size(supports)) .and. &
+                   supports%side /= -hold%side .and. .not. abs(supports%contact - hold%level) > 0.0_wp)
     end function is_held_there
 
     !> Does a rigid support stop the beam there before the ground does, or where that does
@@ -168,16 +150,9 @@ contains
         type(node_support_type), intent(in) :: supports(:)
         type(hold_type), intent(in) :: hold
         logical :: does
-        integer :: k
 
-        does = .false.
-        do k = 1, size(supports)
-            associate (support => supports(k))
-                if (support%node /= hold%border .or. .not. is_rigid(support)) cycle
-                does = does .or. support%side == both .or. &
-                    (support%side == hold%side .and. hold%side*(support%contact - hold%level) <= 0.0_wp)
-            end associate
-        end do
+        does = any(supports%node == hold%border .and. is_rigid(supports) .and. (supports%side == both .or. &
+                   (supports%side == hold%side .and. hold%side*(supports%contact - hold%level) <= 0.0_wp)))
     end function stops_before
 
     !> Fix the slope where a zone begins or ends, and reckon rotations from it. At a single place a spring turns the beam there:

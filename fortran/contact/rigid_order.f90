@@ -1,6 +1,7 @@
 !> Contacts with rigid ground in order from left to right, joined where they overlap, and apart where the ground has corners.
 module gapbeam_rigid_order
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: same_level
     use gapbeam_ground, only: ground_type
     use gapbeam_rigid_contact, only: contact_type, binding_layer, same_line
     implicit none
@@ -96,7 +97,7 @@ contains
             logical :: meets
 
             associate (a => ground%layers(layers(1))%contact_b, b => ground%layers(layers(2))%contact_a)
-                meets = abs(a - b) <= 16*real(epsilon(1.0d0), wp)*max(abs(a), abs(b))
+                meets = abs(a - b) <= same_level*max(abs(a), abs(b))
             end associate
         end function meets
 

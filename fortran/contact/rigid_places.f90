@@ -6,8 +6,8 @@ module gapbeam_rigid_places
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_zone_fields, only: ends_of, fields_at_ends
     use gapbeam_ground, only: ground_type, combined_load
-    use gapbeam_rigid_contact, only: contact_type, level_of, slope_of, binding_layer
-    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, straightened
+    use gapbeam_rigid_contact, only: contact_type, level_of, slope_of, place_at_node, binding_layer
+    use gapbeam_rigid_state, only: rigid_type, hold_at, add, straightened
     implicit none
     private
     public :: move_place, stop_beam
@@ -119,14 +119,11 @@ contains
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(inout) :: rigid
         integer, intent(in) :: node, border, side
-        integer :: layer, piece
 
         if (hold_at(rigid, border, side) > 0) return
-        layer = binding_layer(ground, node, side)
-        piece = max(1, node)
-        if (layer < ground%first(piece) .or. layer >= ground%first(piece + 1)) piece = piece + 1
-        associate (w => rigid%work%answers(border)%deflection, at => merge(ground%pieces(piece)%length, 0.0_wp, piece == node))
-            if (side*(w - level_of(ground, piece, layer, at)) > rigid%noise%deflection) call add_at_node(ground, rigid, node, side)
+        associate (w => rigid%work%answers(border)%deflection, &
+                   place => place_at_node(ground, node, binding_layer(ground, node, side)))
+            if (side*(w - level_of(ground, place%piece, place%layer, place%from)) > rigid%noise%deflection) call add(rigid, place)
         end associate
     end subroutine stop_at_node
 

@@ -3,11 +3,12 @@ module gapbeam_rigid_state
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: rigid_noise
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type
-    use gapbeam_rigid_contact, only: contact_type, hold_type, binding_layer, same_line
+    use gapbeam_ground_laws, only: along
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
+    use gapbeam_rigid_contact, only: contact_type, hold_type, place_at_node, binding_layer
     implicit none
     private
-    public :: rigid_type, find_noise, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load, straightened
+    public :: rigid_type, find_noise, hold_at, add, add_at_node, is_zone, load_at, straightened
 
     !> What is nothing beside rounding
     type :: noise_type
@@ -78,48 +79,21 @@ contains
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(inout) :: rigid
         integer, intent(in) :: node, side
-        integer :: layer, piece
-
-        layer = binding_layer(ground, node, side)
-        if (layer == 0) return
-        piece = max(1, node)
-        if (layer < ground%first(piece) .or. layer >= ground%first(piece + 1)) piece = piece + 1
-        associate (at => merge(ground%pieces(piece)%length, 0.0_wp, piece == node))
-            call add(rigid, contact_type(piece, layer, at, at))
-        end associate
-    end subroutine add_at_node
-
-    !> The layer that goes on in the next piece, 0: none does
-    function layer_beyond(ground, contact, other) result(layer)
-        type(ground_type), intent(in) :: ground
-        type(contact_type), intent(in) :: contact
-        integer, intent(in) :: other
         integer :: layer
 
-        layer = 0
-        if (other < 1 .or. other > size(ground%pieces)) return
-        do layer = ground%first(other), ground%first(other + 1) - 1
-            if (other > contact%piece) then
-                if (same_line(ground, contact%piece, [contact%layer, layer])) return
-            else
-                if (same_line(ground, other, [layer, contact%layer])) return
-            end if
-        end do
-        layer = 0
-    end function layer_beyond
+        layer = binding_layer(ground, node, side)
+        if (layer > 0) call add(rigid, place_at_node(ground, node, layer))
+    end subroutine add_at_node
 
-    !> Does the zone go on in the next piece
-    function is_zone_beyond(rigid, i, end) result(is_zone)
+    !> Is there a stretch that is a zone
+    pure function is_zone(rigid, i)
         type(rigid_type), intent(in) :: rigid
-        integer, intent(in) :: i, end
+        integer, intent(in) :: i
         logical :: is_zone
-        integer :: other
 
         is_zone = .false.
-        other = i + merge(-1, 1, end == 1)
-        if (other < 1 .or. other > size(rigid%zones%piece)) return
-        is_zone = any(rigid%zones%acts(:, other) > 0)
-    end function is_zone_beyond
+        if (i >= 1 .and. i <= size(rigid%zones%piece)) is_zone = any(rigid%zones%acts(:, i) > 0)
+    end function is_zone
 
     !> Moment that holds a piece straight against the curvature imposed on it
     pure function straightened(ground, rigid, piece) result(moment)
@@ -131,18 +105,17 @@ contains
         moment = (ground%dead(piece)%kappa + rigid%factor*ground%live(piece)%kappa)/ground%pieces(piece)%flexibility
     end function straightened
 
-    !> Load per length at a distance from the left end of a piece
-    pure function along_load(ground, rigid, piece, at) result(q)
+    !> Load per length at distances from the left end of a piece, which the ground takes where the beam lies on it
+    pure function load_at(ground, rigid, piece, distance) result(q)
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(in) :: rigid
         integer, intent(in) :: piece
-        real(wp), intent(in) :: at
-        real(wp) :: q, ends(2)
+        real(wp), intent(in) :: distance(2)
+        real(wp) :: q(2)
 
-        associate (dead => ground%dead(piece), live => ground%live(piece))
-            ends = [dead%qa, dead%qb] + rigid%factor*[live%qa, live%qb]
+        associate (load => combined_load(ground%dead(piece), ground%live(piece), rigid%factor))
+            q = along(load%qa, load%qb, distance, ground%pieces(piece)%length)
         end associate
-        q = ends(1) + (ends(2) - ends(1))*(at/ground%pieces(piece)%length)
-    end function along_load
+    end function load_at
 
 end module gapbeam_rigid_state

@@ -5,9 +5,8 @@ module gapbeam_rigid_zones
     use gapbeam_band, only: hinge, restrained
     use gapbeam_zone_fields, only: fields_at_ends
     use gapbeam_ground, only: ground_type
-    use gapbeam_rigid_contact, only: contact_type
-    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, layer_beyond, is_zone_beyond, along_load, &
-        straightened
+    use gapbeam_rigid_contact, only: contact_type, layer_beyond
+    use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, is_zone, load_at, straightened
     implicit none
     private
     public :: move_zone
@@ -39,7 +38,7 @@ contains
             else
                 call leave_node(ground, rigid, contact, i, 1, next%from)
             end if
-            q = side*[along_load(ground, rigid, contact%piece, next%from), along_load(ground, rigid, contact%piece, next%to)]
+            q = side*load_at(ground, rigid, contact%piece, [next%from, next%to])
             if (all(q < 0.0_wp) .or. next%to - next%from <= min(shortest_zone*length, (contact%to - contact%from)/2)) then
                 next%from = (contact%from + contact%to)/2
                 next%to = next%from
@@ -121,7 +120,7 @@ contains
         real(wp), intent(in) :: moment(2), turn
         logical :: pressed
         real(wp) :: fall
-        integer :: piece, layer
+        integer :: piece, other, layer
 
         pressed = .false.
         if (far == 0 .or. moment(1) >= 0.0_wp .or. moment(2) > rigid%noise%moment) return
@@ -136,10 +135,11 @@ contains
         piece = rigid%zones%piece(beyond)
         layer = rigid%holds(far)%layer
         if (merge(rigid%zones%from(beyond) > 0.0_wp, rigid%zones%to(beyond) < ground%pieces(piece)%length, end == 1)) return
+        other = piece + merge(-1, 1, end == 1)
         if (layer >= ground%first(piece) .and. layer < ground%first(piece + 1)) then
-            pressed = layer_beyond(ground, contact_type(piece, layer), piece + merge(-1, 1, end == 1)) > 0
+            pressed = layer_beyond(ground, piece, layer, other) > 0
         else
-            pressed = layer_beyond(ground, contact_type(piece + merge(-1, 1, end == 1), layer), piece) > 0
+            pressed = layer_beyond(ground, other, layer, piece) > 0
         end if
     end function is_pressed
 
@@ -153,7 +153,7 @@ contains
         integer, intent(in) :: i, end
         !> Distance of that end of the zone from the left end of the piece
         real(wp), intent(inout) :: at
-        real(wp) :: moment, couple, kink, pull, step, q
+        real(wp) :: moment, couple, kink, pull, step, q(2)
         logical :: goes_on, bends
         integer :: node, border, other, layer
 
@@ -162,7 +162,7 @@ contains
         associate (beam => ground%beam, answer => rigid%work%answers(border), side => ground%layers(contact%layer)%side)
             couple = beam%couple(1, node) + rigid%factor*beam%couple(2, node)
             moment = merge(answer%moment_left + couple, answer%moment_right - couple, end == 1)
-            goes_on = is_zone_beyond(rigid, i, end)
+            goes_on = is_zone(rigid, i + merge(-1, 1, end == 1))
             other = contact%piece + merge(-1, 1, end == 1)
             kink = 0.0_wp
             if (other >= 1 .and. other <= size(ground%pieces)) kink = straightened(ground, rigid, other)
@@ -173,7 +173,7 @@ contains
                 kink = kink - held
             end associate
             if (beam%kind(node) == restrained) bends = bends .and. beam%compliance(node) > 0.0_wp
-            layer = layer_beyond(ground, contact, other)
+            layer = layer_beyond(ground, contact%piece, contact%layer, other)
             ! Nor does it go on where the curvature is another one
             if (abs(kink) > rigid%noise%moment) layer = 0
             step = 0.0_wp
@@ -190,8 +190,8 @@ contains
                 if (.not. (bends .or. pull > rigid%noise%force)) return
                 step = (rigid%zones%to(i) - rigid%zones%from(i))/4
                 ! A bar that a force lifts at its end lifts so far
-                q = side*along_load(ground, rigid, contact%piece, at)
-                if (.not. bends .and. q > 0.0_wp) step = min(step, 2*pull/q)
+                q = side*load_at(ground, rigid, contact%piece, [at, at])
+                if (.not. bends .and. q(1) > 0.0_wp) step = min(step, 2*pull/q(1))
                 at = at + merge(step, -step, end == 1)
                 if (bends .and. .not. goes_on) call add_at_node(ground, rigid, node, side)
             end if

@@ -17,8 +17,8 @@ module gapbeam_rigid_solver
     use gapbeam_rigid_search, only: touch_on_mesh
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
-    use gapbeam_rigid_contact_quad, only: fine_contact_type => contact_type, same_line
-    use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type, straightened
+    use gapbeam_rigid_contact_quad, only: fine_contact_type => contact_type, layer_beyond
+    use gapbeam_rigid_state_quad, only: fine_rigid_type => rigid_type, is_zone, load_at, straightened
     use gapbeam_rigid_ground_quad, only: settle_fine_contacts => settle_contacts
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
     implicit none
@@ -100,11 +100,11 @@ contains
         do j = 1, size(fine%pieces)
             do k = fine%first(j), fine%first(j + 1) - 1
                 ! Only where a line begins
-                if (goes_on(j - 1, k, .false.) > 0) cycle
+                if (layer_beyond(fine, j, k, j - 1) > 0) cycle
                 m = 1
                 line(1) = k
                 do
-                    next = goes_on(j + m - 1, line(m), .true.)
+                    next = layer_beyond(fine, j + m - 1, line(m), j + m)
                     if (next == 0) exit
                     m = m + 1
                     line(m) = next
@@ -119,25 +119,6 @@ contains
                 end do
             end do
         end do
-
-    contains
-
-        !> The layer on the same line beyond a node, 0: none
-        pure function goes_on(node, layer, to_right) result(other)
-            integer, intent(in) :: node, layer
-            logical, intent(in) :: to_right
-            integer :: other, piece, pair(2)
-
-            other = 0
-            if (node < 1 .or. node >= size(fine%pieces)) return
-            piece = merge(node + 1, node, to_right)
-            do other = fine%first(piece), fine%first(piece + 1) - 1
-                pair = merge([layer, other], [other, layer], to_right)
-                if (same_line(fine, node, pair)) return
-            end do
-            other = 0
-        end function goes_on
-
     end subroutine straighten
 
     !> Contacts in quadruple precision: what ends with a piece does so exactly
@@ -181,7 +162,7 @@ contains
 
         associate (z => rigid%zones, answers => rigid%work%answers)
             do i = 1, size(z%piece)
-                if (all(z%acts(:, i) == 0)) cycle
+                if (.not. is_zone(rigid, i)) cycle
                 answers(i - 1)%moment_right = straightened(fine, rigid, z%piece(i))
                 answers(i)%moment_left = answers(i - 1)%moment_right
             end do
@@ -206,26 +187,11 @@ contains
                 row = findloc(z%acts(:, i) > 0, .true., 1)
                 solution%pressure(:, i) = 0.0_wp
                 if (row == 0) cycle
-                q = load_at(z%piece(i), [z%from(i), z%to(i)])
+                q = load_at(fine, rigid, z%piece(i), [z%from(i), z%to(i)])
                 solution%pressure(:, i) = real(q, wp)
                 solution%resultant(row, i) = real((q(1) + q(2))/2*(z%to(i) - z%from(i)), wp)
             end do
         end associate
-
-    contains
-
-        !> Load at distances from the left end of a piece, which the ground takes where the beam lies on it
-        pure function load_at(piece, distance) result(load)
-            integer, intent(in) :: piece
-            real(qp), intent(in) :: distance(2)
-            real(qp) :: load(2), q(2)
-
-            associate (dead => fine%dead(piece), live => fine%live(piece), length => fine%pieces(piece)%length)
-                q = [dead%qa, dead%qb] + factor*[live%qa, live%qb]
-                load = q(1) + (q(2) - q(1))*(distance/length)
-            end associate
-        end function load_at
-
     end subroutine take_solution
 
 end module gapbeam_rigid_solver
