@@ -4,7 +4,6 @@ module gapbeam_check_rigid_ground
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_link, only: piece_load_type
     use gapbeam_scene, only: gapbeam_normal
     use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of
@@ -57,13 +56,11 @@ contains
         type(error_type), allocatable, intent(out) :: error
         character(len=:), allocatable :: problem
 
-        associate (dead => assembled%dead(piece), live => assembled%live(piece), ei => stiffness_of(assembled, piece, in_bending))
+        associate (ei => stiffness_of(assembled, piece, in_bending))
             if (ei > huge(ei)) then
                 problem = "the beam is rigid there, too"
             else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
                 problem = "the beam has a finite GA there"
-            else if (bends(dead) .or. bends(live)) then
-                problem = "a load turns the beam at a place there"
             end if
         end associate
         if (.not. allocated(problem)) return
@@ -71,14 +68,6 @@ contains
                            trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))//" "// &
                            problem//", which on rigid ground is not available in this version; give the ground a stiffness", error)
     end subroutine check_piece
-
-    !> Does a load turn the beam at an end of the piece
-    pure function bends(load)
-        type(piece_load_type), intent(in) :: load
-        logical :: bends
-
-        bends = abs(load%kink_a) + abs(load%kink_b) > 0.0_wp
-    end function bends
 
     !> A support over rigid ground: it must not hold the beam where the ground is, nor turn it elastically
     subroutine check_support(assembled, number, error)
@@ -92,13 +81,14 @@ contains
                    m => size(assembled%model%supports))
             level = s%settlement + s%side*s%gap
             do piece = max(1, point), min(point + 1, size(assembled%pieces))
+                if (assembled%layer_first(piece + 1) == assembled%layer_first(piece)) cycle
+                if (s%rotation > 0.0_wp .and. s%rotation <= huge(s%rotation)) then
+                    call refuse(error, of_supports, number, m, bad_law, "rotation", "a support that holds the rotation "// &
+                                "elastically is not available over rigid ground; hold it rigidly, or not")
+                    return
+                end if
+                if (.not. s%stiffness > huge(s%stiffness)) cycle
                 do k = assembled%layer_first(piece), assembled%layer_first(piece + 1) - 1
-                    if (s%rotation > 0.0_wp .and. s%rotation <= huge(s%rotation)) then
-                        call refuse(error, of_supports, number, m, bad_law, "rotation", "a support that holds the rotation "// &
-                                    "elastically is not available over rigid ground; hold it rigidly, or not")
-                        return
-                    end if
-                    if (.not. s%stiffness > huge(s%stiffness)) cycle
                     associate (layer => assembled%layers(k))
                         ground = merge(layer%contact_b, layer%contact_a, piece == point)
                         slack = position_tolerance*max(abs(level), abs(ground))

@@ -172,7 +172,7 @@ module gapbeam_scene
     !> A load; the functions below make one of each kind
     type :: load_type
         !> gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement,
-        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed or
+        !> gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed,
         !> gapbeam_ground_movement or gapbeam_linear_curvature
         integer :: kind
         !> gapbeam_live or gapbeam_dead
