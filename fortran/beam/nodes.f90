@@ -3,7 +3,7 @@ module gapbeam_nodes
     implicit none
     private
     public :: plain, hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right
-    public :: is_through, is_hinge, takes_left, takes_right
+    public :: is_through, is_hinge, is_restrained, takes_left, takes_right
 
     !> The moment is the same on both sides; it is known, mostly zero; a rotational restraint takes a share of it; it is the same,
     !> and turns what is on the two sides against each other
@@ -28,6 +28,14 @@ contains
 
         it_is = kind == hinge .or. kind == hinge_left .or. kind == hinge_right
     end function is_hinge
+
+    !> Does a rotational restraint take a share of the moment, on one side at least
+    elemental function is_restrained(kind) result(it_is)
+        integer, intent(in) :: kind
+        logical :: it_is
+
+        it_is = kind == restrained .or. kind >= hinge_left
+    end function is_restrained
 
     !> Is the moment left of a node an unknown for itself, since a restraint takes a share of it
     elemental function takes_left(kind) result(it_does)

@@ -2,7 +2,7 @@
 module gapbeam_reactions
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: support_block
-    use gapbeam_nodes, only: takes_left, takes_right
+    use gapbeam_nodes, only: is_restrained
     use gapbeam_law, only: share_forces
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, interval_type
@@ -171,7 +171,7 @@ contains
         do while (last < ubound(work%proximal_weight, 1))
             associate (node => work%nodes(last))
                 if (node%held .or. abs(node%stiffness) > work%proximal_weight(last)) return
-                if (takes_left(node%kind) .or. takes_right(node%kind)) return
+                if (is_restrained(node%kind)) return
             end associate
             last = last + 1
         end do

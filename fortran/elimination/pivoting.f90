@@ -7,8 +7,8 @@ module gapbeam_pivoting
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: pivot_hair
     use gapbeam_link, only: link_type
-    use gapbeam_nodes, only: hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, takes_left, &
-        takes_right
+    use gapbeam_nodes, only: hinge, restrained, jointed, hinge_left, hinge_right, joint_left, joint_right, &
+        is_restrained, takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_band_solver, only: solve_band
     implicit none
@@ -126,7 +126,7 @@ contains
             unknowns = unknowns + 1
             deflection(i) = unknowns
             right(i) = left(i)
-            if ((takes_left(nodes(i)%kind) .or. takes_right(nodes(i)%kind)) .and. i > 0 .and. i < n) then
+            if (is_restrained(nodes(i)%kind) .and. i > 0 .and. i < n) then
                 unknowns = unknowns + 1
                 right(i) = unknowns
             end if
@@ -158,7 +158,7 @@ contains
             integer, intent(in) :: i
 
             associate (node => nodes(i), r => rhs(i))
-                if (takes_left(node%kind) .or. takes_right(node%kind)) then
+                if (is_restrained(node%kind)) then
                     if (i > 0 .and. takes_left(node%kind)) then
                         call add_rotation(left(i), i, 1.0_wp, links(i)%fab, links(i)%fbb)
                         call put(left(i), left(i), -node%compliance)
@@ -252,7 +252,7 @@ contains
         real(wp) :: couple
 
         couple = 0.0_wp
-        if (.not. (takes_left(nodes(k)%kind) .or. takes_right(nodes(k)%kind)) .and. k > 0) couple = rhs(k)%couple
+        if (.not. is_restrained(nodes(k)%kind) .and. k > 0) couple = rhs(k)%couple
     end function jump
 
 end module gapbeam_pivoting

@@ -9,7 +9,7 @@ module gapbeam_residual
     use gapbeam_require, only: checked, require
     use gapbeam_link, only: link_type
     use gapbeam_band, only: node_type, rhs_type, answer_type, plain, jointed
-    use gapbeam_nodes, only: joint_left, joint_right, is_through, takes_left, takes_right
+    use gapbeam_nodes, only: joint_left, joint_right, is_through, is_restrained, takes_left, takes_right
     implicit none
     private
     public :: residual_chain, residual_inside, size_type
@@ -77,7 +77,7 @@ contains
                         largest_shear = max(largest_shear, (abs(z%moment_left) + abs(a%moment_right))*h)
                     end associate
                 end if
-                if (takes_left(node%kind) .or. takes_right(node%kind)) then
+                if (is_restrained(node%kind)) then
                     call residual_of_restraint(node, a, b, left, right, i > 0, i < n, r, s)
                     compatibility = max(compatibility, abs(r%left), abs(r%right))
                 else if (is_through(node%kind) .and. i > 0 .and. i < n) then
@@ -132,26 +132,36 @@ contains
             high = turn
             low = turn_low
             call subtract(high, low, left%psi, left%psi_low)
-            call add(high, low, b%left)
-            s%left = left%size_of_psi + abs(turn) + abs(b%left)
-            if (node%kind == joint_right) then
-                call add_product(high, low, node%joint, a%moment_left)
-                s%left = s%left + node%joint*abs(a%moment_left)
-            end if
+            call end_row(high, low, left, b%left, merge(node%joint, 0.0_wp, node%kind == joint_right), &
+                         a%moment_left, s%left)
             if (has_left) r%left = high + low
         end if
         if (takes_right(node%kind)) then
             high = right%psi
             low = right%psi_low
             call subtract(high, low, turn, turn_low)
-            call add(high, low, b%right)
-            s%right = right%size_of_psi + abs(turn) + abs(b%right)
-            if (node%kind == joint_left) then
-                call add_product(high, low, node%joint, a%moment_right)
-                s%right = s%right + node%joint*abs(a%moment_right)
-            end if
+            call end_row(high, low, right, b%right, merge(node%joint, 0.0_wp, node%kind == joint_left), &
+                         a%moment_right, s%right)
             if (has_right) r%right = high + low
         end if
+
+    contains
+
+        !> What is given in a row, and what a joint turns on its side of the restraint
+        pure subroutine end_row(high, low, beside, given, joint, moment, size_of_row)
+            real(wp), intent(inout) :: high, low
+            type(end_type), intent(in) :: beside
+            !> Compliance of the joint, 0: none is there
+            real(wp), intent(in) :: given, joint, moment
+            real(wp), intent(out) :: size_of_row
+
+            call add(high, low, given)
+            size_of_row = beside%size_of_psi + abs(turn) + abs(given)
+            if (.not. joint > 0.0_wp) return
+            call add_product(high, low, joint, moment)
+            size_of_row = size_of_row + joint*abs(moment)
+        end subroutine end_row
+
     end subroutine residual_of_restraint
 
     !> The same numbers at the inner nodes of a plain beam without couples, some nodes at a time side by side in wide registers

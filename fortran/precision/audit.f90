@@ -7,7 +7,8 @@
 module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: most_left_out, everywhere, audit_allows
-    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, joint_left, joint_right, takes_left, takes_right
+    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, joint_left, joint_right, is_restrained, &
+        takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: is_plainly_right, force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
@@ -95,7 +96,7 @@ contains
                 end do
                 ! Moments and rotations
                 jump = a%moment_left - a%moment_right + r%couple
-                if (takes_left(beam%kind(i)) .or. takes_right(beam%kind(i))) then
+                if (is_restrained(beam%kind(i))) then
                     call audit_restraint(a, r, jump)
                 else if (beam%kind(i) == hinge) then
                     call hold(of_equilibrium, moments, max(abs(a%moment_left - r%moment), abs(jump)), &
