@@ -238,8 +238,7 @@ def _hinges(say: "Writer", result: "Result", at: str) -> None:
         for one in hinges[:LONGEST]
     ]
     say.table([fmt.with_unit(scene, "x"), fmt.shown_heading(scene, "moment"), fmt.shown_heading(scene, "rotation")], rows)
-    more = f" {len(hinges) - LONGEST:,} more are in the output of --json." if len(hinges) > LONGEST else ""
-    say.line(f"Rotation left of the hinge less that right of it.{more}", "dim")
+    say.line(f"Rotation left of the hinge less that right of it.{_left_out(len(hinges))}", "dim")
 
 
 def _slip_zones(say: "Writer", result: "Result", at: str) -> None:
@@ -254,8 +253,7 @@ def _slip_zones(say: "Writer", result: "Result", at: str) -> None:
         for one in zones[:LONGEST]
     ]  # fmt: skip
     say.table(["from", "to", "length", "way of the beam", fmt.shown_heading(scene, "reaction", "friction")], rows)
-    more = f" {len(zones) - LONGEST:,} more are in the output of --json." if len(zones) > LONGEST else ""
-    say.line(f"Now, or last. Friction on the beam: positive to the right.{more}", "dim")
+    say.line(f"Now, or last. Friction on the beam: positive to the right.{_left_out(len(zones))}", "dim")
 
 
 def _rotations(say: "Writer", result: "Result", at: str) -> None:
@@ -280,9 +278,13 @@ def _rotations(say: "Writer", result: "Result", at: str) -> None:
     to_go = [fmt.with_unit(scene, "rotation", "to go")] if opening else []
     set_kept = [fmt.with_unit(scene, "rotation", "set")] if left else []
     say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go, *set_kept], rows, left=(0, 2, 3))
-    more = f" {len(which) - LONGEST:,} more are in the output of --json." if len(which) > LONGEST else ""
     say.line("Couple on the beam: counterclockwise; rotation of the beam: clockwise. Of a hinge: sagging moment, and rotation left "
-             f"of it less that right of it.{more}", "dim")  # fmt: skip
+             f"of it less that right of it.{_left_out(len(which))}", "dim")  # fmt: skip
+
+
+def _left_out(count: int) -> str:
+    """Say how many rows of a table are left out."""
+    return f" {count - LONGEST:,} more are in the output of --json." if count > LONGEST else ""
 
 
 def _side(support: "Support") -> str:

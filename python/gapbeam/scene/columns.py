@@ -267,8 +267,7 @@ def _loads(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             sides = _column(group, "at_hinge")
             kinds[some] = COUPLES[sides] if sides is None or isinstance(sides, str) else [COUPLES[side] for side in sides]
         if kind == MOVEMENT:
-            both = [at_both_ends(load.value if load.rotation is None else load.rotation) for load in group]
-            given = np.array(both, dtype=float)
+            given = _pairs([load.value if load.rotation is None else load.rotation for load in group])
         elif kind == CURVATURE:
             given = _pairs(_column(group, key))
             kinds[some] = np.where(given[:, 0] == given[:, 1], CURVATURE, LINEAR_CURVATURE)
