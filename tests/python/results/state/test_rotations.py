@@ -150,26 +150,36 @@ def beam_of(seed):
     return scene, (spans, Fraction(1, 2), [*laws, *turned, *joints], q, [(Fraction(loads[1]["x"]), force[1])])
 
 
+def last_step(scene, follow, exact):
+    """The beam under full load; None where it does not stand, as the exact numbers say too."""
+    try:
+        result = gapbeam.solve(scene | {"analysis": {"follow": follow}})
+    except gapbeam.EngineError:
+        assert exact is None or not any(exact[0])  # a part of it is free
+        return None
+    if result.status != "solved":
+        assert exact is None
+        return None
+    return result.steps[-1]
+
+
+def assert_close(step, forces, ways):
+    assert np.abs(step.reaction - forces).max() <= 1e-13 * max(1.0, np.abs(forces).max())
+    if not step.indifferent:
+        assert np.abs(step.deflection - ways).max() <= 1e-13 * max(1.0, np.abs(ways).max())
+
+
 @pytest.mark.parametrize("follow", ["steps", "events"])
 @pytest.mark.parametrize("seed", range(40))
 def test_random_beams_beside_rationals(seed, follow):
     scene, about = beam_of(seed)
     exact = solve(*about)
-    scene["analysis"] = {"follow": follow}
-    try:
-        result = gapbeam.solve(scene)
-    except gapbeam.EngineError:
-        assert exact is None or not any(exact[0])  # a part of it is free
+    step = last_step(scene, follow, exact)
+    if step is None:
         return
-    if result.status != "solved":
-        assert exact is None
-        return
-    step = result.steps[-1]
     assert exact is not None
     forces, ways = (np.array(list(map(float, values))) for values in exact)
-    assert np.abs(step.reaction - forces).max() <= 1e-13 * max(1.0, np.abs(forces).max())
-    if not step.indifferent:
-        assert np.abs(step.deflection - ways).max() <= 1e-13 * max(1.0, np.abs(ways).max())
+    assert_close(step, forces, ways)
     bounds = step.error_bounds
     assert bounds["moment"] < 1e-11
 
