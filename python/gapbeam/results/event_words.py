@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene.movements import moves_supports
+from ..scene.movements import moves_with_load
 from ..scene.names import DEAD, cases_of, label
 from ..scene.rotations import at_support
 from . import formatting as fmt
@@ -47,7 +47,7 @@ def limit_in_words(result: Result, kind: str) -> str:
     str
         Where nothing moves freely, as between supports that loads move, it is no mechanism.
     """
-    is_free = kind != "mechanism" or result.motion is not None or not moves_supports(result.scene)
+    is_free = kind != "mechanism" or result.motion is not None or not moves_with_load(result.scene)
     return LIMITS[kind] if is_free else "Limit of movements"
 
 

@@ -19,7 +19,7 @@ from ..engine.beam import Beam
 from ..scene.combinations import plan_combinations, times
 from ..scene.laws import is_smooth, law_points
 from ..scene.movements import moves_ground, settle_movements
-from ..scene.places import same_place
+from ..scene.places import nearest, same_place
 from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene
 from ..scene.temperature import as_curvatures
@@ -145,10 +145,9 @@ def _motion(scene: Scene, result: Result, beam: Beam) -> list[str]:
 def _snapped(places: Sequence[float], beam: Beam) -> np.ndarray:
     """Places as the engine takes them: what differs from one of its points by rounding only is there."""
     x, points = np.asarray(places, dtype=float), beam.places.point_x
-    after = np.clip(np.searchsorted(points, x), 1, len(points) - 1)
-    nearest = np.where(x - points[after - 1] <= points[after] - x, points[after - 1], points[after])
+    point = points[nearest(x, points)]
     inside = np.clip(x, points[0], points[-1])
-    return np.where(same_place(inside, nearest), nearest, inside)
+    return np.where(same_place(inside, point), point, inside)
 
 
 def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:

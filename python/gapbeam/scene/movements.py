@@ -101,8 +101,8 @@ def settle_movements(scene: Scene) -> Scene:
     return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
 
 
-def moves_supports(scene: Scene) -> bool:
-    """Whether supports move with the load factor.
+def moves_with_load(scene: Scene) -> bool:
+    """Whether supports or ground move with the load factor.
 
     Parameters
     ----------

@@ -29,6 +29,29 @@ def same_place(a: Any, b: Any) -> Any:
     return np.abs(np.subtract(a, b)) <= POSITION_TOLERANCE * np.maximum(np.abs(a), np.abs(b))
 
 
+def nearest(x: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Number of the point that is nearest to each place, the left one of two.
+
+    Parameters
+    ----------
+    x : numpy.ndarray
+        Places along the beam.
+    points : numpy.ndarray
+        x of two points or more, from left to right.
+
+    Returns
+    -------
+    numpy.ndarray of int
+
+    Examples
+    --------
+    >>> nearest(np.array([-1.0, 2.9, 3.1, 9.0]), np.array([0.0, 6.0, 8.0])).tolist()
+    [0, 0, 1, 2]
+    """
+    after = np.clip(np.searchsorted(points, x), 1, len(points) - 1)
+    return np.where(x - points[after - 1] <= points[after] - x, after - 1, after)
+
+
 def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Span and distance from its left end of given places.
 

@@ -107,18 +107,20 @@ def spread_rotations(scene: Scene) -> None:
     ('rotation of 0', 'rotational', 0.01, [(0.0, 1.0)])
     """
     beside = not isinstance(scene.supports, Table) or scene.supports.column("at_hinge") is not None
-    with_laws = [hinge for hinge in scene.hinges if _is_more(hinge)]
+    taken = {k for k, hinge in enumerate(scene.hinges) if _is_more(hinge)}
     if isinstance(scene.supports, Table):
-        if with_laws or beside:
+        if taken or beside:
             scene.supports = list(scene.supports)
         else:
             return
     at_hinges = [k for k, one in enumerate(scene.supports) if one.at_hinge is not None]
     _check_at_hinges(scene, at_hinges)
     if at_hinges:
-        places = _places(scene, [scene.supports[k] for k in at_hinges])
-        with_laws = [hinge for hinge in scene.hinges if _is_more(hinge) or _is_elastic_at(scene, hinge, places)]
-    if not with_laws and not any(isinstance(one.rotation, Rotation) or one.at_hinge or turns(one) for one in scene.supports):
+        held = _places(scene, [scene.supports[k] for k in at_hinges])
+        elastic = [k for k, hinge in enumerate(scene.hinges) if hinge.stiffness]
+        places = _places(scene, [scene.hinges[k] for k in elastic])
+        taken |= {k for k, x in zip(elastic, places, strict=True) if same_place(x, held).any()}
+    if not taken and not any(isinstance(one.rotation, Rotation) or one.at_hinge or turns(one) for one in scene.supports):
         return
     found = _Spread(list(scene.supports))
     for k, support in enumerate(scene.supports):
@@ -130,11 +132,11 @@ def spread_rotations(scene: Scene) -> None:
             made = _held(rotation, rotation.stiffness, direction="rotational", name=name, at_hinge=support.at_hinge)
             found.of_support[k] = found.add(replace(made, node=support.node, x=support.x))
     for k, hinge in enumerate(scene.hinges):
-        if hinge in with_laws:
+        if k in taken:
             _check_slack(hinge, f"hinges[{k}].slack")
             made = _held(hinge, float("inf") if hinge.stiffness is None else hinge.stiffness, direction="hinge")
             found.add(replace(made, node=hinge.node, x=hinge.x, name=f"hinge {k}" if hinge.name is None else hinge.name))
-    scene.hinges = [hinge for hinge in scene.hinges if hinge not in with_laws]
+    scene.hinges = [hinge for k, hinge in enumerate(scene.hinges) if k not in taken]
     scene.supports = [_with_slack(one) if turns(one) else one for one in found.supports]
     scene.loads = _on_rotations(scene, found.of_support)
 
@@ -165,11 +167,6 @@ def _places(scene: Scene, items: Sequence[Any]) -> np.ndarray:
     ends = scene.span_ends()
     nodes = [None if one.node is None or not 0 <= one.node < len(ends) else float(ends[one.node]) for one in items]
     return np.array([one.x if node is None else node for one, node in zip(items, nodes, strict=True)], dtype=float)
-
-
-def _is_elastic_at(scene: Scene, hinge: Hinge, places: np.ndarray) -> bool:
-    """Whether a hinge has a stiffness and stands at one of some places."""
-    return bool(hinge.stiffness) and bool(same_place(_places(scene, [hinge]), places).any())
 
 
 def _is_more(hinge: Hinge) -> bool:

@@ -17,7 +17,7 @@ from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.held import hold
-from ...scene.movements import moves_supports
+from ...scene.movements import moves_with_load
 from ...scene.names import label
 from ...scene.structs import Scene
 from ...scene.wording import shown
@@ -184,7 +184,7 @@ class States(Pickled):
         if path.motion is not None:
             self.motion = list(zip(self._beam.node_x.tolist(), path.motion.tolist(), strict=True))
             self.reason += f"; {describe_motion(self._beam, path.motion)}"
-        elif limit.kind == "mechanism" and moves_supports(self.scene):
+        elif limit.kind == "mechanism" and moves_with_load(self.scene):
             self.reason += "; supports that loads move may leave no room between them there"
 
     def state(self, factor: float, leg: int | None = None) -> Step:

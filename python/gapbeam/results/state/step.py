@@ -19,6 +19,7 @@ from ...engine.beam import BY_TANGENTS, ON_LINES, ON_POLYLINES, SOLVED, WITH_LIN
 from ...engine.case_certificates import BOUNDED
 from ...engine.states import Along, Solution
 from ...engine.units import bound_in_scene, scaled
+from ...scene.places import nearest
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
@@ -196,7 +197,7 @@ class Step(Pickled):
         x, stiffness = self._beam.columns.hinge[:, :-1]
         which = np.flatnonzero(stiffness > 0.0)
         which = which[np.argsort(x[which])]
-        nodes = np.abs(self._beam.places.point_x[self._beam.places.node_points] - x[which, None]).argmin(axis=1)
+        nodes = nearest(x[which], self._beam.node_x)
         # Between the couples on its two sides, if there are any
         moment = scaled(self.solution.moment_left[nodes], self._beam.units.field[2])
         turned = moment / stiffness[which]
