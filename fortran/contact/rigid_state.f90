@@ -105,13 +105,13 @@ contains
         moment = (ground%dead(piece)%kappa + rigid%factor*ground%live(piece)%kappa)/ground%pieces(piece)%flexibility
     end function straightened
 
-    !> Load per length at distances from the left end of a piece, which the ground takes where the beam lies on it
-    pure function load_at(ground, rigid, piece, distance) result(q)
+    !> Load per length at a distance from the left end of a piece, which the ground takes where the beam lies on it
+    elemental function load_at(ground, rigid, piece, distance) result(q)
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(in) :: rigid
         integer, intent(in) :: piece
-        real(wp), intent(in) :: distance(2)
-        real(wp) :: q(2)
+        real(wp), intent(in) :: distance
+        real(wp) :: q
 
         associate (load => combined_load(ground%dead(piece), ground%live(piece), rigid%factor))
             q = along(load%qa, load%qb, distance, ground%pieces(piece)%length)

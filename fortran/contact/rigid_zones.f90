@@ -153,7 +153,7 @@ contains
         integer, intent(in) :: i, end
         !> Distance of that end of the zone from the left end of the piece
         real(wp), intent(inout) :: at
-        real(wp) :: moment, couple, kink, pull, step, q(2)
+        real(wp) :: moment, couple, kink, pull, step, q
         logical :: goes_on, bends
         integer :: node, border, other, layer
 
@@ -190,8 +190,8 @@ contains
                 if (.not. (bends .or. pull > rigid%noise%force)) return
                 step = (rigid%zones%to(i) - rigid%zones%from(i))/4
                 ! A bar that a force lifts at its end lifts so far
-                q = side*load_at(ground, rigid, contact%piece, [at, at])
-                if (.not. bends .and. q(1) > 0.0_wp) step = min(step, 2*pull/q(1))
+                q = side*load_at(ground, rigid, contact%piece, at)
+                if (.not. bends .and. q > 0.0_wp) step = min(step, 2*pull/q)
                 at = at + merge(step, -step, end == 1)
                 if (bends .and. .not. goes_on) call add_at_node(ground, rigid, node, side)
             end if
