@@ -9,7 +9,8 @@ module gapbeam_curved
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_steps_on_curves
     use gapbeam_tolerances, only: largest_field, no_curve_slope, beginning_of_way, step_caution, shortest_step
-    use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer
+    use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer, transfer_of_forces, &
+        stretched_shear, transverse_of
     use gapbeam_foundation, only: stretch_link_type, link_of_halves
     use gapbeam_law_series, only: curve_type, law_series_type, order, begin_series, next_term, force_scale, &
         slope_scale, longest_step
@@ -44,7 +45,7 @@ contains
         !> To which t, 1 at most, they hold to rounding
         real(wp), intent(out) :: step
         type(law_series_type) :: series(size(curved%curves))
-        real(wp) :: h, k(0:1), q(0:order), pressure, w
+        real(wp) :: h, k(0:1), q(0:order), pressure, w, pull
         integer :: i, n
 
         associate (s => curved%stretch, p => curved%load, eta => 1 - xi)
@@ -53,6 +54,8 @@ contains
             q(3:) = 0.0_wp
             q(0:2) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*way, -p%qc*way**2]
             w = y(1) + s%shear_flexibility*y(3)
+            pull = s%tension*s%flexibility
+            q(0) = q(0) + s%tension*p%kappa
             do i = 1, size(series)
                 associate (curve => curved%curves(i))
                     call begin_series(curve, xi, way, is_negative(curve), series(i))
@@ -80,7 +83,7 @@ contains
                     c(2, n + 1) = -part*s%flexibility*c(3, n)
                     if (n == 0) c(2, 1) = c(2, 1) + part*p%kappa
                     c(3, n + 1) = part*c(4, n)
-                    c(4, n + 1) = part*(pressure - q(n))
+                    c(4, n + 1) = part*(pressure + pull*c(3, n) - q(n))/stretched_shear(s)
                 end associate
             end do
             step = step_of(c(4, :), sum(abs(c(4, 0:3))))
@@ -194,7 +197,7 @@ contains
 
         ! Where the force of the ground does not change with the deflection, nothing is left beyond cubes
         terms = order
-        if (.not. any(abs(modulus) > 0.0_wp)) terms = 3
+        if (.not. (any(abs(modulus) > 0.0_wp) .or. abs(stretch%tension) > 0.0_wp)) terms = 3
         do j = 1, 4
             c(0, :) = 0.0_wp
             c(0, j) = 1.0_wp
@@ -204,7 +207,8 @@ contains
                 c(n + 1, 1) = part*c(n, 2)
                 c(n + 1, 2) = -part*stretch%flexibility*c(n, 3)
                 c(n + 1, 3) = part*c(n, 4)
-                c(n + 1, 4) = part*dot_product(modulus(0:n), w(n:0:-1))
+                c(n + 1, 4) = part*(dot_product(modulus(0:n), w(n:0:-1)) + stretch%tension*stretch%flexibility*c(n, 3)) &
+                    /stretched_shear(stretch)
             end do
             do i = 1, 4
                 transfer(i, j) = value_of(c(0:terms, i), step)
@@ -256,7 +260,8 @@ contains
         shear_b = 0.0_wp
         call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, transfer)
         if (lost) return
-        ! Seen from the other side x, psi and V change their signs
+        transfer = transfer_of_forces(curved%stretch, transfer)
+        ! Seen from the other side x, psi and T change their signs
         mirrored = inverse(transfer, curved%stretch%shear_flexibility)
         do i = 2, 4, 2
             mirrored(i, :) = -mirrored(i, :)
@@ -270,12 +275,14 @@ contains
                    w_b => values(1) + curved%stretch%shear_flexibility*values(3), m_b => values(3))
             turn_a = curved%left(2) + link%pa*w_a - link%p1*w_b - link%faa*m_a - link%fab*m_b
             turn_b = link%pb*w_b - link%p2*w_a - link%fab*m_a - link%fbb*m_b - values(2)
-            shear_a = curved%left(4) + link%pa*m_a - link%p2*m_b + link%gaa*w_a + link%gab*w_b
-            shear_b = link%pb*m_b - link%p1*m_a + link%gbb*w_b + link%gab*w_a - values(4)
+            shear_a = transverse_of(curved%stretch, curved%left(2), curved%left(4)) + link%pa*m_a - link%p2*m_b + link%gaa*w_a &
+                + link%gab*w_b
+            shear_b = link%pb*m_b - link%p1*m_a + link%gbb*w_b + link%gab*w_a &
+                - transverse_of(curved%stretch, values(2), values(4))
         end associate
     end subroutine condense_curved
 
-    !> The inverse of a transfer: by Betti's theorem w V' - V w' - psi M' + M psi' of two changes is the same everywhere
+    !> The inverse of a transfer: by Betti's theorem w T' - T w' - psi M' + M psi' of two changes is the same everywhere
     pure function inverse(transfer, shear_flexibility) result(back)
         real(wp), intent(in) :: transfer(4, 4), shear_flexibility
         real(wp) :: back(4, 4)

@@ -1,12 +1,13 @@
-!> Stiffness of a prismatic stretch of beam on elastic ground (Winkler 1867; Hetenyi 1946).
+!> Stiffness of a prismatic stretch of beam on elastic ground and under an axial force (Winkler 1867; Hetenyi 1946).
 !>
 !> The unknowns are those of the simply supported bar of docs/method.md 2, deflections and moments of both ends; a
 !> modulus of zero leaves that bar. Local coordinate x = 0..L to the right, xi = x/L. Signs as there: deflection, load and
 !> ground's pressure K w with the load against it, moment sagging, V = M', psi = w' - V/GA:
-!> psi' = -M/EI + kappa, V' = K w - q.
+!> psi' = -M/EI + kappa, T' = K w - q. T is the transverse force V + N w', without an axial force the shear.
 module gapbeam_foundation
     use gapbeam_kinds, only: wp
-    use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_link, mirrored, turned, is_sloped
+    use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_link, mirrored, turned, is_sloped, &
+        stretched_shear, trace_of, determinant_of
     use gapbeam_foundation_series, only: end_functions_type, short_ends, is_short
     use gapbeam_foundation_long, only: long_of, long_ends
     implicit none
@@ -16,12 +17,13 @@ module gapbeam_foundation
 
     !> How a stretch's ends answer:
     !>
-    !>     psi_a = -pa w_a + p1 w_b + faa M_a + fab M_b + turn_a      V_a = -pa M_a + p2 M_b - gaa w_a - gab w_b + shear_a
-    !>     psi_b =  pb w_b - p2 w_a - fab M_a - fbb M_b - turn_b      V_b =  pb M_b - p1 M_a + gbb w_b + gab w_a - shear_b
+    !>     psi_a = -pa w_a + p1 w_b + faa M_a + fab M_b + turn_a      T_a = -pa M_a + p2 M_b - gaa w_a - gab w_b + shear_a
+    !>     psi_b =  pb w_b - p2 w_a - fab M_a - fbb M_b - turn_b      T_b =  pb M_b - p1 M_a + gbb w_b + gab w_a - shear_b
     type :: stretch_link_type
         !> 1/length: without ground all are 1/L
         real(wp) :: pa, pb, p1, p2
-        !> Flexibilities (rotation by a moment) and stiffnesses (force by a deflection); the latter vanish without ground
+        !> Flexibilities (rotation by a moment) and stiffnesses (force by a deflection); the latter vanish without ground and
+        !> axial force
         real(wp) :: faa, fab, fbb, gaa, gab, gbb
         !> faa fbb - fab**2, gaa gbb - gab**2 and pa pb - p1 p2, formed without subtraction
         real(wp) :: df, dg, dh
@@ -31,10 +33,18 @@ module gapbeam_foundation
         real(wp) :: s2
         !> faa pb + p1 fab
         real(wp) :: s3
-        !> pa (dh + fab gab) + faa p2 gab
+        !> gaa s3 + pa (dh + fab gab) + faa p2 gab
         real(wp) :: s4
         !> pa pb + dh + fab gab
         real(wp) :: s5
+        !> gaa pb + p2 gab
+        real(wp) :: s6
+        !> p1 gab + pa gbb
+        real(wp) :: s7
+        !> gaa p1**2 + 2 pa p1 gab + pa**2 gbb
+        real(wp) :: s8
+        !> Does ground hold it
+        logical :: grounded
     end type stretch_link_type
 
     !> Deflections and moments of the two ends of a stretch in equilibrium
@@ -44,8 +54,9 @@ module gapbeam_foundation
 
 contains
 
-    !> How many decay lengths a stretch is long: beta L, beta = (K/(4 EI))**(1/4), and more with shear. Where the modulus is
-    !> linear or negative it is the caller's to cut stretches until this is 1 at most; others may be as long as they are
+    !> How many decay lengths a stretch is long: beta L, beta = (K/(4 EI))**(1/4), and more with shear or an axial force. Where the
+    !> modulus is linear or negative, or the beam is compressed, it is the caller's to cut stretches until this is 1 at most;
+    !> others may be as long as they are
     elemental function decay_lengths(stretch) result(number)
         !> The stretch
         type(stretch_type), intent(in) :: stretch
@@ -53,7 +64,8 @@ contains
         real(wp) :: k
 
         k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))
-        number = stretch%length*sqrt(k*stretch%shear_flexibility + 2*sqrt(k)*sqrt(stretch%flexibility))/2
+        number = stretch%length*sqrt(abs(trace_of(stretch, k)) &
+                                     + 2*sqrt(k/stretched_shear(stretch))*sqrt(stretch%flexibility))/2
     end function decay_lengths
 
     !> How the ends of a stretch answer to their deflections and moments
@@ -88,6 +100,7 @@ contains
                 call load_even(stretch, h, loads(k), turn_a(k), turn_b(k), shear_a(k), shear_b(k))
             end do
         end if
+        link%grounded = max(abs(stretch%modulus_a), abs(stretch%modulus_b)) > 0.0_wp
     end subroutine condense_loaded
 
     !> How the ends answer where the modulus is constant
@@ -96,7 +109,7 @@ contains
         !> The functions of its ends
         type(end_functions_type), intent(in) :: h
         type(stretch_link_type), intent(out) :: link
-        real(wp) :: l, k, f, d, bend, bend_b
+        real(wp) :: l, k, f, d, bend, bend_b, press, press_b
 
         l = stretch%length
         k = l*stretch%modulus_a
@@ -104,22 +117,28 @@ contains
         d = (h%c - h%e)*(h%c + h%e)
         link%pa = h%a/l
         link%p1 = h%b/l
-        link%gaa = k*h%c
-        link%gab = k*h%e
-        link%dg = k**2*d
-        link%dh = k*f*d
+        link%dh = k*f*d/stretched_shear(stretch)
         bend = f*h%c
         bend_b = f*h%e
-        ! With shear the flexibilities are bend + p/GA; where that would subtract, the sums below are arranged anew
-        associate (p => link%pa, p1 => link%p1, g => stretch%shear_flexibility)
+        press = k*h%c
+        press_b = k*h%e
+        ! With shear the flexibilities are bend + p/GA, with an axial force the stiffnesses press + p N; where that would subtract,
+        ! the sums below are arranged anew
+        associate (p => link%pa, p1 => link%p1, g => stretch%shear_flexibility, n => stretch%tension)
             link%faa = bend + g*p
             link%fab = bend_b - g*p1
+            link%gaa = press + n*p
+            link%gab = press_b - n*p1
             link%df = f**2*d + g*(2*(p*bend + p1*bend_b) + g*link%dh)
+            link%dg = k**2*d + n*(2*(p*press + p1*press_b) + n*link%dh)
             link%s1 = bend*(p**2 + p1**2) + 2*p*p1*bend_b + g*p*link%dh
             link%s2 = p1*bend_b + p*bend + g*link%dh
-            link%s4 = p*link%dh + link%gab*(p*bend_b + p1*bend)
-            link%s5 = 2*link%dh + h%determinant/l**2
+            link%s4 = link%dh*(p + n*link%faa) + press*link%s2 + press_b*(p*bend_b + p1*bend)
+            link%s5 = 2*link%dh + stretched_shear(stretch)*h%determinant/l**2
+            link%s6 = press*p + p1*press_b + n*link%dh
+            link%s8 = press*(p**2 + p1**2) + 2*p*p1*press_b + n*p*link%dh
         end associate
+        link%s7 = link%s6
         link%s3 = link%s2
         link%pb = link%pa
         link%p2 = link%p1
@@ -166,8 +185,12 @@ contains
         link%s1 = a%faa*b%p1**2 + a%pa*b%p1*(a%fab + b%fab) + a%pa**2*b%faa + g*a%pa*a%dh
         link%s2 = b%p1*a%fab + a%pa*b%faa + g*a%dh
         link%s3 = a%faa*b%pa + a%p1*b%fab + g*a%dh
-        link%s4 = a%pa*a%dh + link%gab*(a%pa*b%fab + a%faa*b%p1)
+        link%s4 = link%gaa*link%s3 + a%pa*a%dh + link%gab*(a%pa*b%fab + a%faa*b%p1)
         link%s5 = 2*a%dh + 1/a%determinant
+        link%s6 = link%gaa*link%pb + link%p2*link%gab
+        link%s7 = link%p1*link%gab + link%pa*link%gbb
+        link%s8 = link%gaa*link%p1**2 + link%pa*(2*link%p1*link%gab + link%pa*link%gbb)
+        link%grounded = .true.
     end subroutine link_of_halves
 
     !> Rotations and shears of the ends of a stretch that its loads make where deflections and moments are zero there
@@ -199,28 +222,29 @@ contains
         type(end_functions_type), intent(in) :: h
         type(stretch_load_type), intent(in) :: load
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
-        real(wp) :: l, f, sum, turn, shear
+        real(wp) :: l, f, k, pull, sum, turn, shear
 
         l = stretch%length
-        f = l**2*stretch%flexibility
+        f = l**2*stretch%flexibility/stretched_shear(stretch)
+        k = l**2*stretch%modulus_a/stretched_shear(stretch)
+        pull = stretch%tension*f
         sum = h%a_rest + h%b_rest
-        turn = load%qc*h%bubble*f - load%kappa*((h%c + h%e) + stretch%modulus_a*l**2*stretch%shear_flexibility*sum)
-        shear = 2*load%qc*sum + load%kappa*sum*(stretch%modulus_a*l**2)
+        turn = load%qc*h%bubble*f - load%kappa*((h%c + h%e) + k*stretch%shear_flexibility*sum)
+        shear = load%qc*(2*sum + pull*h%bubble) + load%kappa*sum*k
         turn_a = l*((load%qa*h%a_rest + load%qb*h%b_rest)*f + turn)
         turn_b = l*((load%qb*h%a_rest + load%qa*h%b_rest)*f + turn)
-        shear_a = l*((load%qa*h%c + load%qb*h%e) + shear)
-        shear_b = l*((load%qb*h%c + load%qa*h%e) + shear)
+        shear_a = l*((load%qa*(h%c + pull*h%a_rest) + load%qb*(h%e + pull*h%b_rest)) + shear)
+        shear_b = l*((load%qb*(h%c + pull*h%a_rest) + load%qa*(h%e + pull*h%b_rest)) + shear)
     end subroutine load_even
 
     !> The functions of the ends of a stretch of constant modulus
     pure function end_functions(stretch) result(h)
         type(stretch_type), intent(in) :: stretch
         type(end_functions_type) :: h
-        real(wp) :: sigma, tau, square
+        real(wp) :: sigma, tau
 
-        square = stretch%modulus_a*stretch%length**2
-        sigma = square*stretch%shear_flexibility
-        tau = square*stretch%length**2*stretch%flexibility
+        sigma = trace_of(stretch, stretch%modulus_a)*stretch%length**2
+        tau = determinant_of(stretch, stretch%modulus_a)*stretch%length**4
         if (is_short(sigma, tau)) then
             h = short_ends(sigma, tau)
         else

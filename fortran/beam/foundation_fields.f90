@@ -3,7 +3,8 @@
 module gapbeam_foundation_fields
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
-    use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped
+    use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped, stretched_shear, &
+        trace_of, determinant_of, shear_of
     use gapbeam_foundation_series, only: triple_type, response_type, short_response, is_short
     use gapbeam_foundation_long, only: long_type, long_of, decay_type, long_response
     implicit none
@@ -26,7 +27,7 @@ contains
         type(decay_type) :: decay
         type(long_type) :: long
         type(stretch_ends_type) :: over
-        real(wp) :: sigma, tau, eta, l, f, k, y(4)
+        real(wp) :: sigma, tau, eta, l, f, k, y(4), raised
 
         if (is_sloped(stretch)) then
             call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
@@ -35,8 +36,8 @@ contains
         l = stretch%length
         f = stretch%flexibility
         k = stretch%modulus_a
-        sigma = k*l**2*stretch%shear_flexibility
-        tau = k*l**4*f
+        sigma = trace_of(stretch, k)*l**2
+        tau = determinant_of(stretch, k)*l**4
         eta = 1 - xi
         if (is_short(sigma, tau)) then
             ! The chord, and the answer to the load that is left: the ground's under the chord taken off
@@ -62,12 +63,13 @@ contains
                 call respond(stretch, r%odd, r%odd_slope, 0.0_wp, (load%qb - load%qa)/2, y)
                 call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, load%qc, y)
             else
-                ! Far from the ends the ground bears the load where it stands
-                y(1) = (load%qa*eta + load%qb*xi + load%qc*xi*eta)/k
+                ! Far from the ends the ground bears the load where it stands, and what the tension makes of its curvature
+                raised = -2*stretch%tension*load%qc/(k*l)**2
+                y(1) = (load%qa*eta + load%qb*xi + load%qc*xi*eta)/k + raised
                 y(2) = (load%qb - load%qa + load%qc*(eta - xi))/(k*l)
                 y(3) = (load%kappa + 2*load%qc/(k*l**2))/f
-                over%w_a = ends%w_a - load%qa/k
-                over%w_b = ends%w_b - load%qb/k
+                over%w_a = ends%w_a - load%qa/k - raised
+                over%w_b = ends%w_b - load%qb/k - raised
                 over%moment_a = ends%moment_a - y(3)
                 over%moment_b = ends%moment_b - y(3)
             end if
@@ -90,15 +92,15 @@ contains
         real(wp), intent(inout) :: y(4)
         real(wp) :: bent, pressed, f, k
 
-        associate (l => stretch%length, g => stretch%shear_flexibility)
+        associate (l => stretch%length, g => stretch%shear_flexibility, n => stretch%tension)
             f = l**2*stretch%flexibility
             k = l**2*stretch%modulus_a
-            bent = l**2*curvature
-            pressed = l**2*q
+            bent = l**2*curvature/stretched_shear(stretch)
+            pressed = l**2*q/stretched_shear(stretch)
             y(1) = y(1) + (value%ga*bent + (g*value%ga - f*value%be)*pressed)
-            y(2) = y(2) + (slope%al*bent - f*slope%be*pressed)/l
-            y(3) = y(3) + (k*value%be*bent + value%ga*pressed)
-            y(4) = y(4) + (k*slope%be*bent + slope%ga*pressed)/l
+            y(2) = y(2) + ((stretched_shear(stretch)*slope%al + n*f*slope%be)*bent - f*slope%be*pressed)/l
+            y(3) = y(3) + ((k*value%be - n*value%ga)*bent + value%ga*pressed)
+            y(4) = y(4) + ((k*slope%be - n*slope%ga)*bent + slope%ga*pressed)/l
         end associate
     end subroutine respond
 
@@ -110,15 +112,16 @@ contains
         real(wp), intent(in) :: w, moment
         !> Deflection, rotation, moment, shear
         real(wp), intent(inout) :: y(4)
-        real(wp) :: f, k
+        real(wp) :: f, k, pull
 
         associate (l => stretch%length, g => stretch%shear_flexibility)
-            f = l**2*stretch%flexibility
-            k = l**2*stretch%modulus_a
-            y(1) = y(1) + (value%ga*w - f*value%be*moment)
-            y(2) = y(2) + (slope%al*(w - g*moment) - f*slope%be*moment)/l
-            y(3) = y(3) + (k*value%be*w + value%al*moment)
-            y(4) = y(4) + (k*slope%be*w + slope%al*moment)/l
+            f = l**2*stretch%flexibility/stretched_shear(stretch)
+            k = l**2*stretch%modulus_a/stretched_shear(stretch)
+            pull = stretch%tension*f
+            y(1) = y(1) + ((value%ga - pull*value%be)*w - f*value%be*moment)
+            y(2) = y(2) + (slope%al*(w - g*moment) - l**2*stretch%flexibility*slope%be*moment)/l
+            y(3) = y(3) + (k*value%be*w + (value%al + pull*value%be)*moment)
+            y(4) = y(4) + (k*slope%be*w + (slope%al + pull*slope%be)*moment)/l
         end associate
     end subroutine fade
 
@@ -193,9 +196,9 @@ contains
         y(1) = v_a
         y(2) = (half%p1*v_b - half%pa*v_a) + (half%faa*moment_a + half%fab*moment_b) + by_load(1)
         y(3) = moment_a
-        ! The moment's factor in V_a beside p2 is pa + gaa/GA, as V knows w only
-        y(4) = (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
-            - (half%gaa*v_a + half%gab*v_b) + by_load(2)
+        ! The moment's factor in T_a beside p2 is pa + gaa/GA, as T knows w only
+        y(4) = shear_of(stretch, y(2), (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
+                        - (half%gaa*v_a + half%gab*v_b) + by_load(2))
     end function start_of
 
 end module gapbeam_foundation_fields

@@ -3,17 +3,18 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_taylor, only: expand, terms_of
+    use gapbeam_foundation_taylor, only: expand, terms_of, stretched_shear, trace_of, determinant_of
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
     implicit none
     private
-    public :: question_type, piece_type, over_line
+    public :: question_type, piece_type, over_line, slope_of_transverse
     public :: has_middle, fading, piece_between, middle_piece, evaluate
 
     !> The functions whose zeros are sought, numbered as the fields whose slopes they are
-    integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4
+    integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4, &
+        slope_of_transverse = 5
 
     !> What is asked, of which stretch
     type :: question_type
@@ -48,8 +49,8 @@ contains
         logical :: has
 
         associate (s => stretch)
-            has = s%modulus_a > 0.0_wp .and. .not. abs(s%modulus_b - s%modulus_a) > 0.0_wp &
-                .and. s%modulus_a*s%shear_flexibility**2 <= 4*s%flexibility
+            has = s%modulus_a > 0.0_wp .and. .not. abs(s%modulus_b - s%modulus_a) > 0.0_wp .and. .not. s%tension < 0.0_wp &
+                .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
         end associate
     end function has_middle
 
@@ -107,7 +108,13 @@ contains
                 do j = 0, n
                     a(j) = (j + 1)*c(1, 4, j + 1)/(s%length*piece%half)
                 end do
-                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed
+                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed &
+                    + abs(s%tension)*(s%flexibility*scale(3) + abs(p%kappa))
+                if (question%what == slope_of_transverse) then
+                    ! s V' + N psi' = ground's pressure less the load
+                    a(0:n) = stretched_shear(s)*a(0:n) - s%tension*s%flexibility*c(1, 3, 0:n)
+                    a(0) = a(0) + s%tension*p%kappa
+                end if
             end select
             piece%noise = ground_ulps*epsilon(1.0_wp)*piece%noise
             ! What no coefficient can feel is left off
@@ -172,7 +179,7 @@ contains
         !> Middle and half of the piece, and what acts on it beside load and linear ground
         real(wp), intent(in) :: xi, half, pressed
         real(wp) :: scale(4)
-        real(wp) :: w, m, q, k, bent
+        real(wp) :: w, m, q, k, bent, square
 
         associate (s => question%stretch, p => question%load, e => question%ends, l => question%stretch%length)
             k = max(abs(s%modulus_a), abs(s%modulus_b))
@@ -185,10 +192,13 @@ contains
                 w = abs(e%w_a) + abs(e%w_b)
                 m = abs(e%moment_a) + abs(e%moment_b)
                 q = abs(p%qa) + abs(p%qb) + abs(p%qc) + k*w + pressed
-                bent = abs(p%kappa) + s%flexibility*(m + q*l**2/8)
+                square = l**2/8
+                ! Along a beam in tension what is farther away than sqrt(EI/N) bends it no more
+                if (s%tension > 0.0_wp) square = square/(1 + square*trace_of(s, k))
+                m = m + square*(q + s%tension*abs(p%kappa))
+                bent = abs(p%kappa) + s%flexibility*m
                 w = w + l**2*bent/8
-                m = m + q*l**2/8
-                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l]
+                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l + s%tension*w/l]
             end if
         end associate
     end function scales
@@ -266,9 +276,11 @@ contains
                 steeper = 2*c(4, 2)/l
             else
                 call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
-                pressed = (s%modulus_a*eta + s%modulus_b*xi)*w - (p%qa*eta + p%qb*xi + p%qc*xi*eta)
-                steeper = (s%modulus_b - s%modulus_a)*w &
-                    + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + s%shear_flexibility*shear) - (p%qb - p%qa + p%qc*(eta - xi))
+                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + s%tension*(s%flexibility*moment - p%kappa) &
+                           - (p%qa*eta + p%qb*xi + p%qc*xi*eta))/stretched_shear(s)
+                steeper = ((s%modulus_b - s%modulus_a)*w + l*s%tension*s%flexibility*shear &
+                           + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + s%shear_flexibility*shear) &
+                           - (p%qb - p%qa + p%qc*(eta - xi)))/stretched_shear(s)
             end if
             incline = psi + s%shear_flexibility*shear
             select case (question%what)
@@ -290,9 +302,12 @@ contains
             case (slope_of_moment)
                 f = shear
                 slope = l*pressed
-            case default
+            case (slope_of_shear)
                 f = pressed
                 slope = steeper
+            case default
+                f = stretched_shear(s)*pressed + s%tension*(p%kappa - s%flexibility*moment)
+                slope = stretched_shear(s)*steeper - l*s%tension*s%flexibility*shear
             end select
         end associate
     end subroutine evaluate

@@ -1,8 +1,8 @@
 !> Power series of the fields along a stretch on ground of linear modulus, and its link.
 !>
 !> v = w - M/GA instead of w leaves four equations without derivatives of loads: v' = psi, psi' = -M/EI + kappa, M' = V,
-!> V' = K (v + M/GA) - q. Their series converge everywhere (K is a polynomial); they are short where beta L is 1 at most,
-!> and the caller cuts stretches to that.
+!> (1 + N/GA) V' = K (v + M/GA) + N (M/EI - kappa) - q. Their series converge everywhere (K is a polynomial); they are short where
+!> beta L is 1 at most, and the caller cuts stretches to that. Links know the transverse force T = V + N w' in place of V.
 module gapbeam_foundation_taylor
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
@@ -10,8 +10,8 @@ module gapbeam_foundation_taylor
     implicit none
     private
     public :: stretch_type, stretch_load_type, half_type
-    public :: half_link, half_of_transfer, advance, expand, terms_of
-    public :: mirrored, turned, is_sloped
+    public :: half_link, half_of_transfer, transfer_of_forces, advance, expand, terms_of
+    public :: mirrored, turned, is_sloped, stretched_shear, trace_of, determinant_of, transverse_of, shear_of
 
     !> A prismatic stretch on elastic ground
     type :: stretch_type
@@ -19,6 +19,8 @@ module gapbeam_foundation_taylor
         real(wp) :: length = 0.0_wp, flexibility = 0.0_wp, shear_flexibility = 0.0_wp
         !> Modulus of the ground (force/length**2) at the left and right end, linear in between; negative where it softens
         real(wp) :: modulus_a = 0.0_wp, modulus_b = 0.0_wp
+        !> Axial force N in it, tension positive, with that of a layer that resists slopes (Pasternak)
+        real(wp) :: tension = 0.0_wp
     end type stretch_type
 
     !> What loads a stretch
@@ -61,12 +63,27 @@ contains
         do i = n - 1, 0, -1
             start = start + c(:, :, i)
         end do
-        call half_of_transfer(transpose(start), half, turn, shear)
+        call half_of_transfer(transfer_of_forces(stretch, transpose(start)), half, turn, shear)
     end subroutine half_link
+
+    !> What the right end gets of the left one, and of loads, with the transverse force at both in place of the shear
+    pure function transfer_of_forces(stretch, t) result(found)
+        type(stretch_type), intent(in) :: stretch
+        !> v, psi, M, V at the right end from each of them at the left end, and from the loads, shape (4, at least 4)
+        real(wp), intent(in) :: t(:, :)
+        real(wp) :: found(size(t, 1), size(t, 2))
+
+        found(:, :) = t
+        if (.not. abs(stretch%tension) > 0.0_wp) return
+        ! At a given transverse force a rotation of 1 brings a shear of -N/s along
+        found(:, 4) = t(:, 4)/stretched_shear(stretch)
+        found(:, 2) = t(:, 2) - stretch%tension*found(:, 4)
+        found(4, :) = stretched_shear(stretch)*found(4, :) + stretch%tension*found(2, :)
+    end function transfer_of_forces
 
     !> The same from what the right end gets of the left one
     pure subroutine half_of_transfer(t, half, turn, shear)
-        !> v, psi, M, V at the right end from each of them at the left end, and from the loads, shape (4, 4 + number of loads)
+        !> v, psi, M, T at the right end from each of them at the left end, and from the loads, shape (4, 4 + number of loads)
         real(wp), intent(in) :: t(:, :)
         !> As for half_link
         type(half_type), intent(out) :: half
@@ -129,7 +146,7 @@ contains
         integer, intent(in) :: n
         !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
         real(wp), intent(out), contiguous :: c(:, :, 0:)
-        real(wp) :: q(size(loads), 0:2), k0, k1, h, part
+        real(wp) :: q(size(loads), 0:2), k0, k1, h, part, slack
         integer :: i, first
 
         associate (s => stretch, p => loads, eta => 1 - xi)
@@ -140,6 +157,11 @@ contains
             q(:, 1) = (p%qb - p%qa + p%qc*(eta - xi))*step
             q(:, 2) = -p%qc*step**2
             first = size(start, 1) - size(loads) + 1
+            slack = 1/stretched_shear(s)
+            k0 = k0*slack
+            k1 = k1*slack
+            q(:, 0) = (q(:, 0) + s%tension*p%kappa)*slack
+            q(:, 1:) = q(:, 1:)*slack
             c(:, :, 0) = start
             do i = 0, n - 1
                 part = h/(i + 1)
@@ -149,6 +171,7 @@ contains
                 c(:, 4, i + 1) = part*k0*(c(:, 1, i) + s%shear_flexibility*c(:, 3, i))
                 if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) &
                     + part*k1*(c(:, 1, i - 1) + s%shear_flexibility*c(:, 3, i - 1))
+                if (abs(s%tension) > 0.0_wp) c(:, 4, i + 1) = c(:, 4, i + 1) + part*s%tension*slack*s%flexibility*c(:, 3, i)
                 if (i == 0) c(first:, 2, 1) = c(first:, 2, 1) + part*p%kappa
                 if (i <= 2) c(first:, 4, i + 1) = c(first:, 4, i + 1) - part*q(:, i)
             end do
@@ -164,8 +187,8 @@ contains
         integer :: n
         real(wp) :: rate, term, k
 
-        k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))*(stretch%length*step)**2
-        rate = sqrt(k*stretch%shear_flexibility + sqrt(k*(stretch%length*step)**2*stretch%flexibility))
+        k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))
+        rate = stretch%length*abs(step)*sqrt(abs(trace_of(stretch, k)) + sqrt(determinant_of(stretch, k)))
         n = 1
         term = rate
         do while (term > taylor_tail .and. n < most_taylor_terms)
@@ -176,6 +199,54 @@ contains
         if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
         n = min(n + 6, most_taylor_terms)
     end function terms_of
+
+    !> 1 + N/GA: the shear force is normal to the deflected axis (Engesser 1891), so T = (1 + N/GA) V + N psi
+    elemental function stretched_shear(stretch) result(factor)
+        type(stretch_type), intent(in) :: stretch
+        real(wp) :: factor
+
+        factor = 1 + stretch%tension*stretch%shear_flexibility
+    end function stretched_shear
+
+    !> Trace of the matrix A of y'' = A y, y = (w, M), with the rows (K/GA, -1/EI) and (K, N/EI), both over 1 + N/GA
+    elemental function trace_of(stretch, modulus) result(trace)
+        type(stretch_type), intent(in) :: stretch
+        !> K
+        real(wp), intent(in) :: modulus
+        real(wp) :: trace
+
+        trace = (modulus*stretch%shear_flexibility + stretch%tension*stretch%flexibility)/stretched_shear(stretch)
+    end function trace_of
+
+    !> Its determinant
+    elemental function determinant_of(stretch, modulus) result(determinant)
+        !> As for trace_of
+        type(stretch_type), intent(in) :: stretch
+        real(wp), intent(in) :: modulus
+        real(wp) :: determinant
+
+        determinant = modulus*stretch%flexibility/stretched_shear(stretch)
+    end function determinant_of
+
+    !> The transverse force T = V + N w', which loads and reactions balance
+    elemental function transverse_of(stretch, rotation, shear) result(force)
+        type(stretch_type), intent(in) :: stretch
+        !> psi and V
+        real(wp), intent(in) :: rotation, shear
+        real(wp) :: force
+
+        force = stretched_shear(stretch)*shear + stretch%tension*rotation
+    end function transverse_of
+
+    !> The shear V = M' from the transverse force
+    elemental function shear_of(stretch, rotation, force) result(shear)
+        type(stretch_type), intent(in) :: stretch
+        !> psi and T
+        real(wp), intent(in) :: rotation, force
+        real(wp) :: shear
+
+        shear = (force - stretch%tension*rotation)/stretched_shear(stretch)
+    end function shear_of
 
     !> A stretch seen from the other side
     pure function mirrored(stretch) result(other)

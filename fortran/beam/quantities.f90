@@ -7,15 +7,16 @@ module gapbeam_quantities
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: of_deflection, of_rotation, of_moment, of_shear, of_axial_force, of_axial_displacement, of_pressure, of_curvature
+    public :: of_deflection, of_rotation, of_moment, of_shear, of_axial_force, of_axial_displacement, of_pressure, of_curvature, &
+        of_transverse
     public :: quantity_count, state_count, derived_count, bending_count, bounded_count, bending, quantity_names, &
         quantity_remedies, quantity_units, needs_axial, needs_ground
     public :: shares_of, terms_of_derived, with_derived
 
     !> Numbers of the quantities, which stay: callers from C and Fortran 77 ask by them. New ones come at the end
     integer, parameter :: of_deflection = 1, of_rotation = 2, of_moment = 3, of_shear = 4, of_axial_force = 5, &
-        of_axial_displacement = 6, of_pressure = 7, of_curvature = 8
-    integer, parameter :: quantity_count = 8
+        of_axial_displacement = 6, of_pressure = 7, of_curvature = 8, of_transverse = 9
+    integer, parameter :: quantity_count = 9
 
     !> Those of every beam, in the order of arrays of bending: first the state, then what is derived from it
     integer, parameter :: bending(*) = [of_deflection, of_rotation, of_moment, of_shear, of_curvature]
@@ -27,12 +28,13 @@ module gapbeam_quantities
     integer, parameter :: needs_axial(*) = [of_axial_force, of_axial_displacement], needs_ground(*) = [of_pressure]
 
     character(len=*), parameter :: quantity_names(quantity_count) = [character(len=24) :: &
-        "deflection", "rotation", "moment", "shear", "axial force", "axial displacement", "pressure of the ground", "curvature"]
+        "deflection", "rotation", "moment", "shear", "axial force", "axial displacement", "pressure of the ground", "curvature", &
+        "transverse force"]
     !> What helps where the numbers are too great
     character(len=*), parameter :: quantity_remedies(quantity_count) = [character(len=40) :: &
         "choose a greater unit of length", "give a stiffer beam or smaller loads", "choose a greater unit of force", &
         "choose a greater unit of force", "choose a greater unit of force", "choose a greater unit of length", &
-        "choose a greater unit of force", "choose a smaller unit of length"]
+        "choose a greater unit of force", "choose a smaller unit of length", "choose a greater unit of force"]
     !> Units: powers of force, length, deflection
     integer, parameter :: quantity_units(3, quantity_count) = reshape([ &
         0, 0, 1, &
@@ -42,7 +44,8 @@ module gapbeam_quantities
         1, 0, 0, &
         0, 0, 1, &
         1, -1, 0, &
-        0, -2, 1], [3, quantity_count])
+        0, -2, 1, &
+        1, 0, 0], [3, quantity_count])
 
 contains
 

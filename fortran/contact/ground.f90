@@ -170,8 +170,8 @@ contains
         end do
     end function steps_of
 
-    !> Into how many equal steps a piece is cut in any case: where the modulus varies, series hold for beta*length <= 1. Laws that
-    !> stiffen may need more (gapbeam_zones)
+    !> Into how many equal steps a piece is cut in any case: where the modulus varies, and under compression, series hold for
+    !> beta*length <= 1. Laws that stiffen may need more (gapbeam_zones)
     pure function steps_of_piece(ground, piece, stiffer) result(steps)
         type(ground_type), intent(in) :: ground
         integer, intent(in) :: piece
@@ -183,7 +183,7 @@ contains
 
         modulus = 0.0_wp
         if (present(stiffer)) modulus = stiffer
-        varies = modulus > 0.0_wp
+        varies = modulus > 0.0_wp .or. ground%pieces(piece)%tension < 0.0_wp
         do k = ground%first(piece), ground%first(piece + 1) - 1
             associate (layer => ground%layers(k))
                 if (.not. has_points(layer)) then
@@ -207,7 +207,8 @@ contains
         steps = 1
         if (.not. varies) return
         associate (p => ground%pieces(piece))
-            steps = max(1, ceiling(decay_lengths(stretch_type(p%length, p%flexibility, p%shear_flexibility, modulus, modulus))))
+            steps = max(1, ceiling(decay_lengths(stretch_type(p%length, p%flexibility, p%shear_flexibility, modulus, modulus, &
+                                                              p%tension))))
         end associate
     end function steps_of_piece
 
@@ -276,7 +277,7 @@ contains
 
         associate (j => zones%piece(i), s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), &
                    link => grounded%beam%links(i), from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
-            s = stretch_type(length=to - from, flexibility=p%flexibility, shear_flexibility=p%shear_flexibility)
+            s = stretch_type(length=to - from, flexibility=p%flexibility, shear_flexibility=p%shear_flexibility, tension=p%tension)
             dead = load_between(ground%dead(j), from, to, p%length)
             live = load_between(ground%live(j), from, to, p%length)
             do k = ground%first(j), ground%first(j + 1) - 1

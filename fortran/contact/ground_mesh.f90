@@ -85,7 +85,7 @@ contains
         real(wp) :: number
 
         associate (p => ground%pieces(piece))
-            number = decay_lengths(stretch_type(length, p%flexibility, p%shear_flexibility, stiffness, stiffness))
+            number = decay_lengths(stretch_type(length, p%flexibility, p%shear_flexibility, stiffness, stiffness, p%tension))
         end associate
     end function decays
 

@@ -112,7 +112,7 @@ contains
         call mark_held(beam%supports, acting, followed%fixed)
         if (allocated(beam%ground)) then
             do i = 1, n
-                if (beam%ground(i)%gaa > 0.0_wp) followed%fixed(i - 1:i) = .true.
+                if (beam%ground(i)%grounded) followed%fixed(i - 1:i) = .true.
             end do
         end if
         followed%y(:) = 0.0_wp

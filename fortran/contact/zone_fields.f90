@@ -2,6 +2,7 @@
 module gapbeam_zone_fields
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: straight_field
+    use gapbeam_foundation_taylor, only: shear_of
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: is_curve, has_curves
@@ -22,17 +23,19 @@ contains
         !> Number of the stretch
         integer, intent(in) :: i
         real(wp), intent(out) :: rotation(2), shear(2)
+        real(wp) :: transverse(2)
 
         associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
             rotation(1) = -g%pa*a%deflection + g%p1*b%deflection + g%faa*a%moment_right + g%fab*b%moment_left &
                 + (link%turn_a(1) + factor*link%turn_a(2))
             rotation(2) = g%pb*b%deflection - g%p2*a%deflection - g%fab*a%moment_right - g%fbb*b%moment_left &
                 - (link%turn_b(1) + factor*link%turn_b(2))
-            shear(1) = -g%pa*a%moment_right + g%p2*b%moment_left - g%gaa*a%deflection - g%gab*b%deflection &
+            transverse(1) = -g%pa*a%moment_right + g%p2*b%moment_left - g%gaa*a%deflection - g%gab*b%deflection &
                 + (link%shear_a(1) + factor*link%shear_a(2))
-            shear(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
+            transverse(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
                 + (link%shear_b(1) + factor*link%shear_b(2))
         end associate
+        shear = shear_of(grounded%stretches(i), rotation, transverse)
     end subroutine fields_at_ends
 
     !> Values at the ends of a stretch of a solved beam

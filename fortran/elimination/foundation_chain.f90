@@ -3,8 +3,9 @@
 !> A link on ground has two rotations and two shears of its own (gapbeam_foundation); all nodes before a node still act on it
 !> through the three numbers phi, beta, delta of gapbeam_band. With the determinants and sums that a link brings along,
 !> every step of the recursion is a sum of terms that are not negative as long as beta L < 2.365; beyond that the only terms that
-!> change sign are below 1/40 of the others. Where ground pushes back less the more it is pressed, the sums are of mixed
-!> sign, and a pivot that is not positive says that the state is not stable.
+!> change sign are below 1/40 of the others, and tension adds terms that are not negative. Under compression the sums are of mixed
+!> sign. Links are so short there that none buckles by itself, and the pivots tell whether the beam does (Sylvester; Wittrick and
+!> Williams 1971).
 !>
 !> A pivot is zero where a rigid link goes on from a node whose deflection and rotation are known, as at a clamp. Then so is the
 !> deflection at its other end, and the moment follows from equilibrium there on the way back.
@@ -13,7 +14,7 @@ module gapbeam_foundation_chain
     use gapbeam_require, only: checked, require
     use gapbeam_nodes, only: hinge_left, hinge_right, joint_left, joint_right, is_hinge, takes_left
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, plain, hinge, restrained, jointed, band_ok, &
-        band_mechanism, band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam
+        band_mechanism, band_needs_pivoting, full, w_known, m_known, both_known, statics, end_of_beam, count_unstable_pivots
     use gapbeam_foundation, only: stretch_link_type
     implicit none
     private
@@ -31,8 +32,8 @@ contains
         type(stretch_link_type), intent(in) :: links(:)
         !> The factor, shape (0:n)
         type(pivot_type), intent(inout) :: pivots(0:)
-        !> band_ok; band_mechanism, also where ground that softens makes it unstable; or band_needs_pivoting: a rigid stretch
-        !> over too many rigid supports
+        !> band_ok; band_mechanism, also where compression makes it unstable; or band_needs_pivoting: a rigid stretch over too many
+        !> rigid supports
         integer, intent(out) :: state
         !> Node at which a state other than band_ok was found
         integer, intent(out) :: place
@@ -60,6 +61,7 @@ contains
                 p%c = delta + node%stiffness
                 if (i == n) then
                     call factor_last(node, held, p, phi, beta, floating, state)
+                    if (state == band_ok .and. count_unstable_pivots(nodes, pivots) > 0) state = band_mechanism
                     return
                 end if
                 associate (link => links(i + 1), carried => p%c)
@@ -69,11 +71,15 @@ contains
                         if (held) then
                             p%kind = both_known
                             next = [link%fbb, link%pb, link%gbb]
-                        else if (carried + link%gaa > 0.0_wp) then
+                        else if (abs(carried + link%gaa) > 0.0_wp) then
                             p%kind = m_known
                             p%reciprocal = 1/(carried + link%gaa)
-                            next = [link%fbb + link%p2**2*p%reciprocal, link%pb + link%p2*link%gab*p%reciprocal, &
+                            next = [link%fbb + link%p2**2*p%reciprocal, (carried*link%pb + link%s6)*p%reciprocal, &
                                     (carried*link%gbb + link%dg)*p%reciprocal]
+                        else if (abs(link%gaa) > 0.0_wp) then
+                            ! Compression takes all that carries it
+                            state = band_mechanism
+                            return
                         else
                             p%kind = statics
                             next = 0.0_wp
@@ -85,7 +91,7 @@ contains
                         next = [link%fbb, link%pb, link%gbb]
                     else if (held) then
                         p%kind = w_known
-                        if (.not. p%a > 0.0_wp) then
+                        if (.not. abs(p%a) > 0.0_wp) then
                             state = band_needs_pivoting
                             return
                         end if
@@ -95,7 +101,7 @@ contains
                     else
                         p%kind = full
                         divisor = p%a*(carried + link%gaa) + p%b**2
-                        if (.not. divisor > 0.0_wp) then
+                        if (.not. abs(divisor) > 0.0_wp) then
                             state = band_mechanism
                             return
                         end if
@@ -129,10 +135,10 @@ contains
         type(pivot_type), intent(in) :: pivot
         real(wp) :: next(3)
 
-        associate (a => pivot%a, b => pivot%b, c => carried + link%gaa)
+        associate (c => carried + link%gaa)
             next(1) = phi*link%p2**2 + link%s1 + beta*(2*link%s2 + beta*link%fbb) + c*(phi*link%fbb + link%df)
-            next(2) = beta**2*link%pb + beta*link%s5 + phi*link%p2*link%gab + link%s4 + c*(phi*link%pb + link%s3)
-            next(3) = c*link%p1**2 + 2*b*link%p1*link%gab + b**2*link%gbb + a*(carried*link%gbb + link%dg)
+            next(2) = beta**2*link%pb + beta*link%s5 + phi*link%s6 + link%s4 + carried*(phi*link%pb + link%s3)
+            next(3) = carried*link%p1**2 + link%s8 + beta*(2*link%s7 + beta*link%gbb) + pivot%a*(carried*link%gbb + link%dg)
         end associate
         next = next*pivot%reciprocal
     end function passed_on
@@ -150,7 +156,7 @@ contains
         pivot%kind = end_of_beam
         pivot%a = phi
         pivot%b = beta
-        if (.not. (held .or. pivot%c > 0.0_wp)) state = band_mechanism
+        if (.not. (held .or. abs(pivot%c) > 0.0_wp)) state = band_mechanism
         if (floating .and. node%kind /= restrained) state = band_mechanism
         if (.not. held .and. state == band_ok) pivot%reciprocal = 1/pivot%c
     end subroutine factor_last
@@ -232,7 +238,7 @@ contains
         type(stretch_link_type), intent(in) :: link
         logical :: weak
 
-        weak = pivot%c*link%fbb < link%p2**2
+        weak = abs(pivot%c*link%fbb) < link%p2**2
     end function is_weak
 
     !> Backward

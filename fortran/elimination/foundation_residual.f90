@@ -55,7 +55,7 @@ contains
         end do
     end subroutine residual_on_ground
 
-    !> Rotation and shear at the two ends of a link, without those of its loads
+    !> Rotation and transverse force at the two ends of a link, without those of its loads
     pure subroutine ends_of_link(link, a, b, at_a, at_b)
         type(stretch_link_type), intent(in) :: link
         type(answer_type), intent(in) :: a, b

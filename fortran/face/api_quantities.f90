@@ -11,13 +11,13 @@ module gapbeam_api_quantities
     use gapbeam_quantities, only: quantity_count, gapbeam_of_deflection => of_deflection, gapbeam_of_rotation => of_rotation, &
         gapbeam_of_moment => of_moment, gapbeam_of_shear => of_shear, gapbeam_of_axial_force => of_axial_force, &
         gapbeam_of_axial_displacement => of_axial_displacement, gapbeam_of_pressure => of_pressure, &
-        gapbeam_of_curvature => of_curvature
+        gapbeam_of_curvature => of_curvature, gapbeam_of_transverse => of_transverse
     use gapbeam_query, only: fields_at_places, extremes_of_fields
     use gapbeam_api_objects, only: prepared_type, result_type, require_result, require_size, bad_argument
     implicit none
     private
     public :: gapbeam_of_deflection, gapbeam_of_rotation, gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, &
-        gapbeam_of_axial_displacement, gapbeam_of_pressure, gapbeam_of_curvature
+        gapbeam_of_axial_displacement, gapbeam_of_pressure, gapbeam_of_curvature, gapbeam_of_transverse
     public :: get_quantities, get_quantity_extremes, require_quantities
 
 contains
@@ -29,7 +29,8 @@ contains
         type(result_type), intent(inout) :: result
         !> Which: gapbeam_of_deflection (down), gapbeam_of_rotation (clockwise), gapbeam_of_moment (sagging), gapbeam_of_shear,
         !> gapbeam_of_axial_force (tension), gapbeam_of_axial_displacement (to the right), gapbeam_of_pressure (of the ground, up),
-        !> gapbeam_of_curvature (sagging: M/EI less what is imposed), shape (m)
+        !> gapbeam_of_curvature (sagging: M/EI less what is imposed), gapbeam_of_transverse (shear and axial force times slope), shape
+        !> (m)
         integer, intent(in) :: quantities(:)
         !> Places, shape (n)
         real(wp), intent(in) :: x(:)

@@ -11,7 +11,7 @@ contains
 
     !> A model from arrays, without foundations
     subroutine model_from_arrays(span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, model, error)
-        !> Length, EI, GA, EA
+        !> Length, EI, GA, EA, and axial force if there is a fifth row
         real(wp), intent(in) :: span(:, :)
         !> Places, and couple per relative rotation if there is a second row
         real(wp), intent(in) :: hinge(:, :)
@@ -46,6 +46,7 @@ contains
                 s%EI = span(2, i)
                 s%GA = span(3, i)
                 s%EA = span(4, i)
+                if (size(span, 1) > 4) s%N = span(5, i)
             end associate
         end do
         model%hinges(:) = hinge(1, :)
@@ -66,6 +67,7 @@ contains
                 s%GA_power = nint(sect(10, i))
                 s%EA_power = nint(sect(11, i))
                 s%friction = sect(12, i)
+                if (size(sect, 1) > 12) s%N = sect(13, i)
             end associate
         end do
         do i = 1, size(model%supports)
@@ -95,7 +97,7 @@ contains
     !> The foundations of a model from arrays
     subroutine foundations_from_arrays(side, found, iprof, aprof, ilaw, alaw, model, error)
         !> Side; from, to, modulus and gap, each at the left and right end; with laws by parameters also law, its parameters at the
-        !> left end and at the right end
+        !> left end and at the right end, and shear if there is a row more
         integer, intent(in) :: side(:)
         real(wp), intent(in) :: found(:, :)
         !> Points of tables: foundation, from 1; x, value, and of what, if there is a third row: of the gap otherwise
@@ -129,6 +131,7 @@ contains
                 f%law = nint(found(7, i))
                 f%parameter = found(8:10, i)
                 f%parameter_to = found(11:13, i)
+                if (size(found, 1) > 13) f%shear = found(14, i)
             end associate
         end do
         do i = 1, size(model%ground)

@@ -36,11 +36,11 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(4, mspan), hinge(2, mhinge), sect(12, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
+    double precision, intent(in) :: span(5, mspan), hinge(2, mhinge), sect(13, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
-    double precision, intent(in) :: found(13, mfound), aprof(3, mprof), aflaw(3, mflaw)
+    double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
@@ -138,8 +138,8 @@ subroutine gbsize(beam, sizes, units)
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
     ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends, links along
-    ! the beam (1) or ground (2); layers of ground
-    integer, intent(out) :: sizes(13)
+    ! the beam (1) or ground (2); layers of ground, -1 where it is not solved in stretches; does bending feel axial forces
+    integer, intent(out) :: sizes(14)
     ! Exponents of two: length, force, deflection
     integer, intent(out) :: units(3)
     type(handle_type), pointer :: handle
@@ -150,7 +150,8 @@ subroutine gbsize(beam, sizes, units)
                  size(lowered%model%hinges), merge(1, 0, any(lowered%turning > 0.0d0)), &
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
                  merge(1, 0, size(lowered%law) > 0), merge(1, 0, lowered%depends_on_path), &
-                 merge(1, 0, allocated(lowered%axial%laws)) + merge(2, 0, allocated(lowered%axial%limit)), 0]
+                 merge(1, 0, allocated(lowered%axial%laws)) + merge(2, 0, allocated(lowered%axial%limit)), -1, &
+                 merge(1, 0, any(abs(lowered%pieces%tension) > 0.0d0))]
         if (allocated(lowered%layers)) sizes(13) = size(lowered%layers)
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection]
         if (allocated(lowered%axial%point)) sizes(5) = ubound(lowered%axial%point, 1)

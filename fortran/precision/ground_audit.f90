@@ -14,7 +14,7 @@ module gapbeam_ground_audit
     use gapbeam_ground_laws, only: contact_line, distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: field_at_end, find_sizes
+    use gapbeam_ground_fields, only: field_at_end, force_at_end, find_sizes
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_contact, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
@@ -127,7 +127,7 @@ contains
         !> Forces, moments, rotations, supports and restraint of node j, and of all that acts on its part of the beam left of it
         subroutine audit_node()
             type(field_type) :: a, b
-            real(wp) :: load, couple, turn, up, up_size, at, terms
+            real(wp) :: load, couple, turn, up, up_size, at, terms, before, after
             integer :: piece, s
             logical :: inside
 
@@ -137,8 +137,12 @@ contains
             call find_sizes_beside(i)
             a = field_type(solution%deflection(j), 0.0_wp, 0.0_wp, 0.0_wp)
             b = a
+            before = 0.0_wp
+            after = 0.0_wp
             if (j > 0) a = field_at_end(solution, i - 1, 2)
+            if (j > 0) before = force_at_end(solution, i - 1, 2)
             if (i <= m) b = field_at_end(solution, i, 1)
+            if (i <= m) after = force_at_end(solution, i, 1)
             associate (w => solution%deflection(j), left => solution%moment_left(j), right => solution%moment_right(j), &
                        beam => ground%beam)
                 call fits(of_bending, deflections, a%deflection - w, sizes%deflection)
@@ -160,7 +164,7 @@ contains
                 do s = beam%first(j), beam%first(j + 1) - 1
                     call audit_support(beam%order(s))
                 end do
-                call fits(of_equilibrium, forces, (b%shear - a%shear) - (up - load), sizes%shear + up_size)
+                call fits(of_equilibrium, forces, (after - before) - (up - load), sizes%shear + up_size)
                 terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j))
                 select case (beam%kind(j))
                 case (hinge)
@@ -176,12 +180,12 @@ contains
                 end select
                 if (j > 0) then
                     ! Under couples alone there is no force but what moments leave by rounding
-                    call fits(of_parts, forces, part%force - a%shear, part%force_size + sizes%shear &
+                    call fits(of_parts, forces, part%force - before, part%force_size + sizes%shear &
                               + part%moment_size/sum(ground%pieces%length))
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
                 if (beam%kind(j) == hinge) then
-                    part = sums_type(b%shear, 0.0_wp, abs(b%shear), 0.0_wp)
+                    part = sums_type(after, 0.0_wp, abs(after), 0.0_wp)
                 else
                     part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
                                      part%moment_size + abs(left) + abs(right))
@@ -235,7 +239,8 @@ contains
                 call note(ledger, of_bending, deflections, b%deflection - a%deflection, sizes%deflection, piece, at)
                 call note(ledger, of_bending, rotations, b%rotation - a%rotation, sizes%rotation, piece, at)
                 call note(ledger, of_equilibrium, moments, b%moment - a%moment, sizes%moment, piece, at)
-                call note(ledger, of_equilibrium, forces, (b%shear - a%shear) - push_at(i), sizes%shear, piece, at)
+                call note(ledger, of_equilibrium, forces, (force_at_end(solution, i + 1, 1) - force_at_end(solution, i, 2)) &
+                          - push_at(i), sizes%shear, piece, at)
                 call audit_push(i, piece, at, a%deflection)
                 incline = a%rotation + ground%pieces(piece)%shear_flexibility*a%shear
                 do k = 1, ground%first(piece + 1) - ground%first(piece)

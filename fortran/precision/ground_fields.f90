@@ -4,7 +4,7 @@ module gapbeam_ground_fields
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
-    use gapbeam_foundation_taylor, only: is_sloped
+    use gapbeam_foundation_taylor, only: is_sloped, transverse_of
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
     use gapbeam_layers, only: layer_type, law_piece_type, is_curve
     use gapbeam_curved, only: curved_type, curved_fields
@@ -12,7 +12,7 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch, deflection_size, find_sizes
+    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch, deflection_size, find_sizes
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type
@@ -99,6 +99,16 @@ contains
                                merge(ends%moment_a, ends%moment_b, side == 1), solution%shear(side, i))
         end associate
     end function field_at_end
+
+    !> Transverse force at an end of a stretch
+    pure function force_at_end(solution, i, side) result(force)
+        !> As for field_at_end
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i, side
+        real(wp) :: force
+
+        force = transverse_of(solution%stretches(i), solution%rotation(side, i), solution%shear(side, i))
+    end function force_at_end
 
     !> Fields between the ends of a stretch
     pure subroutine field_inside(inside, xi, field)
@@ -190,7 +200,7 @@ contains
                 + square*(s%flexibility*(moment + square*q) + abs(load%kappa)) + s%shear_flexibility*(moment + square*q)
             sizes%rotation = maxval(abs(solution%rotation(:, i)))
             sizes%moment = moment + square*(q + modulus*sizes%deflection)
-            sizes%shear = maxval(abs(solution%shear(:, i)))
+            sizes%shear = maxval(abs(solution%shear(:, i))) + abs(s%tension)*(sizes%rotation + sizes%deflection/s%length)
             bent = sizes%moment
             if (s%flexibility > 0.0_wp) then
                 bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/s%flexibility

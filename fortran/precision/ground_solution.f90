@@ -7,7 +7,7 @@ module gapbeam_ground_solution
     use gapbeam_tolerances, only: sign_width, fine_rounding, ground_fine_width, same_ratio_of_slopes
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
-    use gapbeam_foundation_taylor_quad, only: expand, terms_of
+    use gapbeam_foundation_taylor_quad, only: expand, terms_of, stretched_shear, transverse_of
     use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
@@ -105,7 +105,7 @@ contains
             call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field, curved)
             solution%stretches(i) = stretch_type(real(stretch%length, wp), real(stretch%flexibility, wp), &
                                                  real(stretch%shear_flexibility, wp), real(stretch%modulus_a, wp), &
-                                                 real(stretch%modulus_b, wp))
+                                                 real(stretch%modulus_b, wp), real(stretch%tension, wp))
             solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
             solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
                                                  real(ends%moment_b, wp))
@@ -201,7 +201,8 @@ contains
             real(qp) :: gain(4)
 
             associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
-                gain = way*[psi + s%shear_flexibility*shear, q%kappa - s%flexibility*moment, shear, modulus*w - pressure]
+                gain = way*[psi + s%shear_flexibility*shear, q%kappa - s%flexibility*moment, shear, &
+                            (modulus*w - pressure - s%tension*(q%kappa - s%flexibility*moment))/stretched_shear(s)]
                 w = w + gain(1)
                 psi = psi + gain(2)
                 moment = moment + gain(3)
@@ -264,7 +265,8 @@ contains
         where (abs(field) <= fine_rounding*spread(sizes, 1, 2)) field = 0.0_qp
     end subroutine drop_small
 
-    !> Force of every layer on a stretch: what the shear gains is the whole pressure less the load, and shared out by the moduli
+    !> Force of every layer on a stretch: what the transverse force gains is the whole pressure less the load, and shared out by the
+    !> moduli
     subroutine sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
@@ -288,7 +290,8 @@ contains
         forces(:) = 0.0_qp
         from = zones%from(i)
         modulus = [stretch%modulus_a, stretch%modulus_b]
-        by_springs = (field(2, 2) - field(1, 2)) + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
+        by_springs = (transverse_of(stretch, field(2, 1), field(2, 2)) - transverse_of(stretch, field(1, 1), field(1, 2))) &
+            + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
         n = 0
         if (allocated(curved)) then
             allocate (by_curves(size(curved%curves)))

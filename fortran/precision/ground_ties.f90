@@ -145,7 +145,7 @@ contains
         end do
         if (.not. (any(idle) .or. any(closed .and. undecided))) return
         beam = grounded%beam
-        where (idle) beam%ground%gaa = 0.0_qp
+        where (idle) beam%ground%grounded = .false.
         call free_motions(beam, closed .and. .not. undecided, motions)
         do m = 1, size(motions)
             do sense = -1, 1, 2

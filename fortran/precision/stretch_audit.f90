@@ -1,7 +1,7 @@
 !> Audit of a stretch of a beam on the ground by the integrated equations of the beam.
-!> Its fields, asked for as users ask, are put into the equations, psi' = kappa - M/EI, w' = psi + V/GA, M' = V, V' = pressure -
-!> load, and these are integrated from end to end. The pressure is what the laws make of the deflection, the load is that of the
-!> model; nothing of how the stretch was solved is used.
+!> Its fields, asked for as users ask, are put into the equations, psi' = kappa - M/EI, w' = psi + V/GA, M' = V = T - N w', T' =
+!> pressure - load, and these are integrated from end to end. The pressure is what the laws make of the deflection, the load is that
+!> of the model; nothing of how the stretch was solved is used.
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
@@ -12,7 +12,8 @@ module gapbeam_stretch_audit
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, field_inside, curved_stretch
+    use gapbeam_foundation_taylor, only: trace_of, determinant_of
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond, pulls
@@ -54,7 +55,8 @@ contains
         type(inside_type) :: inside
         type(piece_load_type) :: load
         type(field_type) :: left, right
-        real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize
+        real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize, &
+            push(2), pull
         integer :: n
         logical :: curves
 
@@ -66,6 +68,8 @@ contains
                 load = combine_loads(ground%dead(j), ground%live(j), factor)
                 left = field_at_end(solution, i, 1)
                 right = field_at_end(solution, i, 2)
+                push = [force_at_end(solution, i, 1), force_at_end(solution, i, 2)]
+                pull = s%tension*(right%deflection - left%deflection)
                 wsize = sizes%deflection
                 msize = sizes%moment
                 call take_sizes()
@@ -81,11 +85,11 @@ contains
                     call fits(of_bending, deflections, (right%deflection - left%deflection) - l*(left%rotation + l*bent(2)) &
                               - g*(right%moment - left%moment), wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa))) &
                               + g*(abs(right%moment) + abs(left%moment)))
-                    call fits(of_equilibrium, forces, (right%shear - left%shear) - l*pressed(1), abs(right%shear) &
-                              + abs(left%shear) + l*(sum(terms(:n)) + qsize))
-                    call fits(of_equilibrium, moments, (right%moment - left%moment) - l*(left%shear + l*pressed(2)), &
-                              abs(right%moment) + abs(left%moment) + l*(abs(left%shear) + l*(sum(terms(:n)) + qsize)))
-                    sums%moment = l**2*pressed(2)
+                    call fits(of_equilibrium, forces, (push(2) - push(1)) - l*pressed(1), sum(abs(push)) + sizes%shear &
+                              + l*(sum(terms(:n)) + qsize))
+                    call fits(of_equilibrium, moments, (right%moment - left%moment) + pull - l*(push(1) + l*pressed(2)), &
+                              abs(right%moment) + abs(left%moment) + l*(sizes%shear + abs(push(1)) + l*(sum(terms(:n)) + qsize)))
+                    sums%moment = l**2*pressed(2) - pull
                 end if
                 call check_layers(1.0_wp, right, .true.)
                 call audit_resultants()
@@ -199,7 +203,7 @@ contains
                     call fits(of_equilibrium, moments, right%moment - y(3), msize + l*(abs(left%shear) + l*(sum(terms) + qsize)))
                     call fits(of_equilibrium, forces, right%shear - y(4), abs(left%shear) + abs(right%shear) &
                               + l*(sum(terms) + qsize))
-                    sums%moment = y(3) - left%moment - l*left%shear
+                    sums%moment = y(3) - left%moment - l*push(1)
                     c = 0
                     do k = 1, n
                         force(k) = solution%resultant(k, i)
@@ -231,8 +235,7 @@ contains
                 sums%force = sum(r(:n)) - q
                 sums%force_size = sum(abs(r(:n))) + l*(sum(terms(:n)) + qsize)
                 sums%moment_size = l*sums%force_size
-                call fits(of_equilibrium, forces, (right%shear - left%shear) - sums%force, abs(right%shear) + abs(left%shear) &
-                          + sums%force_size)
+                call fits(of_equilibrium, forces, (push(2) - push(1)) - sums%force, sum(abs(push)) + sizes%shear + sums%force_size)
             end associate
         end subroutine audit_resultants
 
@@ -315,9 +318,9 @@ contains
         real(wp) :: k, sigma, root, mean, half
 
         associate (s => solution%stretches(i))
-            k = max(s%modulus_a, s%modulus_b)*s%length**2
-            sigma = k*s%shear_flexibility
-            root = sqrt(k)*s%length*sqrt(s%flexibility)
+            k = max(s%modulus_a, s%modulus_b)
+            sigma = abs(trace_of(s, k))*s%length**2
+            root = sqrt(determinant_of(s, k))*s%length**2
             mean = sqrt(sigma + 2*root)/2
             half = sqrt(max(0.0_wp, sigma - 2*root))/2
             if (half > 0.0_wp) then

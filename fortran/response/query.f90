@@ -6,8 +6,8 @@ module gapbeam_query
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: bending_values, values_at, find_extremes
     use gapbeam_piece, only: piece_load_type, combine_loads, curvature_at
-    use gapbeam_quantities, only: quantity_count, bending_count, bending, of_axial_force, of_axial_displacement, &
-        of_pressure, needs_axial, quantity_names, quantity_remedies
+    use gapbeam_quantities, only: quantity_count, bending_count, bending, of_shear, of_axial_force, of_axial_displacement, &
+        of_pressure, of_transverse, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
     use gapbeam_axial_fields, only: axial_fields, extremes_along
@@ -21,6 +21,7 @@ module gapbeam_query
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_query, only: ground_values, ground_extremes
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
+    use gapbeam_transverse, only: transverse_at, transverse_extremes
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: recover_state
     implicit none
@@ -169,6 +170,7 @@ contains
                                                   curvature_at(load, scale(distance(i), -assembled%units%length), &
                                                                assembled%pieces(piece(i))%length), &
                                                   scale(distance(i), -assembled%units%length))
+            all_of_them(of_transverse) = transverse_at(assembled%pieces(piece(i)), bent(i))
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement), along_ground)
             found(:, i) = all_of_them(quantities)
@@ -281,7 +283,8 @@ contains
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count)
-        integer :: piece(2, bending_count), powers(size(quantities)), i, k
+        real(wp) :: at(2)
+        integer :: piece(2, bending_count), powers(size(quantities)), of_force(2), i, k
 
         found(:, :) = 0.0_wp
         places(:, :) = 0.0_wp
@@ -291,11 +294,14 @@ contains
             call find_extremes(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, bent, piece, distance)
         end if
         found(:, bending) = bent
-        do k = 1, bending_count
-            do i = 1, 2
-                places(i, bending(k)) = point_x(assembled, piece(i, k) - 1) + scale(distance(i, k), assembled%units%length)
-            end do
-        end do
+        places(:, bending) = reshape(x_of(reshape(piece, [2*bending_count]), reshape(distance, [2*bending_count])), shape(bent))
+        ! Without an axial force that bending feels it is the shear
+        found(:, of_transverse) = found(:, of_shear)
+        places(:, of_transverse) = places(:, of_shear)
+        if (allocated(state%ground) .and. any(quantities == of_transverse)) then
+            call transverse_extremes(assembled, state%ground, found(:, of_transverse), of_force, at)
+            places(:, of_transverse) = x_of(of_force, at)
+        end if
         if (allocated(assembled%axial%point)) then
             associate (point => assembled%axial%point, displacement => state%displacement, tension => state%tension)
                 found(:, of_axial_force) = [maxval(tension), minval(tension)]
@@ -327,6 +333,19 @@ contains
                 return
             end associate
         end do
+
+    contains
+
+        !> x of places in pieces
+        elemental function x_of(piece, distance) result(x)
+            integer, intent(in) :: piece
+            !> From its left end, in the engine's units
+            real(wp), intent(in) :: distance
+            real(wp) :: x
+
+            x = point_x(assembled, piece - 1) + scale(distance, assembled%units%length)
+        end function x_of
+
     end subroutine extremes_of_pieces
 
     !> x of all nodes

@@ -11,6 +11,7 @@ module gapbeam_assemble
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_movement, &
         gapbeam_dead, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, is_stretch, is_movement, is_of_support
+    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
@@ -72,6 +73,7 @@ contains
             if (.not. allocated(error)) call check_along(model, assembled%law, assembled%with_law, error)
             if (allocated(error)) return
             call check_foundations(model, assembled%ends(n), error)
+            if (.not. allocated(error)) call check_axial_force(model, error)
             if (allocated(error)) return
             call check_loads(model%loads, model, assembled%ends, error)
         end associate
@@ -312,9 +314,9 @@ contains
             associate (n => size(assembled%model%loads))
                 if (.not. is_hinge(point)) then
                     call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
-                else if (size(assembled%model%foundations) > 0) then
-                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside a foundation it is not available in "// &
-                                "this version; put the couple on one side of the hinge")
+                else if (in_stretches(assembled%model)) then
+                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside "//what_stretches(assembled%model)// &
+                                " it is not available in this version; put the couple on one side of the hinge")
                 end if
             end associate
         end subroutine check_couple

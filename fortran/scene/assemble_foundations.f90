@@ -10,6 +10,7 @@ module gapbeam_assemble_foundations
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
     use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_axial_force, only: in_stretches
     use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
     use gapbeam_assemble_movements, only: move_layers
     use gapbeam_assemble_ground_laws, only: law_of_foundation_type, find_laws, make_laws, is_straight
@@ -24,7 +25,7 @@ module gapbeam_assemble_foundations
 
 contains
 
-    !> Layers and laws in the user's units; nothing without foundations
+    !> Layers and laws in the user's units; nothing without foundations, none where an axial force asks for stretches
     subroutine assemble_foundations(assembled, error)
         !> Points in
         type(assembled_type), intent(inout) :: assembled
@@ -39,7 +40,7 @@ contains
 
         if (.not. allocated(assembled%model%foundations)) return
         m = size(assembled%model%foundations)
-        if (m == 0) return
+        if (.not. in_stretches(assembled%model)) return
         pieces = size(assembled%pieces)
         if (.not. allocated(assembled%layers)) then
             allocate (assembled%layer_first(pieces + 1), stat=stat)

@@ -7,6 +7,7 @@ module gapbeam_assemble_hinges
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type, turns
+    use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_scene, only: support_type, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_model, only: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge
     use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law, at_hinge
@@ -167,9 +168,9 @@ contains
                                       "this version")
                 else if (hinge > softest_hinge*softness) then
                     call refuse_hinge("it is so far below EI/length of the beam that it is a free hinge; give 0")
-                else if (size(assembled%model%foundations) > 0) then
-                    call refuse_hinge("a hinge with a stiffness beside a foundation is not available in this version; leave "// &
-                                      "one of them out")
+                else if (in_stretches(assembled%model)) then
+                    call refuse_hinge("a hinge with a stiffness beside "//what_stretches(assembled%model)// &
+                                      " is not available in this version; leave one of them out")
                 end if
             end associate
             if (allocated(error)) return

@@ -8,6 +8,7 @@ module gapbeam_assemble_supports
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type, is_along, turns
+    use gapbeam_axial_force, only: in_stretches
     use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation, check_side, unclear
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
@@ -204,7 +205,7 @@ contains
             node(:) = merge(0, -1, assembled%hinged .or. assembled%joint > 0.0_wp)
             node(0) = 0
             node(n) = 0
-            if (size(assembled%model%foundations) > 0) node(:) = 0
+            if (in_stretches(assembled%model)) node(:) = 0
             first = n + 1
             last = -1
             do k = 1, size(assembled%support_point)

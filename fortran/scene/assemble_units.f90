@@ -9,6 +9,7 @@ module gapbeam_assemble_units
         units_with_loads, middle, largest, no_exponent, ordinary_exponent
     use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit, point_x, piece_length, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
+    use gapbeam_axial_force, only: assign_axial_force
     use gapbeam_assemble_supports, only: contact_level
     use gapbeam_assemble_foundations, only: note_foundations, scale_foundations, greatest_values
     use gapbeam_words, only: shown
@@ -19,14 +20,14 @@ module gapbeam_assemble_units
     private
     public :: change_units, refuse_link, name_farthest, load_in_units, support_in_units
 
-    character(len=*), parameter :: too_great_loads = " are too great together, or beside the levels at which supports act", &
-        smaller_loads = "give smaller ones"
+    character(len=*), parameter :: smaller_loads = "give smaller ones", &
+        too_great_loads = " are too great together, or beside the levels at which supports act"
 
 contains
 
-    !> Choose the engine's units, and take pieces, supports, foundations and loads to them
+    !> Choose the engine's units, and take all to them
     subroutine change_units(assembled, error)
-        !> Points, nodes, supports, layers, and loads in the user's units in
+        !> All in the user's units in
         type(assembled_type), intent(inout) :: assembled
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
@@ -35,6 +36,7 @@ contains
         call choose_units(assembled)
         call change_laws(assembled, -1)
         call cut_pieces(assembled, error)
+        if (.not. allocated(error)) call assign_axial_force(assembled, error)
         if (.not. allocated(error)) call assemble_hinges(assembled, error)
         if (.not. allocated(error)) call scale_supports(assembled, error)
         if (.not. allocated(error)) call scale_foundations(assembled, assembled%units, error)

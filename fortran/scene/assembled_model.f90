@@ -14,12 +14,12 @@ module gapbeam_assembled_model
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
     private
-    public :: in_bending, in_shear, along_axis
+    public :: in_bending, in_shear, along_axis, axial_force_in, kinds
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, fingerprint, is_stretch, &
         is_along, is_movement, is_of_support, point_x, piece_length, find_length_errors
 
-    !> Kinds of stiffness: EI, GA, EA
-    integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3
+    !> What spans and sections give: EI, GA, EA, and the axial force in bending
+    integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3, axial_force_in = 4, kinds = 4
 
     !> The axial system: bars between points with an axial load or support, in units of its own; none allocated if it is not
     !> needed
@@ -75,7 +75,7 @@ module gapbeam_assembled_model
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
         !> First and last point of every foundation; point of every point of tables, then of laws, -1: not on its foundation
         integer, allocatable :: foundation_from(:), foundation_to(:), ground_point(:)
-        !> First and last point of every section; the last section that gives EI, GA and EA of a piece, 0: none, shape (3, npiece),
+        !> First and last point of every section; the last section that gives EI, GA, EA, N of a piece, 0: none, shape (4, npiece),
         !> not allocated without sections
         integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
         !> Is there a hinge at a point; couple per relative rotation of an elastic one, 0: none; shape (0:npiece)
@@ -318,7 +318,7 @@ contains
         all_bits = 0
         do i = 1, size(model%spans)
             associate (s => model%spans(i))
-                call mix(all_bits, [s%length, s%EI, s%GA, s%EA])
+                call mix(all_bits, [s%length, s%EI, s%GA, s%EA, s%N])
             end associate
         end do
         call mix(all_bits, model%hinges)
@@ -326,7 +326,7 @@ contains
         if (allocated(model%sections)) then
             do i = 1, size(model%sections)
                 associate (s => model%sections(i))
-                    call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA])
+                    call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA, s%N])
                     if (s%friction > 0.0_wp) call mix(all_bits, [s%friction])
                     if (max(s%EI_to, s%GA_to, s%EA_to) > gapbeam_unchanged) then
                         call mix(all_bits, [s%EI_to, s%GA_to, s%EA_to, real([s%EI_power, s%GA_power, s%EA_power], wp)])
@@ -367,7 +367,7 @@ contains
         if (.not. allocated(model%foundations)) return
         do i = 1, size(model%foundations)
             associate (f => model%foundations(i))
-                call mix(all_bits, [f%from, f%to, f%k, f%k_to, f%gap, f%gap_to, real(f%side, wp)])
+                call mix(all_bits, [f%from, f%to, f%k, f%k_to, f%gap, f%gap_to, f%shear, real(f%side, wp)])
                 call mix(all_bits, [real(f%law, wp), f%parameter, f%parameter_to])
             end associate
         end do

@@ -7,6 +7,7 @@ module gapbeam_check_axial
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken
     use gapbeam_assembled_model, only: turns
+    use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
@@ -93,8 +94,8 @@ contains
         subroutine check_rest(key, what)
             character(len=*), intent(in) :: key, what
 
-            if (size(model%foundations) > 0) then
-                call say(key, what//" beside a foundation"//in_version//"; leave one of them out")
+            if (in_stretches(model)) then
+                call say(key, what//" beside "//what_stretches(model)//in_version//"; leave one of them out")
             else if (curved) then
                 call say(key, what//" beside a support whose law is a curve"//in_version//"; give the points of the curve")
             end if

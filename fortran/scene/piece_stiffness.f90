@@ -3,7 +3,7 @@ module gapbeam_piece_stiffness
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear, along_axis
+    use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear, along_axis, axial_force_in, kinds
     use gapbeam_input_error, only: refuse, of_sections, bad_law
     implicit none
     private
@@ -18,7 +18,7 @@ contains
         integer :: i, stat
 
         if (size(assembled%model%sections) == 0) return
-        allocate (assembled%section_of(3, size(assembled%pieces)), stat=stat)
+        allocate (assembled%section_of(kinds, size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -35,28 +35,29 @@ contains
                 if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
                 if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
                 if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i
+                if (s%N > gapbeam_unchanged) assembled%section_of(axial_force_in, first:last) = i
             end associate
         end do
     end subroutine assign_sections
 
-    !> Stiffness of a piece in the user's units
+    !> Stiffness of a piece, or the axial force in it, in the user's units
     pure function stiffness_of(assembled, piece, kind) result(stiffness)
         type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: piece
-        !> in_bending, in_shear or along_axis
+        !> in_bending, in_shear, along_axis or axial_force_in
         integer, intent(in) :: kind
-        real(wp) :: stiffness, all_three(3)
+        real(wp) :: stiffness, all_of_them(kinds)
 
         associate (s => assembled%model%spans(assembled%point_span(piece - 1) + 1))
-            all_three = [s%EI, s%GA, s%EA]
+            all_of_them = [s%EI, s%GA, s%EA, s%N]
         end associate
-        stiffness = all_three(kind)
+        stiffness = all_of_them(kind)
         if (.not. allocated(assembled%section_of)) return
         if (assembled%section_of(kind, piece) == 0) return
         associate (s => assembled%model%sections(assembled%section_of(kind, piece)))
-            all_three = [s%EI, s%GA, s%EA]
+            all_of_them = [s%EI, s%GA, s%EA, s%N]
         end associate
-        stiffness = all_three(kind)
+        stiffness = all_of_them(kind)
     end function stiffness_of
 
     !> Stiffness at both ends of a piece in the user's units, and its power of a depth that is linear between them

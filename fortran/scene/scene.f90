@@ -69,6 +69,8 @@ module gapbeam_scene
         real(wp) :: GA = gapbeam_infinity
         !> Axial stiffness (force); needed only with axial loads
         real(wp) :: EA = gapbeam_infinity
+        !> Axial force that bending feels (second order), tension positive
+        real(wp) :: N = 0.0_wp
     end type span_type
 
     !> Other stiffness between two places; later sections win over earlier ones
@@ -82,6 +84,8 @@ module gapbeam_scene
         integer :: EI_power = 1, GA_power = 1, EA_power = 1
         !> Most force per length with which the ground holds the beam along its axis, by friction, 0: no such ground
         real(wp) :: friction = 0.0_wp
+        !> Axial force there, as in span_type
+        real(wp) :: N = gapbeam_unchanged
     end type section_type
 
     !> A support: it acts where the deflection reaches settlement + gap (below) or settlement - gap (above). Of one that holds a
@@ -144,6 +148,8 @@ module gapbeam_scene
         integer :: law = gapbeam_law_by_points
         !> Those at its left and right end, linear in between, 0 or more (k2 of any sign); 0 where there is a table instead
         real(wp) :: parameter(parameters_of_law) = 0.0_wp, parameter_to(parameters_of_law) = gapbeam_unchanged
+        !> Second parameter (force): with what the ground resists differences of its deflection, shear times slope (Pasternak 1954)
+        real(wp) :: shear = 0.0_wp
     end type foundation_type
 
     !> A point of a table of a foundation, which has one instead of a number or two: straight in between, beyond its ends the last

@@ -36,7 +36,7 @@ class PreparedCombinations(OnOneBeam):
         in_parts = any("parts" in one.expand.values() for one in plan.scene.combinations)
         if in_parts or len(plan.scene.loads) > len(scene["loads"]) or any(other is not None for other in plan.scheme_of):
             raise SceneError("combinations", "their loads or contact states are not those of the scene")
-        if plan.settlements.any() or self._solver.movements is not None or beam.bars >= 0 or beam.ground_layers:
+        if plan.settlements.any() or self._solver.movements is not None or beam.bars >= 0 or beam.in_stretches:
             raise SceneError("combinations", "moved supports, compression and zones of contact are looked at one by one")
         self._factors = plan.factors
         # Both sides of every place: where a field jumps, the larger and the smaller value count

@@ -21,11 +21,12 @@ class Columns(Record):
     Attributes
     ----------
     span : numpy.ndarray
-        Length, EI, GA, EA of the spans, 4 rows.
+        Length, EI, GA, EA, N of the spans, 5 rows.
     hinge : numpy.ndarray
         Place of every hinge, and couple per relative rotation, 2 rows.
     section : numpy.ndarray
-        Left and right end; EI, GA, EA of the sections, at their right ends where they change, and their powers of a depth, 11 rows.
+        Left and right end; EI, GA, EA of the sections, at their right ends where they change, and their powers of a depth, limit of
+        ground along the beam, N, 13 rows.
     support_codes, support : numpy.ndarray
         Side, direction, node, way of unloading and law by its code of the supports, 5 rows of int; x, stiffness, gap, settlement,
         rotation, parameters of the law, 8 rows.
@@ -34,7 +35,8 @@ class Columns(Record):
     load_codes, load : numpy.ndarray
         Kind, case and node of the loads, 3 rows of int; x or left end, right end, value, value at the right end, 4 rows.
     foundation_sides, foundation : numpy.ndarray
-        Side of the foundations, int; left and right end, modulus there, gap there, law and its parameters at both ends, 13 rows.
+        Side of the foundations, int; left and right end, modulus there, gap there, law and its parameters at both ends,
+        shear, 14 rows.
     table_foundations, table : numpy.ndarray
         Points of the tables of foundations: number of the foundation, from 1; x, value, and of what, as in gapbeam_scene, 3 rows.
     ground_law_foundations, ground_law : numpy.ndarray

@@ -68,6 +68,8 @@ class Beam(Layout):
         What of that there is; a one-sided support that can carry.
     ground_layers : int
         Layers of ground under all its pieces; 0 without foundations.
+    in_stretches, has_axial_force : bool
+        Whether it is solved stretch by stretch, as on the ground; whether bending feels axial forces, as it does then.
     has_laws, depends_on_path : bool
         A support with a law; one whose force may fall, or that does not unload along its law.
 
@@ -102,7 +104,8 @@ class Beam(Layout):
         self.rooms: list[_engine.Owned] = []
         self.spare: deque[np.ndarray] = deque(maxlen=1)
         sizes, units = _engine.gbsize(handle)
-        self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, self.ground_layers = sizes.tolist()
+        self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, layers, forced = sizes.tolist()
+        self.in_stretches, self.ground_layers, self.has_axial_force = layers >= 0, max(layers, 0), bool(forced)
         (
             self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path,
             self.has_links_along,
@@ -281,7 +284,7 @@ class Beam(Layout):
     @property
     def fields(self) -> dict[str, int]:
         """Names of the fields that it has, and which of `FIELDS` they are."""
-        there = {"bending": True, "axial": self.bars >= 0, "ground": self.ground_layers > 0}
+        there = {"bending": True, "axial": self.bars >= 0, "ground": self.ground_layers > 0, "second order": self.has_axial_force}
         return {one.name: k for k, one in enumerate(QUANTITIES) if there[one.of]}
 
 

@@ -25,7 +25,7 @@ NONE = np.zeros((1, 1, 3)).T
 
 def split_loads(beam: Beam) -> None:
     """Condense the loads of a beam one by one, for what follows; on the ground, where they do not add up, nothing follows."""
-    if beam.ground_layers:
+    if beam.in_stretches:
         return
     check_status(_engine.gbshar(beam.handle, beam.pieces + beam.columns.load.shape[1]))
 

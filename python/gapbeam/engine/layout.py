@@ -34,7 +34,7 @@ class Layout:
 
     Attributes
     ----------
-    handle, columns, curves, pieces, links, supports, scene_supports, ground_layers, depends_on_path, has_links_along
+    handle, columns, curves, pieces, links, supports, scene_supports, in_stretches, depends_on_path, has_links_along
         As of `Beam`.
     is_on_axial_ground
         As of `Beam`.
@@ -47,7 +47,7 @@ class Layout:
     links: int
     supports: int
     scene_supports: int
-    ground_layers: int
+    in_stretches: bool
     depends_on_path: bool
     has_links_along: bool
     is_on_axial_ground: bool
@@ -119,7 +119,7 @@ class Layout:
     @property
     def is_linear_between_events(self) -> bool:
         """Whether values are linear in the loads from one event to the next: no zones that change, and no law that is a curve."""
-        return not (self.ground_layers or self.curves or self.is_on_axial_ground)
+        return not (self.in_stretches or self.curves or self.is_on_axial_ground)
 
     @property
     def beyond_one_search(self) -> str | None:

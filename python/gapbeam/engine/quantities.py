@@ -20,7 +20,7 @@ class Quantity(NamedTuple):
         Of ``{force}`` and ``{length}``.
     meaning : str
         What it is, with its sign, in a sentence.
-    of : {"bending", "axial", "ground"}
+    of : {"bending", "axial", "ground", "second order"}
         What a scene must have for it; every beam bends.
     by_equilibrium : bool
         Whether forces determine it, so that it is unique where the beam can move freely without work of the loads.
@@ -63,6 +63,9 @@ QUANTITIES = (
              "ground", panel="pressure"),
     Quantity("curvature", "1/{length}", "Curvature M/EI less what is imposed (1/length), positive as the sagging moment.",
              by_equilibrium=True, reported=False, downward=True),
+    Quantity("transverse", "{force}",
+             "Transverse force (force), shear and axial force times slope, which loads and reactions balance; only with an axial force.",
+             "second order", by_equilibrium=True),
 )
 
 FIELDS = tuple(one.name for one in QUANTITIES)

@@ -68,7 +68,7 @@ def beam_data(result: Result) -> dict[str, Any]:
         "forces": forces.tolist(),
         "hinges": [*map(float, result.scene.beam.hinges), *result.scene.positions(result.scene.hinges).tolist()],
     }
-    if result._beam.ground_layers:
+    if result._beam.in_stretches:
         piece, distance = places_on_ground(result)
         found["grid"] = {"piece": piece.tolist(), "x": (places.point_x[piece] + distance).tolist()}
     return found

@@ -65,7 +65,7 @@ class Recorder:
     def __init__(self, result: Result, words: list[str], short: int = 0) -> None:
         self._beam, self._words, self._short = result._beam, words, short
         self.x = result._beam.places.point_x
-        self.grid = places_on_ground(result) if result._beam.ground_layers else None
+        self.grid = places_on_ground(result) if result._beam.in_stretches else None
         self._is_spread = any(isinstance(load, AxialUniformLoad) for load in result.scene.loads)
 
     def codes(self, states: tuple[str, ...]) -> str:

@@ -64,7 +64,7 @@ def three_moments_data(result: Result, step: Step) -> dict[str, Any] | None:
         Lines of the equation, its two sides and what they differ by; None on the ground, and where no inner support is in contact
         about which both pieces can bend.
     """
-    chosen = None if result._beam.ground_layers else _choose(result, step)
+    chosen = None if result._beam.in_stretches else _choose(result, step)
     if chosen is None:
         return None
     support, point = chosen

@@ -282,7 +282,7 @@ def way_of_train(
     degree = WITH_UNIFORM if len(course.uniform) else WITH_AXLES
     exact, worst = beam.is_linear_between_events and len(ends) * degree * way.numbers <= most, 0.0
     if not exact:
-        kept = ends if beam.ground_layers else _kept(course, changes, way.recorder.x)
+        kept = ends if beam.in_stretches else _kept(course, changes, way.recorder.x)
         worst = way.refine(kept, max(LEAST_STATES, most // way.numbers))
     for from_, to in pairwise(ends if exact else []):
         if to - from_ > 4 * traversal.near and not any(one.from_ <= from_ and to <= one.to for one in lost):
@@ -290,7 +290,7 @@ def way_of_train(
     events = [{"at": one.position, **of_event(result.scene, one)} for one in traversal.events]
     return {
         "over": "positions" if exact else "close positions", "axis": "position",
-        "states": way.states if beam.ground_layers else len(way.states),
+        "states": way.states if beam.in_stretches else len(way.states),
         **way.matrix(), **way.to_dict(),
         "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),

@@ -44,6 +44,6 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
     found = np.full((len(sections), len(grounds)), not_given)
     found[0] = [one.from_ for one in grounds]
     found[1] = [not_given if one.to is None else one.to for one in grounds]
-    found[-4:-1] = 1.0
-    found[-1] = [one.limit for one in grounds]
+    found[8:11] = 1.0
+    found[11] = [one.limit for one in grounds]
     return np.asfortranarray(np.hstack([sections[:, :-1], found, sections[:, -1:]]))

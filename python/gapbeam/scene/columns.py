@@ -82,9 +82,9 @@ def columns(scene: Scene) -> Columns:
         Numbers of the beam that do not belong together, two places for one thing, or none that double precision holds.
     """
     beam, spans = scene.beam, len(scene.beam.spans)
-    span = _empty(4, spans)
+    span = _empty(5, spans)
     span[0, :spans] = beam.spans
-    for row, key in enumerate(("EI", "GA", "EA"), 1):
+    for row, key in enumerate(("EI", "GA", "EA", "N"), 1):
         values = np.asarray(getattr(beam, key), dtype=float)
         if values.ndim and len(values) != spans and spans:
             count = f"has {len(values)} values for {spans} spans"
@@ -138,9 +138,9 @@ def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
 
 
 def _sections(items: Sequence[Any], grounds: Sequence[AxialGround]) -> np.ndarray:
-    found = _empty(12, len(items))
+    found = _empty(13, len(items))
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
-    found[5:8], found[8:11], found[11] = NOT_GIVEN, 1.0, 0.0
+    found[5:8], found[8:11], found[11], found[12, :-1] = NOT_GIVEN, 1.0, 0.0, _optional(items, "N")
     for row, key in enumerate(("EI", "GA", "EA"), 2):
         values = _column(items, key)
         tapered = [i for i, one in enumerate(values) if isinstance(one, tuple | Taper)] if isinstance(values, list) else []
@@ -194,15 +194,15 @@ def points_given(law: Any) -> list[tuple[float, float]] | None:
 
 
 def _foundations(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
-    sides, found = _empty(1, len(items), np.int32)[0], _empty(7 + 2 * PARAMETERS, len(items))
+    sides, found = _empty(1, len(items), np.int32)[0], _empty(8 + 2 * PARAMETERS, len(items))
     sides[:-1] = _words(items, "side", SIDES)
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
     found[2:4, :-1], found[4:6, :-1] = _at_both_ends(items, "k"), _at_both_ends(items, "gap")
-    found[6:, :-1] = 0.0
+    found[6:-1, :-1], found[-1, :-1] = 0.0, _numbers(items, "shear")
     if not isinstance(items, Table):
         for i, item in enumerate(items):
             if item.law is not None:
-                found[6:, i] = ground_parameters(item.law)
+                found[6:-1, i] = ground_parameters(item.law)
     return sides, found
 
 

@@ -76,6 +76,8 @@ class Beam(Table, forbid_unknown_fields=True):
         Shear stiffness kappa*G*A (force), one number or one per span; default inf (Euler-Bernoulli).
     EA : float or list of float
         Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
+    N : float or list of float
+        Axial force (force) that bending feels (second order), tension positive, one number or one per span; default 0.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
     width : float, optional
@@ -93,6 +95,7 @@ class Beam(Table, forbid_unknown_fields=True):
     EI: Positive | list[Positive]
     GA: Positive | list[Positive] = inf
     EA: Positive | list[Positive] = inf
+    N: float | list[float] = 0.0
     hinges: list[float] = []
     width: Positive | None = None
     direction: Literal["right", "down"] = "right"
@@ -112,11 +115,14 @@ class Section(Stretch, kw_only=True, gc=False):
         Shear stiffness kappa*G*A (force) here, likewise. Left out: as it was.
     EA : float, (float, float) or table, optional
         Axial stiffness (force) here, likewise. Left out: as it was.
+    N : float, optional
+        Axial force (force) that bending feels here, tension positive. Left out: as it was.
     """
 
     EI: Stiffness | None = None
     GA: Stiffness | None = None
     EA: Stiffness | None = None
+    N: float | None = None
 
 
 class Support(Point, kw_only=True, gc=False):
@@ -196,6 +202,9 @@ class Foundation(Stretch, kw_only=True, gc=False):
         the curve is mirrored. Or tables with x and points, as many at every position, linear in between. Or a table with a type,
         the name of a curve, whose parameters are numbers per length, (at from, at to), or points (x, value), linear in
         between: curves are solved to all digits.
+    shear : float
+        Second parameter (force) of ground that holds both ways: what it resists differences of its deflection with, shear times
+        slope (Pasternak, Vlasov; rotational springs along a pile). Default 0.
     name : str, optional
         Its name, unique among foundations; shown instead of its number.
     """
@@ -205,6 +214,7 @@ class Foundation(Stretch, kw_only=True, gc=False):
     gap: float | tuple[float, float] = 0.0
     profile: list[tuple[float, float]] | None = None
     law: GroundLaw | None = None
+    shear: NotNegative = 0.0
     name: str | None = None
 
 

@@ -451,7 +451,7 @@ law = { type = "plastic", stiffness = inf, limit = 2.0 } ->
 law = { type = "hardening", stiffness = 1.0, limit = 2.0, slope = inf } ->
     foundation[1].law.slope: expected finite numbers, got inf
 law = [[0.01, 5.0]]; unloading = "plastic" ->
-    foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile, law and name
+    foundation[1].unloading: unknown key; the keys are from, to, k, side, gap, profile, law, shear and name
 """
 
 

@@ -293,5 +293,5 @@ def solver_of(scene: Scene, beam: Beam, rule: str, movements: Movements | None =
     scene, beam, rule, movements
         As for `CaseSolver`.
     """
-    kind = OnGround if beam.ground_layers else WithLaws if beam.has_laws else CaseSolver
+    kind = OnGround if beam.in_stretches else WithLaws if beam.has_laws else CaseSolver
     return kind(scene, beam, rule, movements)

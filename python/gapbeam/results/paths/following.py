@@ -90,13 +90,13 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
 
 def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
     """Choose how the load of a beam is followed without its trains."""
-    if result._beam.ground_layers:
+    if result._beam.in_stretches:
         _refuse_on_ground(result.scene, result._beam)
     if result.depends_on_path:
         return _on_path
     if result.scene.analysis.follow == "steps":
         return _by_steps
-    return partial(_by_events, follow_on_ground if result._beam.ground_layers else follow)
+    return partial(_by_events, follow_on_ground if result._beam.in_stretches else follow)
 
 
 def _by_steps(result: Result, closed: np.ndarray) -> None:

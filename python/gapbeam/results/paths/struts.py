@@ -206,7 +206,7 @@ def struts_of(beam: Beam) -> Struts:
     beam : Beam
         With axial forces.
     """
-    return GroundStruts(beam) if beam.ground_layers else Struts(beam)
+    return GroundStruts(beam) if beam.in_stretches else Struts(beam)
 
 
 def euler(EI: float, length: float) -> float:

@@ -28,6 +28,8 @@ class Fields(Record):
         Of all foundations on the beam, force per length, positive upward; only with foundations.
     curvature : numpy.ndarray
         1/length, with the sign of the moment: M/EI less the imposed curvature; it jumps where one of both does.
+    transverse : numpy.ndarray or None
+        Shear and axial force times slope, which loads and reactions balance; only where bending feels an axial force.
     """
 
     x: np.ndarray
@@ -39,6 +41,7 @@ class Fields(Record):
     axial_displacement: np.ndarray | None = None
     pressure: np.ndarray | None = None
     curvature: np.ndarray | None = None
+    transverse: np.ndarray | None = None
 
     def __iter__(self) -> Iterator[tuple]:
         """Go through the places: named tuples of x and what is there, of which pandas makes a table."""

@@ -1,0 +1,162 @@
+!> Axial forces that bending feels (second order): where there are any, and what pieces of the beam have of them.
+!>
+!> With them every piece is a link of its own, and the beam is solved as one on the ground (gapbeam_foundation), whether there is
+!> ground or not.
+module gapbeam_axial_force
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type
+    use gapbeam_range, only: is_lost
+    use gapbeam_words, only: shown
+    use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points
+    use gapbeam_units, only: rotation_unit
+    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in
+    use gapbeam_piece_stiffness, only: stiffness_of
+    use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
+    implicit none
+    private
+    public :: has_axial_force, in_stretches, what_stretches, check_axial_force, assign_axial_force
+
+contains
+
+    !> Is there an axial force that bending feels
+    pure function has_axial_force(model) result(it_has)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        logical :: it_has
+
+        it_has = any(abs(model%spans%N) > 0.0_wp) &
+            .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
+    end function has_axial_force
+
+    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, or with an axial force that bending feels
+    pure function in_stretches(model) result(it_is)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        logical :: it_is
+
+        it_is = size(model%foundations) > 0
+        if (.not. it_is) it_is = has_axial_force(model)
+    end function in_stretches
+
+    !> What makes it so, in words
+    pure function what_stretches(model) result(words)
+        type(model_type), intent(in) :: model
+        character(len=:), allocatable :: words
+
+        words = "a foundation"
+        if (size(model%foundations) == 0) words = "an axial force N"
+    end function what_stretches
+
+    !> Axial forces of spans, and what resists slopes of the beam on the ground
+    subroutine check_axial_force(model, error)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        !> Bad input, or what is not available
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i
+
+        do i = 1, size(model%spans)
+            if (abs(model%spans(i)%N) <= huge(1.0_wp)) cycle
+            call refuse(error, of_spans, i, size(model%spans), not_expected, "N", &
+                        "expected a finite number, tension positive, got "//trim(shown(model%spans(i)%N)))
+            return
+        end do
+        do i = 1, size(model%foundations)
+            call check_foundation(model%foundations(i), i)
+            if (allocated(error)) return
+        end do
+        if (.not. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp))) return
+        do i = 1, size(model%sections)
+            associate (s => model%sections(i))
+                if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) cycle
+                call refuse(error, of_sections, i, size(model%sections), bad_law, merge("EI", "GA", s%EI_to > gapbeam_unchanged), &
+                            "a section that tapers beside an axial force N is not available in this version; give short "// &
+                            "sections, each of one stiffness")
+                return
+            end associate
+        end do
+
+    contains
+
+        !> One foundation
+        subroutine check_foundation(f, number)
+            type(foundation_type), intent(in) :: f
+            integer, intent(in) :: number
+
+            if (.not. (f%shear >= 0.0_wp .and. f%shear <= huge(1.0_wp))) then
+                call say("shear", not_expected, "expected a finite number, 0 or more, got "//trim(shown(f%shear)))
+            else if (f%shear > 0.0_wp .and. (f%side /= gapbeam_both .or. abs(f%gap) > 0.0_wp .or. f%gap_to > gapbeam_unchanged &
+                                             .or. f%law /= gapbeam_law_by_points .or. any(model%ground%foundation == number) &
+                                             .or. any(model%ground_law%foundation == number))) then
+                call say("shear", bad_law, "ground with a second parameter holds the beam both ways and has a modulus k, "// &
+                         "without gap, profile, law or points, in this version; leave shear out, or give k alone")
+            else if (f%k > huge(1.0_wp) .and. has_axial_force(model)) then
+                call say("k", bad_law, "rigid ground beside an axial force N is not available in this version; give the "// &
+                         "ground a stiffness")
+            end if
+        end subroutine check_foundation
+
+        !> What is wrong with foundation i
+        subroutine say(key, reason, problem)
+            character(len=*), intent(in) :: key, problem
+            integer, intent(in) :: reason
+
+            call refuse(error, of_foundations, i, size(model%foundations), reason, key, problem)
+        end subroutine say
+
+    end subroutine check_axial_force
+
+    !> Axial forces of the pieces in the engine's units, with what ground there resists slopes with
+    subroutine assign_axial_force(assembled, error)
+        !> With the other numbers of its pieces
+        type(assembled_type), intent(inout) :: assembled
+        !> Out of range, or so great a compression that it bends by shear alone
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, j
+
+        assembled%pieces%tension = 0.0_wp
+        do j = 1, size(assembled%pieces)
+            call add(j, stiffness_of(assembled, j, axial_force_in))
+        end do
+        do i = 1, size(assembled%model%foundations)
+            if (.not. assembled%model%foundations(i)%shear > 0.0_wp) cycle
+            do j = assembled%foundation_from(i) + 1, assembled%foundation_to(i)
+                call add(j, assembled%model%foundations(i)%shear)
+            end do
+        end do
+        do j = 1, size(assembled%pieces)
+            associate (p => assembled%pieces(j), N => stiffness_of(assembled, j, axial_force_in))
+                if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then
+                    call refuse_range(error, "N = "//trim(shown(N))//" "//place(j)//" is too far from the stiffnesses of the "// &
+                                      "beam", "bring them nearer together, or make it 0")
+                else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
+                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//place(j)//" is not below GA there, "// &
+                                      "so the beam gives way by shear alone", "give less compression, or leave GA out")
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> Add to the axial force in a piece
+        subroutine add(piece, force)
+            integer, intent(in) :: piece
+            real(wp), intent(in) :: force
+
+            associate (tension => assembled%pieces(piece)%tension, units => assembled%units)
+                tension = tension + scale(force, rotation_unit(units) - units%force)
+            end associate
+        end subroutine add
+
+        !> Where a piece is
+        pure function place(piece) result(words)
+            integer, intent(in) :: piece
+            character(len=:), allocatable :: words
+
+            words = "from x = "//trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))
+        end function place
+
+    end subroutine assign_axial_force
+
+end module gapbeam_axial_force
