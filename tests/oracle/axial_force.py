@@ -11,7 +11,7 @@ Examples
 >>> found = solve({"beam": {"spans": [1.0], "EI": 1.0, "N": 9.0}, "supports": [{"node": 0}, {"node": 1}],
 ...                "loads": [{"type": "uniform", "q": 1.0}]})
 >>> found.status, round(float(found.at(0.5).moment), 12)
-('solved', 0.063878218340)
+('solved', 0.06387821834)
 """
 
 from __future__ import annotations

@@ -185,9 +185,10 @@ def first_values(chain_at, n, scale):
     chains = {mp.mpf(0): chain_at(mp.mpf(0), None)}
     base, found, high = chains[0].negative, [], mp.mpf(scale)
 
-    def count(value):
+    def count(value, fine=False):
         if value not in chains:
-            chains[value] = chain_at(value, None)
+            with mp.workdps(mp.mp.dps if fine else mp.mp.dps // 2):
+                chains[value] = chain_at(value, None)
         return chains[value].negative - base
 
     for _ in range(100):
@@ -198,10 +199,10 @@ def first_values(chain_at, n, scale):
         k = len(found)
         a, b = max(t for t in chains if count(t) <= k), min(t for t in chains if count(t) > k)
         while b - a > mp.mpf(10) ** -CLOSE * b and b > scale * mp.mpf(10) ** -18:
-            if a and count(a) == k and count(b) == k + 1 and b < a * mp.mpf("1.01"):
+            if a and count(a) == k and count(b) == k + 1 and b < a * mp.mpf("1.6"):
                 break
             middle = (a + b) / 2 if a else b / 8
-            a, b = (a, middle) if count(middle) > k else (middle, b)
+            a, b = (a, middle) if count(middle, b - a < b / 10**9) > k else (middle, b)
         if count(b) > k + 1 or not a:
             found += [b if a else mp.mpf(0)] * (count(b) - k)  # several at once, or motions that cost nothing
         else:
@@ -260,7 +261,7 @@ def buckling(beam, active=(), n=1):
         bounds = [(cell.GA + layer) / -N for cell, N, layer in parts if mp.isfinite(cell.GA)]
         most = min(bounds, default=mp.inf)  # where shear itself buckles
         size = [cell.EI for cell, _, _ in parts if mp.isfinite(cell.EI)] or [abs(N) * read.length**2 for _, N, _ in parts]
-        scale = min(size) / read.length**2 / max(-N for _, N, _ in parts) / 1000
+        scale = min(size) / read.length**2 / max(-N for _, N, _ in parts)
 
         def factor(t):
             return most * t / (1 + t) if bounds else t
@@ -292,5 +293,12 @@ def frequencies(beam, active=(), n=1, N_factor=1):
         if not mass:
             return []
         size = [part[0].EI for part in read.cells if mp.isfinite(part[0].EI)] or [mp.mpf(1)]
-        scale = mp.sqrt(min(size) / (mass * read.length**3)) / 1000
+        scale = mp.sqrt(min(size) / (mass * read.length**3))
         return first_values(lambda t, like: Chain(beam, active, N_factor, t, like), n, scale)
+
+
+def unstable(beam, active=(), N_factor=0):
+    """Whether some motion of the beam with given supports has no resistance, or less than none; default: without axial forces."""
+    with mp.workdps(digits(beam)):
+        chain = Chain(beam, active, N_factor)
+        return bool(chain.negative or chain.zero)
