@@ -25,27 +25,41 @@ class Cell:
     q: tuple
     kappa: tuple
 
+    def terms(self, start, q, kappa):
+        """Taylor coefficients of w, psi, M, T and w' in t = (x - a)/h as integers, and what one of them is worth in each."""
+        h, B = self.h, self.EI
+        if mp.isinf(B):
+            B = abs(self.N) * h**2 or mp.mpf(1)
+        bits, s = 3 * mp.mp.prec // 2 + 64, 1 + self.N / self.GA
+        units = (mp.mpf(1), 1 / h, B / h**2, B / h**3, 1 / h)
+        first = [v / unit for v, unit in zip(start, units, strict=False)]
+        loads = [[q[0] * h**4 / B, kappa[0] * h**2], [q[1] * h**5 / B, kappa[1] * h**3]]
+        shift = mp.mag(max(map(abs, (*first, *loads[0], *loads[1]))) or mp.mpf(1))
+
+        def whole(value, power):
+            return int(mp.ldexp(value, bits - power))
+
+        turn, slip, soft = (whole(v, 0) for v in (1 / s, B / (self.GA * h**2 * s), B / self.EI))
+        pull, k0, k1 = (whole(v, 0) for v in (self.N * h**2 / B, self.k[0] * h**4 / B, self.k[1] * h**5 / B))
+        loads = [[whole(v, shift) for v in both] for both in loads]
+        found, before, n = [tuple(whole(v, shift) for v in first)], 0, 0
+        slopes, small = [], 1 << (bits // 4)
+        while n % 5 or n < 10 or any(abs(v) > small for one in found[-5:] for v in one):
+            w, psi, M, T = found[-1]
+            load, bent = loads[n] if n < 2 else (0, 0)
+            slope = (psi * turn + T * slip) >> bits
+            slopes.append(slope)
+            n += 1
+            found.append((slope // n, (bent - (M * soft >> bits)) // n, (T - (slope * pull >> bits)) // n,
+                          (((w * k0 + before * k1) >> bits) - load) // n))  # fmt: skip
+            before = w
+        slopes.append(0)
+        return [*zip(*found, strict=True), slopes], [mp.ldexp(unit, shift - bits) for unit in units]
+
     def series(self, start, q=None, kappa=None):
         """Taylor coefficients of w, psi, M, T and w' in t = (x - a)/h from the state at the left end."""
-        q, kappa = q or self.q, kappa or self.kappa
-        soft, slip, s = 1 / self.EI, 1 / self.GA, 1 + self.N / self.GA
-        h, k = self.h, (self.k[0], self.k[1] * self.h)
-        loads = {0: (q[0], kappa[0]), 1: (q[1] * h, kappa[1] * h)}
-        coefficients, slopes, before, n = [list(start)], [], mp.mpf(0), 0
-        size = sum(map(abs, start)) + sum(map(abs, (*q, *kappa)))
-        tiny = mp.eps * size / 1000
-        while n % 5 or n < 10 or any(abs(v) > tiny for one in coefficients[-5:] for v in one):
-            w, psi, M, T = coefficients[-1]
-            load, bent = loads.get(n, (0, 0))
-            slope = (psi + T * slip) / s
-            spring = k[0] * w + k[1] * before if k[1] else k[0] * w
-            f = h / (n + 1)
-            step = [f * slope, f * (bent - M * soft), f * (T - self.N * slope), f * (spring - load)]
-            slopes.append(slope)
-            coefficients.append(step)
-            before, n = w, n + 1
-        slopes.append((coefficients[-1][1] + coefficients[-1][3] * slip) / s)
-        return [*map(list, zip(*coefficients, strict=True)), slopes]
+        found, worth = self.terms(start, q or self.q, kappa or self.kappa)
+        return [[v * unit for v in one] for one, unit in zip(found, worth, strict=True)]
 
     def transfer(self, known):
         """Matrix (columns) of the homogeneous state over the cell, and the particular state at its end; `known` keeps them."""
@@ -53,14 +67,19 @@ class Cell:
         none = (mp.mpf(0),) * 2
 
         def end(start, q, kappa):
-            return [mp.fsum(one) for one in self.series(start, q, kappa)[:4]]
+            found, worth = self.terms(start, q, kappa)
+            return [sum(one) * unit for one, unit in zip(found[:4], worth, strict=False)]
 
         if key not in known:
             known[key] = [end([mp.mpf(i == j) for i in range(4)], none, none) for j in range(4)]
-        load = (key, self.q, self.kappa)
-        if load not in known:
-            known[load] = end([mp.mpf(0)] * 4, self.q, self.kappa) if any((*self.q, *self.kappa)) else [mp.mpf(0)] * 4
-        return known[key], known[load]
+        particular, loads = [mp.mpf(0)] * 4, (*self.q, *self.kappa)
+        for i, load in enumerate(loads):
+            if load:
+                if (key, i) not in known:
+                    unit = [mp.mpf(i == j) for j in range(4)]
+                    known[key, i] = end([mp.mpf(0)] * 4, tuple(unit[:2]), tuple(unit[2:]))
+                particular = [p + load * one for p, one in zip(particular, known[key, i], strict=True)]
+        return known[key], particular
 
 
 @dataclass

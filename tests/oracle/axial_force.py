@@ -311,7 +311,7 @@ def solve(beam, N_factor=1, load_factor=1, omega=0, active=None, stable=True):
     active : sequence of int, optional
         One-sided supports that act, whatever the signs; default: all sets are tried.
     stable : bool
-        Count negative modes of the sets found, and take the first that is stable.
+        Count negative modes of the sets found (none without compression), and take the first that is stable.
 
     Returns
     -------
@@ -327,15 +327,19 @@ def solve(beam, N_factor=1, load_factor=1, omega=0, active=None, stable=True):
         else:
             values = system.at_contact(active)
             sets = [] if values is None else [(tuple(active), values, [])]
-        count = stable and active is None
-        sets = [(s, inertia(beam, s, N_factor, omega) if count else None, tied, values) for s, values, tied in sets]
+        count = stable and active is None and (omega or any(c.N < 0 for part in read.cells for c in part))
+
+        def modes(acting):
+            return inertia(beam, acting, N_factor, omega) if count else 0 if stable else None
+
+        sets = [(s, modes(s), tied, values) for s, values, tied in sets]
         sets.sort(key=lambda one: one[1] or 0)
         if not sets:
             return Solution("no-equilibrium")
-        chosen, modes, _, values = sets[0]
+        chosen, negative, _, values = sets[0]
         values = back(system.steps, dict(values))
         zero = mp.mpf(0)
-        found = Solution("buckles" if modes else "solved", chosen, [one[:3] for one in sets], beam=read, values=values)
+        found = Solution("buckles" if negative else "solved", chosen, [one[:3] for one in sets], beam=read, values=values)
         for i, s in enumerate(read.supports):
             found.reaction.append(values["R", i])
             found.deflection.append(values["r", read.marks.index(s.x), 0])

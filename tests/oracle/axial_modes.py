@@ -167,7 +167,7 @@ def inertia(beam, active=(), N_factor=1, omega=0):
         return int(Chain(beam, active, N_factor, omega).negative)
 
 
-def first_values(chain_at, n, scale):
+def first_values(chain_at, n, scale, most=mp.inf):
     """The first n values above 0 at which the count of negative modes rises; fewer where doubling finds no more.
 
     Parameters
@@ -175,8 +175,8 @@ def first_values(chain_at, n, scale):
     chain_at : function of (value, chain or None)
         The elimination at a value, cut like another.
     n : int
-    scale : number
-        A small value to begin with.
+    scale, most : number
+        To begin with, and to end with.
 
     Returns
     -------
@@ -192,7 +192,7 @@ def first_values(chain_at, n, scale):
         return chains[value].negative - base
 
     for _ in range(100):
-        if count(high) >= n:
+        if count(high) >= n or high > most:
             break
         high *= 2
     while len(found) < min(n, count(high)):
@@ -250,7 +250,7 @@ def buckling(beam, active=(), n=1):
     Returns
     -------
     list of mpf
-        Fewer where there are no more.
+        Fewer where there are no more. None above 0.996 times the factor at which some N reaches GA, whatever holds the beam.
     """
     with mp.workdps(digits(beam)):
         read = Beam(beam, 0)
@@ -266,7 +266,8 @@ def buckling(beam, active=(), n=1):
         def factor(t):
             return most * t / (1 + t) if bounds else t
 
-        found = first_values(lambda t, like: Chain(beam, active, factor(t), 0, like), n, scale / most if bounds else scale)
+        scale, last = (scale / most, 256) if bounds else (scale, mp.inf)
+        found = first_values(lambda t, like: Chain(beam, active, factor(t), 0, like), n, scale, last)
         return [factor(t) for t in found]
 
 

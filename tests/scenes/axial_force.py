@@ -45,7 +45,7 @@ def random_scene(seed, *, compression=None, ground=None, u=(1e-6, 1e4), mass=Fal
     elif len(spans) > 2 and rng.random() < 0.3:
         beam["N"][rng.randrange(len(spans))] = 0.0
     if rng.random() < 0.3:
-        beam["GA"] = rounded(rng, 0.3, 300) * EI * 30 / length**2
+        beam["GA"] = digits(rounded(rng, 0.3, 300) * EI * 30 / length**2)
     if mass:
         beam["mass"] = [rounded(rng, 0.1, 10) for _ in spans]
     pull = max(beam["N"]) if isinstance(beam["N"], list) else beam["N"]
@@ -156,7 +156,7 @@ def _compressed(rng, made, share):
             section["N"] = -rounded(rng, 0.1, 1)
     if "hinges" in beam and modes.unstable(made):  # not held without its one-sided supports
         del beam["hinges"]
-    factor = float(modes.buckling(made)[0]) * share
+    factor = _buckling(made) * share
 
     def scaled(value):
         return digits(value * factor)
@@ -166,6 +166,18 @@ def _compressed(rng, made, share):
         if "N" in section:
             section["N"] = scaled(section["N"])
     return made
+
+
+def _buckling(made, active=()):
+    """The first factor; on stiff ground a beam may have none up to that at which N reaches GA."""
+    found = modes.buckling(made, active) or [made["beam"]["GA"] / max(-n for n in _numbers(made))]
+    return float(found[0])
+
+
+def _numbers(made):
+    """All axial forces of a scene."""
+    given = made["beam"]["N"]
+    return [*(given if isinstance(given, list) else [given]), *(s["N"] for s in made.get("sections", ()) if "N" in s)]
 
 
 def column(seed, share=None):
@@ -199,8 +211,8 @@ def column(seed, share=None):
     made = scene([length], [*ends, *stops], loads, EI=EI, N=-1.0)
     if rng.random() < 0.2:
         made["beam"]["GA"] = digits(rounded(rng, 50, 1e4) * EI / length**2)
-    first = float(modes.buckling(made)[0])
-    last = float(modes.buckling(made, tuple(range(2, 2 + len(stops))))[0]) / first
+    first = _buckling(made)
+    last = _buckling(made, tuple(range(2, 2 + len(stops)))) / first
     drawn = rng.uniform(0.3, min(last, 6))
     made["beam"]["N"] = -digits(first * (drawn if share is None else share))
     return made
