@@ -117,7 +117,8 @@ class Beam:
         self.length, self.marks = self.nodes[-1], []
         for x in self.nodes:
             self.mark(x)
-        self.hinges = {self.mark(x) for x in beam.get("hinges", [])} | {self.mark(self.place(h)) for h in scene.get("hinges", [])}
+        self.hinges = {self.mark(x): mp.mpf(0) for x in beam.get("hinges", [])}  # and their stiffness
+        self.hinges |= {self.place(h): mp.mpf(h.get("stiffness", 0)) for h in scene.get("hinges", [])}
         self.supports = [self.support(s) for s in scene["supports"]]
         self.one_sided = [i for i, s in enumerate(self.supports) if s.side]
         self.masses = [(self.place(m), mp.mpf(m["mass"])) for m in scene.get("masses", [])]
@@ -180,6 +181,9 @@ class Beam:
         return self.mark(item.get("from", 0)), self.mark(item.get("to", self.length))
 
     def support(self, item):
+        other = {"law", "direction", "friction", "unloading"} & item.keys()
+        if other:
+            raise ValueError(f"support with {sorted(other)}")
         side = SIDES[item.get("side", "both")]
         rotation = {"free": 0, "fixed": mp.inf}.get(item.get("rotation", "free"), item.get("rotation"))
         level = mp.mpf(item.get("settlement", 0)) + side * mp.mpf(item.get("gap", 0))

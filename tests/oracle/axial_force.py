@@ -115,8 +115,12 @@ class System:
                 self.columns.append(("R", i))
                 self.rows.append({right[0]: one, ("R", i): -1 / s.stiffness, "load": s.level})
         self.rows.append(force)
-        sides = {"left": {left[2]: one}, "right": {right[2]: -one}} if x in beam.hinges else {None: {left[2]: one, right[2]: -one}}
-        if x not in beam.hinges:
+        if x in beam.hinges:
+            sides, c = {"left": {left[2]: one, ("H", j): -one}, "right": {right[2]: -one, ("H", j): one}}, beam.hinges[x]
+            self.columns.append(("H", j))
+            self.rows.append({("H", j): one, left[1]: -c, right[1]: c} if c else {("H", j): one})
+        else:
+            sides = {None: {left[2]: one, right[2]: -one}}
             self.rows.append({left[1]: one, right[1]: -one})
         for at, row in sides.items():
             row["load"] = -sum((M for place, M, part in beam.couples if place == x and (at is None or part == at)), mp.mpf(0))

@@ -65,10 +65,16 @@ class Chain:
         S, free = self.spring(S, free, "w", stiff["w"])
         S, free = self.spring(S, free, "p", stiff["left"])
         if x in beam.hinges:
+            c, beyond = beam.hinges[x], {"w": "w", "q": "p"}  # q: rotation right of it
+            S = {(a, b): S.get((a, b), mp.mpf(0)) for a in "wpq" for b in "wpq"}
+            S["p", "p"], S["q", "q"], S["p", "q"], S["q", "p"] = S["p", "p"] + c, c, -c, -c
             if "p" in free:
-                S, free = self.pivot(S, free, "p")
-            S = {(a, b): S.get((a, b), mp.mpf(0)) for a in "wp" for b in "wp"}
-            S, free = self.spring(S, [*free, "p"], "p", stiff["right"])
+                self.size["p"] += c
+                S, _ = self.pivot(S, [*free, "q"], "p")
+            free = ["w", "p"] if "w" in free else ["p"]
+            S = {(a, b): S.get((a, b), mp.mpf(0)) for a in "wq" for b in "wq"}
+            S = {(beyond[a], beyond[b]): v for (a, b), v in S.items()}
+            S, free = self.spring(S, free, "p", stiff["right"])
         return S, free
 
     @staticmethod

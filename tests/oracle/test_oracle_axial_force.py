@@ -178,6 +178,9 @@ def test_ground_tension_layer_mass():
 def test_rigid_bars_and_lumped_mass():
     bars = scene([1, 1], [at(0), at(1, stiffness=5), at(2)], EI=INF, N=-2, hinges=[1])
     close(buckling(bars)[0], mp.mpf(5) / 4, 28)  # P = c l/2
+    bars = {**scene([1, 1], [at(0), at(2)], [force(1, 7)], EI=INF, N=-2), "hinges": [{"node": 1, "stiffness": 6}]}
+    close(buckling(bars)[0], 6, 28)  # P = 4 c/(2 l)
+    close(solve(bars).at(1).deflection, mp.mpf(7) / (4 * 6 - 4))  # 7/2 - 2 w = moment of the joint = 2 c w
     made = {**simple(), "masses": [{"x": 0.5, "mass": 3}]}
     close(frequencies(made, (), 1)[0], 4, 28)  # 48/3
     assert len(frequencies({**scene([1], []), "masses": [{"x": 0.5, "mass": 3}]}, (), 1)) == 1
