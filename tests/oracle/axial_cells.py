@@ -136,8 +136,8 @@ class Beam:
             else:
                 raise ValueError(f"load of type {kind}")
         grounds = [(*self.extent(f), f) for f in scene.get("foundation", [])]
-        if any(f.get("side", "both") != "both" for *_, f in grounds):
-            raise ValueError("one-sided ground")
+        if any(f.get("side", "both") != "both" or {"gap", "law", "profile"} & f.keys() for *_, f in grounds):
+            raise ValueError("ground that is more than a two-sided one: see axial_ground")
         sections = [(*self.extent(s), s) for s in scene.get("sections", [])]
         self.marks.sort()
         self.cells, self.axial, self.mass = [], [], []  # for every part between marks

@@ -81,6 +81,12 @@ def back(steps, values):
     return values
 
 
+def acts(support, w, R):
+    """Row of a support that acts."""
+    c = support.stiffness
+    return {w: mp.mpf(1), "load": support.level} if mp.isinf(c) else {w: c, R: mp.mpf(-1), "load": c * support.level}
+
+
 class System:
     """The equations of a beam, condensed to the deflections and reactions of its one-sided supports."""
 
@@ -113,7 +119,7 @@ class System:
                 self.rows.append({right[0]: one, ("w", i): -one})
             else:
                 self.columns.append(("R", i))
-                self.rows.append({right[0]: one, ("R", i): -1 / s.stiffness, "load": s.level})
+                self.rows.append(acts(s, right[0], ("R", i)))
         self.rows.append(force)
         if x in beam.hinges:
             sides, c = {"left": {left[2]: one, ("H", j): -one}, "right": {right[2]: -one, ("H", j): one}}, beam.hinges[x]
@@ -128,7 +134,8 @@ class System:
                 if s.rotation and (at is None or s.at_hinge == at):
                     row[("C", i)] = one  # couple on the beam, clockwise
                     self.columns.append(("C", i))
-                    self.rows.append({(left if at == "left" else right)[1]: one, ("C", i): 1 / s.rotation})
+                    psi = (left if at == "left" else right)[1]
+                    self.rows.append({psi: one} if mp.isinf(s.rotation) else {psi: s.rotation, ("C", i): one})
             self.rows.append(row)
         for end, state in ((0, left), (len(beam.marks) - 1, right)):
             if j == end:
@@ -139,8 +146,7 @@ class System:
         rows = list(self.left)
         for i in self.beam.one_sided:
             s = self.beam.supports[i]
-            acts = {("w", i): mp.mpf(1), ("R", i): -1 / s.stiffness, "load": s.level}
-            rows.append(acts if i in active else {("R", i): mp.mpf(1)})
+            rows.append(acts(s, ("w", i), ("R", i)) if i in active else {("R", i): mp.mpf(1)})
         try:
             _, steps = eliminate(rows, [(name, i) for i in self.beam.one_sided for name in "wR"])
         except Mechanism:

@@ -5,12 +5,26 @@ import random
 
 import mpmath as mp
 import pytest
-from scenes import INF, at, axial_force, force, linear, moment, random_scene, scene, stretch, uniform
+from scenes import (
+    INF,
+    at,
+    axial_force,
+    force,
+    foundation,
+    linear,
+    moment,
+    random_scene,
+    scene,
+    stretch,
+    uniform,
+)
 
 import oracle
 
 from . import axial_cells
+from . import foundation as ground
 from .axial_force import Mechanism, solve
+from .axial_ground import solve_on_ground
 from .axial_modes import buckling, frequencies, inertia
 from .axial_path import Mode, follow
 
@@ -128,6 +142,27 @@ def test_free_span_swings(N, expected):
     made["foundation"] = [{"k": 100, "from": 0, "to": 10}, {"k": 100, "from": 14, "to": 24}]
     for one, actual in zip(expected, frequencies(made, (), 2), strict=True):
         close(actual, one, 10)
+
+
+@pytest.mark.parametrize("seed", [8, 34])
+def test_zones_without_axial_force(seed):
+    made = foundation.random_scene(seed)
+    expected, (found, zones) = ground.solve(made), solve_on_ground(made)
+    for one, other in zip(expected.supports, found.reaction, strict=True):
+        assert abs(one.reaction - other) < 1e-12 * max(map(abs, found.reaction))
+    ends = [x for some in expected.contact for zone in some for x in (zone.start, zone.end)]
+    assert [float(x) for some in zones for zone in some for x in zone] == pytest.approx(list(map(float, ends)), abs=1e-11)
+
+
+def test_zones_under_tension():
+    made = scene([8], [at(0)], [force(2, 5), force(6, -0.5)], EI=20, N=15)
+    made["foundation"] = [{"k": [30, 40], "side": "below"}, {"k": 50, "side": "above", "from": 3, "gap": [0.001, 0.003]}]
+    found, (below, above) = solve_on_ground(made)
+    assert [len(below), len(above)] == [1, 1]
+    gap = {x: 0 for zone in below for x in zone} | {x: -(mp.mpf("0.001") + mp.mpf("0.002") * (x - 3) / 5) for x in above[0]}
+    for x, expected in gap.items():
+        if 0 < x < 8:
+            assert abs(found.at(x).deflection - expected) < 1e-18
 
 
 # Closed forms
