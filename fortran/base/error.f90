@@ -4,7 +4,7 @@ module gapbeam_error
     implicit none
     private
     public :: error_type, fatal_error, no_memory, out_of_range, status_text, status_codes, status_texts, unknown_status
-    public :: gapbeam_solved, gapbeam_no_equilibrium
+    public :: gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles
     public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, gapbeam_stopped
 
@@ -12,6 +12,8 @@ module gapbeam_error
     integer, parameter :: gapbeam_solved = 0
     !> Outcome: a free motion along which nothing resists; no numbers are returned
     integer, parameter :: gapbeam_no_equilibrium = 1
+    !> Outcome: compression is more than the beam bears; no numbers are returned but the motion and how much it bears
+    integer, parameter :: gapbeam_buckles = 2
     !> Error: a number or an array makes no sense; nothing was done
     integer, parameter :: gapbeam_bad_input = 11
     !> Error: a rigid stretch rests on more rigid supports than statics can tell apart
@@ -30,12 +32,14 @@ module gapbeam_error
     integer, parameter :: gapbeam_stopped = 18
 
     !> All codes, and what they mean
-    integer, parameter :: status_codes(10) = [gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
+    integer, parameter :: status_codes(11) = [gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, gapbeam_bad_input, &
+                                             gapbeam_indeterminate, &
                                              gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, &
                                              gapbeam_other_version, gapbeam_stopped]
-    character(len=*), parameter :: status_texts(10) = [character(len=88) :: &
+    character(len=*), parameter :: status_texts(11) = [character(len=88) :: &
         "solved", &
         "no equilibrium: the loads push the beam along a free motion that no support resists", &
+        "buckles: the beam does not bear its axial forces", &
         "bad input: a number or an array makes no sense", &
         "a rigid stretch rests on more rigid supports than statics can tell apart", &
         "the contact state could not be settled in the precision at hand", &

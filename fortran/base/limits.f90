@@ -18,7 +18,8 @@ module gapbeam_limits
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
-    public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes
+    public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings
+    public :: least_compressions, most_compressions
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
@@ -54,6 +55,14 @@ module gapbeam_limits
     !> Patches that wait to be looked into; each cut adds one, and they are cut to narrowest_patch in both directions. Read by
     !> base/patch
     integer, parameter :: most_waiting_patches = 120
+
+    !> Stretches beyond which modes are not looked for: some 20,000 waves along a beam. Read by contact/modes
+    integer, parameter :: most_mode_stretches = 100000
+    !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by contact/modes
+    integer, parameter :: most_halvings = 1000
+    !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. After so many states
+    !> it is given up. Read by precision/compressed
+    integer, parameter :: least_compressions = 8, most_compressions = 400
 
     !
     ! Contact of supports

@@ -15,8 +15,10 @@ module gapbeam_piece
         !> The same at the right end of a tapered piece, and the powers of a linear depth that EI and GA are; 0: they are constant
         real(wp) :: flexibility_to = 0.0_wp, shear_flexibility_to = 0.0_wp
         integer :: power = 0, shear_power = 0
-        !> Axial force in it that its bending feels, tension positive, with that of ground that resists slopes
-        real(wp) :: tension = 0.0_wp
+        !> Axial force in it that its bending feels, tension positive, with what ground resists slopes with, and that alone
+        real(wp) :: tension = 0.0_wp, slope_stiffness = 0.0_wp
+        !> Mass per length, for vibrations
+        real(wp) :: mass = 0.0_wp
     end type piece_type
 
     !> Loads on a piece and on the point at its right end

@@ -31,9 +31,9 @@ module gapbeam_contact_state
 
     !> How the search ended, apart from errors
     type :: outcome_type
-        !> gapbeam_solved or gapbeam_no_equilibrium
+        !> gapbeam_solved, gapbeam_no_equilibrium or gapbeam_buckles
         integer :: status = gapbeam_solved
-        !> The free motion, where there is no equilibrium, shape (0:n)
+        !> The free motion, where there is no equilibrium, or that with which it buckles, shape (0:n)
         real(wp), allocatable :: motion(:)
         !> Can the beam move freely without work of the loads (forces are unique, the position is not)
         logical :: indifferent = .false.

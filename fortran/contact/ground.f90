@@ -4,9 +4,9 @@
 !> stretch. gapbeam_zones finds them.
 module gapbeam_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_link, only: piece_type, piece_load_type, link_type, condense_link
     use gapbeam_band, only: plain
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, condense_loaded, decay_lengths
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded, decay_lengths
     use gapbeam_curved, only: curved_type, condense_curved
     use gapbeam_laws, only: law_hardening
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
@@ -16,6 +16,10 @@ module gapbeam_ground
     private
     public :: ground_type, moving_type, zones_type, grounded_type
     public :: move_ground, new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+    ! For gapbeam_ground_nodes
+    public :: condense_both, load_between
+    ! For gapbeam_modes
+    public :: stretch_on_layers
 
     !> Where supports and ground begin to act at load factor 0 (1), and how far loads move that while it grows by 1 (2)
     type :: moving_type
@@ -39,6 +43,8 @@ module gapbeam_ground
         type(law_piece_type), allocatable :: laws(:)
         !> Not allocated where loads move nothing
         type(moving_type), allocatable :: moving
+        !> Of a vibration, whose mass pushes as ground of a negative modulus would (gapbeam_modes)
+        real(wp) :: frequency_squared = 0.0_wp
     end type ground_type
 
     !> Stretches of the beam, in each of which every layer stays on one piece of its law
@@ -269,15 +275,46 @@ contains
         real(wp), intent(in) :: factor
         integer, intent(in) :: i
         type(grounded_type), intent(inout) :: grounded
-        type(law_piece_type) :: law
         type(curved_type) :: curved
-        type(piece_type) :: piece(1)
-        real(wp) :: work(1), slope(2), contact(2), offset(2)
-        integer :: k
 
         associate (j => zones%piece(i), s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), &
                    link => grounded%beam%links(i), from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
+            call stretch_on_layers(ground, zones, i, s, dead, live)
+            call condense_both(s, dead, live, link, grounded%beam%ground(i))
+            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), from, to, &
+                             p%length, curved%curves)
+            if (allocated(curved%curves)) then
+                curved%stretch = s
+                curved%load = combined_load(dead, live, factor)
+                curved%left = zones%start(:, i)
+                link%turn_a(2) = 0.0_wp
+                link%turn_b(2) = 0.0_wp
+                link%shear_a(2) = 0.0_wp
+                link%shear_b(2) = 0.0_wp
+                call condense_curved(curved, grounded%beam%ground(i), link%turn_a(1), link%turn_b(1), link%shear_a(1), &
+                                     link%shear_b(1), grounded%lost)
+                link%shear_b(1) = -link%shear_b(1)
+            end if
+        end associate
+    end subroutine place_stretch
+
+    !> What a stretch is made of on its layers, but those that act by curves
+    pure subroutine stretch_on_layers(ground, zones, i, stretch, dead, live)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        !> Its number
+        integer, intent(in) :: i
+        type(stretch_type), intent(out) :: stretch
+        !> Its loads, with those of the layers as if the beam were at deflection zero
+        type(stretch_load_type), intent(out) :: dead, live
+        type(law_piece_type) :: law
+        real(wp) :: slope(2), contact(2), offset(2)
+        integer :: k
+
+        associate (j => zones%piece(i), s => stretch, from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
             s = stretch_type(length=to - from, flexibility=p%flexibility, shear_flexibility=p%shear_flexibility, tension=p%tension)
+            s%modulus_a = 0.0_wp - ground%frequency_squared*p%mass
+            s%modulus_b = s%modulus_a
             dead = load_between(ground%dead(j), from, to, p%length)
             live = load_between(ground%live(j), from, to, p%length)
             do k = ground%first(j), ground%first(j + 1) - 1
@@ -300,28 +337,23 @@ contains
                     dead%qc = dead%qc - (slope(2) - slope(1))*(contact(2) - contact(1))
                 end associate
             end do
-            ! The bar without ground, for what needs its size only
-            piece = piece_type(s%length, s%flexibility, s%shear_flexibility)
-            call condense_link(piece, [piece_load(dead)], [piece_load(live)], work, link)
-            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), from, to, &
-                             p%length, curved%curves)
-            if (allocated(curved%curves)) then
-                curved%stretch = s
-                curved%load = combined_load(dead, live, factor)
-                curved%left = zones%start(:, i)
-                link%turn_a(2) = 0.0_wp
-                link%turn_b(2) = 0.0_wp
-                link%shear_a(2) = 0.0_wp
-                link%shear_b(2) = 0.0_wp
-                call condense_curved(curved, grounded%beam%ground(i), link%turn_a(1), link%turn_b(1), link%shear_a(1), &
-                                     link%shear_b(1), grounded%lost)
-                link%shear_b(1) = -link%shear_b(1)
-                return
-            end if
-            call condense_loaded(s, [dead, live], grounded%beam%ground(i), link%turn_a, link%turn_b, link%shear_a, link%shear_b)
-            link%shear_b(:) = -link%shear_b
         end associate
-    end subroutine place_stretch
+    end subroutine stretch_on_layers
+
+    !> A stretch as a link: the bar without ground and axial force, for what needs its size only, with what the loads make at its
+    !> ends, and what it is on the ground
+    pure subroutine condense_both(stretch, dead, live, bar, link)
+        type(stretch_type), intent(in) :: stretch
+        type(stretch_load_type), intent(in) :: dead, live
+        type(link_type), intent(out) :: bar
+        type(stretch_link_type), intent(out) :: link
+        real(wp) :: work(1)
+
+        call condense_link([piece_type(stretch%length, stretch%flexibility, stretch%shear_flexibility)], [piece_load(dead)], &
+                           [piece_load(live)], work, bar)
+        call condense_loaded(stretch, [dead, live], link, bar%turn_a, bar%turn_b, bar%shear_a, bar%shear_b)
+        bar%shear_b(:) = -bar%shear_b
+    end subroutine condense_both
 
     !> The load of a piece on a stretch of it
     pure function load_between(load, from, to, length) result(found)

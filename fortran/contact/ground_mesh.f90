@@ -7,7 +7,7 @@ module gapbeam_ground_mesh
     use gapbeam_foundation, only: stretch_type, decay_lengths
     use gapbeam_layers, only: has_curves
     use gapbeam_ground_laws, only: between, piece_of_deflection, push_of_layer, slope_at
-    use gapbeam_ground, only: ground_type
+    use gapbeam_ground, only: ground_type, steps_of_piece
     implicit none
     private
     public :: mesh_type, begin_mesh, refine_mesh, acts_at
@@ -36,11 +36,13 @@ contains
 
         shortest = sum(ground%pieces%length)/merge(most_mesh_parts, most_first_parts, any(has_curves(ground%layers)))
         do j = 1, size(parts)
-            parts(j) = 1
+            ! As short under compression as series ask for
+            parts(j) = steps_of_piece(ground, j)
             if (ground%first(j + 1) == ground%first(j)) cycle
             associate (p => ground%pieces(j))
-                parts(j) = max(2, ceiling(min(max(parts_of_decay*decays(ground, j, p%length, first_stiffness(j)), &
-                                                  least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
+                parts(j) = max(2, merge(parts(j), 1, p%tension < 0.0_wp), &
+                               ceiling(min(max(parts_of_decay*decays(ground, j, p%length, first_stiffness(j)), &
+                                               least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
             end associate
         end do
         allocate (mesh%piece(sum(parts)), mesh%from(sum(parts)), mesh%to(sum(parts)), mesh%node(0:size(parts)))

@@ -8,7 +8,8 @@ module gapbeam_ground_nodes
     use gapbeam_band, only: plain
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
-    use gapbeam_ground, only: ground_type
+    use gapbeam_foundation, only: stretch_type
+    use gapbeam_ground, only: ground_type, condense_both, load_between
     use gapbeam_ground_mesh, only: mesh_type
     implicit none
     private
@@ -127,6 +128,7 @@ contains
             p%length = mesh%to(i) - mesh%from(i)
             call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
         end do
+        if (any(abs(ground%pieces%tension) > 0.0_wp)) call feel_tension(ground, mesh, beam)
         beam%watch = ground%beam%watch
 
     contains
@@ -143,5 +145,23 @@ contains
         end function share
 
     end subroutine make_beam
+
+    !> The links as they are under axial forces
+    pure subroutine feel_tension(ground, mesh, beam)
+        type(ground_type), intent(in) :: ground
+        type(mesh_type), intent(in) :: mesh
+        type(beam_type), intent(inout) :: beam
+        integer :: i
+
+        allocate (beam%ground(size(mesh%piece)))
+        do i = 1, size(mesh%piece)
+            associate (j => mesh%piece(i), from => mesh%from(i), to => mesh%to(i), piece => ground%pieces(mesh%piece(i)))
+                call condense_both(stretch_type(length=to - from, flexibility=piece%flexibility, &
+                                                shear_flexibility=piece%shear_flexibility, tension=piece%tension), &
+                                   load_between(ground%dead(j), from, to, piece%length), &
+                                   load_between(ground%live(j), from, to, piece%length), beam%links(i), beam%ground(i))
+            end associate
+        end do
+    end subroutine feel_tension
 
 end module gapbeam_ground_nodes

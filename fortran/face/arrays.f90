@@ -11,7 +11,7 @@ contains
 
     !> A model from arrays, without foundations
     subroutine model_from_arrays(span, hinge, sect, isup, sup, ilaw, alaw, iload, aload, model, error)
-        !> Length, EI, GA, EA, and axial force if there is a fifth row
+        !> Length, EI, GA, EA, and axial force and mass if there are rows five and six
         real(wp), intent(in) :: span(:, :)
         !> Places, and couple per relative rotation if there is a second row
         real(wp), intent(in) :: hinge(:, :)
@@ -47,6 +47,7 @@ contains
                 s%GA = span(3, i)
                 s%EA = span(4, i)
                 if (size(span, 1) > 4) s%N = span(5, i)
+                if (size(span, 1) > 5) s%mass = span(6, i)
             end associate
         end do
         model%hinges(:) = hinge(1, :)

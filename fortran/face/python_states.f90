@@ -2,7 +2,7 @@
 ! state, FIELDS that of its fields at the pieces
 
 ! Find the contact state at one load factor and solve it
-subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, counts, state, status, message)
+subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, counts, share, state, status, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_state, report
     use gapbeam_error, only: gapbeam_solved
     use gapbeam_support_values, only: support_values
@@ -23,8 +23,10 @@ subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, cou
     double precision, intent(out) :: values(nm + 1, 4)
     ! Linear solves; system solved last: 0 mixed, 1 three-moment, 2 with pivoting; 1 where the beam can move freely
     ! without work of the loads; 1 where the rule single came back to a scheme; 1 where the beam slides along its axis;
-    ! stretches on the ground, and most layers under one of them
-    integer, intent(out) :: counts(7)
+    ! 0 where other states may be there under compression; stretches on the ground, and most layers under one of them
+    integer, intent(out) :: counts(8)
+    ! Share of the axial forces that the beam bears where it buckles
+    double precision, intent(out) :: share
     ! 0 where there is an error
     integer(8), intent(out) :: state
     integer, intent(out) :: status
@@ -38,19 +40,22 @@ subroutine gbsolv(beam, ns, nm, factor, rule, onlaws, closed, undec, values, cou
     undec = 0
     values = 0.0d0
     counts = 0
+    share = 1.0d0
     call keep_state(handle, factor, rule, onlaws, closed(:ns) /= 0, solved, error)
     state = number_of(solved)
     call report(error, status, message)
     if (allocated(error)) return
     associate (s => solved%result%state)
         status = s%status
-        counts(:5) = [s%solves, s%method, merge(1, 0, s%indifferent), merge(1, 0, s%cycled), merge(1, 0, s%slides)]
+        counts(:6) = [s%solves, s%method, merge(1, 0, s%indifferent), merge(1, 0, s%cycled), merge(1, 0, s%slides), 1]
+        if (allocated(s%ground)) counts(6) = merge(1, 0, s%ground%unique)
+        if (allocated(s%ground)) share = s%ground%axial_share
         if (status /= gapbeam_solved) return
         closed(:ns) = merge(1, 0, s%closed)
         undec(:ns) = merge(1, 0, s%undecided)
         allocate (conditions(nm))
         call support_values(handle%beam%lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), conditions)
-        if (allocated(s%ground)) counts(6:7) = shape(transpose(s%ground%acts))
+        if (allocated(s%ground)) counts(7:8) = shape(transpose(s%ground%acts))
     end associate
 end subroutine gbsolv
 

@@ -55,6 +55,9 @@ module gapbeam_ground_solution
         real(wp) :: factor = 0.0_wp
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
+        !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears
+        logical :: unique = .true.
+        real(wp) :: axial_share = 1.0_wp
         !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
         !> compatibility, equilibrium and complementarity by the audit (gapbeam_ground_audit)
         real(wp) :: bounds(5) = 0.0_wp, residuals(3) = 0.0_wp

@@ -124,7 +124,8 @@ contains
         fine = fine_piece_type(real(piece%length, qp), fine_reciprocal(piece%flexibility), &
                                fine_reciprocal(piece%shear_flexibility), fine_reciprocal(piece%hinge), &
                                fine_reciprocal(piece%flexibility_to), fine_reciprocal(piece%shear_flexibility_to), piece%power, &
-                               piece%shear_power, real(piece%tension, qp))
+                               piece%shear_power, real(piece%tension, qp), real(piece%slope_stiffness, qp), &
+                               real(piece%mass, qp))
     end function fine_piece
 
     !> A reciprocal in quadruple precision: of the stiffness that the user gave, which two roundings give back, mostly exactly

@@ -13,7 +13,7 @@ module gapbeam_state
     use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type, move_ground
-    use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_compressed, only: solve_with_axial_force
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_axial
@@ -125,8 +125,8 @@ contains
         call copy_scheme(state, acting, error)
         if (allocated(error)) return
         allocate (state%ground)
-        call solve_on_ground(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
-                             state%ground, outcome, error, near)
+        call solve_with_axial_force(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), &
+                                    acting, state%ground, outcome, error, near)
         if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
             call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
         end if

@@ -318,7 +318,7 @@ contains
         all_bits = 0
         do i = 1, size(model%spans)
             associate (s => model%spans(i))
-                call mix(all_bits, [s%length, s%EI, s%GA, s%EA, s%N])
+                call mix(all_bits, [s%length, s%EI, s%GA, s%EA, s%N, s%mass])
             end associate
         end do
         call mix(all_bits, model%hinges)

@@ -28,14 +28,15 @@ contains
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function has_axial_force
 
-    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, or with an axial force that bending feels
+    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or with
+    !> mass
     pure function in_stretches(model) result(it_is)
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
         logical :: it_is
 
         it_is = size(model%foundations) > 0
-        if (.not. it_is) it_is = has_axial_force(model)
+        if (.not. it_is) it_is = has_axial_force(model) .or. any(model%spans%mass > 0.0_wp)
     end function in_stretches
 
     !> What makes it so, in words
@@ -44,7 +45,9 @@ contains
         character(len=:), allocatable :: words
 
         words = "a foundation"
-        if (size(model%foundations) == 0) words = "an axial force N"
+        if (size(model%foundations) > 0) return
+        words = "an axial force N"
+        if (.not. has_axial_force(model)) words = "a mass for frequencies"
     end function what_stretches
 
     !> Axial forces of spans, and what resists slopes of the beam on the ground
@@ -56,22 +59,28 @@ contains
         integer :: i
 
         do i = 1, size(model%spans)
-            if (abs(model%spans(i)%N) <= huge(1.0_wp)) cycle
-            call refuse(error, of_spans, i, size(model%spans), not_expected, "N", &
-                        "expected a finite number, tension positive, got "//trim(shown(model%spans(i)%N)))
-            return
+            associate (s => model%spans(i), m => size(model%spans))
+                if (.not. abs(s%N) <= huge(1.0_wp)) then
+                    call refuse(error, of_spans, i, m, not_expected, "N", "expected a finite number, tension positive, got "// &
+                                trim(shown(s%N)))
+                else if (.not. (s%mass >= 0.0_wp .and. s%mass <= huge(1.0_wp))) then
+                    call refuse(error, of_spans, i, m, not_expected, "mass", "expected a finite number, 0 or more, got "// &
+                                trim(shown(s%mass)))
+                end if
+            end associate
+            if (allocated(error)) return
         end do
         do i = 1, size(model%foundations)
             call check_foundation(model%foundations(i), i)
             if (allocated(error)) return
         end do
-        if (.not. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp))) return
+        if (.not. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp) .or. any(model%spans%mass > 0.0_wp))) return
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
                 if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) cycle
                 call refuse(error, of_sections, i, size(model%sections), bad_law, merge("EI", "GA", s%EI_to > gapbeam_unchanged), &
-                            "a section that tapers beside an axial force N is not available in this version; give short "// &
-                            "sections, each of one stiffness")
+                            "a section that tapers beside an axial force N, a shear of the ground or a mass is not "// &
+                            "available in this version; give short sections, each of one stiffness")
                 return
             end associate
         end do
@@ -106,7 +115,7 @@ contains
 
     end subroutine check_axial_force
 
-    !> Axial forces of the pieces in the engine's units, with what ground there resists slopes with
+    !> Axial forces of the pieces in the engine's units, with what ground there resists slopes with, and masses
     subroutine assign_axial_force(assembled, error)
         !> With the other numbers of its pieces
         type(assembled_type), intent(inout) :: assembled
@@ -114,18 +123,19 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j
 
-        assembled%pieces%tension = 0.0_wp
-        do j = 1, size(assembled%pieces)
-            call add(j, stiffness_of(assembled, j, axial_force_in))
-        end do
+        assembled%pieces%slope_stiffness = 0.0_wp
         do i = 1, size(assembled%model%foundations)
             if (.not. assembled%model%foundations(i)%shear > 0.0_wp) cycle
             do j = assembled%foundation_from(i) + 1, assembled%foundation_to(i)
-                call add(j, assembled%model%foundations(i)%shear)
+                assembled%pieces(j)%slope_stiffness = assembled%pieces(j)%slope_stiffness &
+                    + in_units(assembled%model%foundations(i)%shear)
             end do
         end do
         do j = 1, size(assembled%pieces)
-            associate (p => assembled%pieces(j), N => stiffness_of(assembled, j, axial_force_in))
+            associate (p => assembled%pieces(j), N => stiffness_of(assembled, j, axial_force_in), units => assembled%units)
+                p%tension = p%slope_stiffness + in_units(N)
+                p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
+                               units%length + units%deflection - units%force)
                 if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then
                     call refuse_range(error, "N = "//trim(shown(N))//" "//place(j)//" is too far from the stiffnesses of the "// &
                                       "beam", "bring them nearer together, or make it 0")
@@ -139,15 +149,13 @@ contains
 
     contains
 
-        !> Add to the axial force in a piece
-        subroutine add(piece, force)
-            integer, intent(in) :: piece
+        !> A force along the beam in the engine's units: what it makes of a slope is a force across it
+        pure function in_units(force)
             real(wp), intent(in) :: force
+            real(wp) :: in_units
 
-            associate (tension => assembled%pieces(piece)%tension, units => assembled%units)
-                tension = tension + scale(force, rotation_unit(units) - units%force)
-            end associate
-        end subroutine add
+            in_units = scale(force, rotation_unit(assembled%units) - assembled%units%force)
+        end function in_units
 
         !> Where a piece is
         pure function place(piece) result(words)

@@ -71,6 +71,8 @@ module gapbeam_scene
         real(wp) :: EA = gapbeam_infinity
         !> Axial force that bending feels (second order), tension positive
         real(wp) :: N = 0.0_wp
+        !> Mass per length, for frequencies: in the unit of force times the square of that of time over that of length
+        real(wp) :: mass = 0.0_wp
     end type span_type
 
     !> Other stiffness between two places; later sections win over earlier ones

@@ -121,6 +121,7 @@ class Status(IntEnum):
 
     SOLVED = 0
     NO_EQUILIBRIUM = 1
+    BUCKLES = 2
     BAD_INPUT = 11
     INDETERMINATE = 12
     NOT_CONVERGED = 13

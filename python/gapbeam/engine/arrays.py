@@ -21,7 +21,7 @@ class Columns(Record):
     Attributes
     ----------
     span : numpy.ndarray
-        Length, EI, GA, EA, N of the spans, 5 rows.
+        Length, EI, GA, EA, N, mass of the spans, 6 rows.
     hinge : numpy.ndarray
         Place of every hinge, and couple per relative rotation, 2 rows.
     section : numpy.ndarray
@@ -129,12 +129,13 @@ class GroundChanges(Record):
         Load factor at which every segment begins; none if there is no equilibrium at the first.
     closed : numpy.ndarray of int
         Its scheme, segments by supports of the engine.
-    last, beyond : float
-        Load factor that the path goes to; one above which there is no equilibrium for sure.
+    last, beyond, axial_share : float
+        Load factor that the path goes to; one above which there is no equilibrium for sure; share of the axial forces that the
+        beam bears there where it buckles, else 1.
     at_limit : bool
         Whether it ends where ground that yields carries no more.
     status : int
-        SOLVED, or NO_EQUILIBRIUM above `last`.
+        SOLVED, or NO_EQUILIBRIUM or BUCKLES above `last`.
     motion : numpy.ndarray
         Of the nodes there, as in `Solution`.
     slides : bool
@@ -153,6 +154,7 @@ class GroundChanges(Record):
     closed: np.ndarray
     last: float
     beyond: float
+    axial_share: float
     at_limit: bool
     status: int
     motion: np.ndarray

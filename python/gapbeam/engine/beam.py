@@ -200,7 +200,7 @@ class Beam(Layout):
         Returns
         -------
         Solution
-            The solution, or the free motion where there is no equilibrium.
+            The solution, or the motion where there is no equilibrium or the beam buckles.
 
         Raises
         ------
@@ -209,11 +209,11 @@ class Beam(Layout):
         """
         m, scheme = self.supports, extended(closed)
         code = RULES.get(rule, RULE_EXTENDED if self.curves else RULE_GIVEN)
-        undecided, values, counts, handle, status, message = _engine.gbsolv(
+        undecided, values, counts, share, handle, status, message = _engine.gbsolv(
             self.handle, self.links, self.scene_supports, factor, code, on_laws, scheme
         )
         check_status(status, message)
-        solves, method, indifferent, came_back, slides, *on_ground = counts.tolist()
+        solves, method, indifferent, came_back, slides, unique, *on_ground = counts.tolist()
         start = read_only(np.array(closed)) if closed.flags.writeable else closed
         state = State(self, factor, code, start, *on_ground, on_laws, handle, along)
         chain = None
@@ -223,7 +223,7 @@ class Beam(Layout):
             indifferent = chain.loose
         return Solution(
             status, scheme[:m], undecided[:m], values.T[:, :-1], solves, method, bool(indifferent), bool(came_back), bool(slides),
-            state, chain,
+            bool(unique), share, state, chain,
         )  # fmt: skip
 
     def solve_again(

@@ -252,5 +252,5 @@ def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
     at, which = at[:, :events], which[:, :events]
     return GroundChanges(
         at[0], at[1], which[0] - 1, which[1] - 1, which[2], which[3], begins[:segments], schemes.T[:segments, :-1],
-        float(ends[0]), float(ends[1]), bool(at_limit), status, motion, bool(slides), solves,
+        *ends.tolist(), bool(at_limit), status, motion, bool(slides), solves,
     )  # fmt: skip

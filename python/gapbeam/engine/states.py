@@ -196,7 +196,7 @@ class Solution(Record):
     Attributes
     ----------
     status : int
-        SOLVED or NO_EQUILIBRIUM; in the second case only `motion` and `slides` have a meaning.
+        SOLVED, NO_EQUILIBRIUM or BUCKLES; else only `motion`, `slides` and `axial_share` have a meaning.
     closed : numpy.ndarray of int
         1 where a support acts, 0 where it is open.
     undecided : numpy.ndarray of int
@@ -213,6 +213,10 @@ class Solution(Record):
         Whether the rule ``single`` came back to a scheme, so that ``block`` went on.
     slides : bool
         Whether nothing holds the beam along its axis.
+    unique : bool
+        Whether it is known to be the only one; under compression there may be others.
+    axial_share : float
+        Share of the axial forces that the beam bears where it buckles; else 1.
     state : State
         All the rest.
     chain : Chain, optional
@@ -228,6 +232,8 @@ class Solution(Record):
     indifferent: bool
     came_back: bool
     slides: bool
+    unique: bool
+    axial_share: float
     state: State = field(compare=False)
     chain: Chain | None = field(default=None, compare=False)
 

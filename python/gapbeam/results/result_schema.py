@@ -13,7 +13,7 @@ from .state.breakpoints import OF_SUPPORTS, OF_ZONES
 
 WORDS = {
     "Schema": [SCHEMA],
-    "Status": ["solved", "no-equilibrium", "limit-load", "indeterminate", "not-converged", "not-finite"],
+    "Status": ["solved", "no-equilibrium", "buckles", "limit-load", "indeterminate", "not-converged", "not-finite"],
     "Side": ["both", "below", "above", "left", "right", "counterclockwise", "clockwise", "sagging", "hogging"],
     "Normal": ["normal", "axial", "rotational", "hinge"],
     "Way": ["right", "left"],

@@ -6,7 +6,7 @@ from typing import Literal
 
 from msgspec import field
 
-from .table import Count, Table
+from .table import Count, Modes, Table
 
 
 class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
@@ -29,6 +29,11 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     first_order : bool
         True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
         false: such a scene is refused, since that effect is left out.
+    buckling : int
+        How many factors by which all axial forces N must be multiplied for the beam to buckle are found, with the supports and the
+        ground that act at the end; default 0.
+    frequencies : int
+        How many circular frequencies (rad per unit of time) are found likewise, with `beam.mass`; default 0.
     """
 
     steps: Count = 1
@@ -37,6 +42,8 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     at_limit: Literal["stop", "jump", "follow"] = "stop"
     history: list[float] = field(default_factory=lambda: [1.0])
     first_order: bool = False
+    buckling: Modes = 0
+    frequencies: Modes = 0
 
     @property
     def has_history(self) -> bool:

@@ -82,9 +82,10 @@ def columns(scene: Scene) -> Columns:
         Numbers of the beam that do not belong together, two places for one thing, or none that double precision holds.
     """
     beam, spans = scene.beam, len(scene.beam.spans)
-    span = _empty(5, spans)
+    span = _empty(6, spans)
     span[0, :spans] = beam.spans
-    for row, key in enumerate(("EI", "GA", "EA", "N"), 1):
+    span[5] = 0.0
+    for row, key in enumerate(("EI", "GA", "EA", "N", *(("mass",) if scene.analysis.frequencies else ())), 1):
         values = np.asarray(getattr(beam, key), dtype=float)
         if values.ndim and len(values) != spans and spans:
             count = f"has {len(values)} values for {spans} spans"

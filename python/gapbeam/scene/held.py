@@ -10,7 +10,7 @@ from msgspec import Struct, StructMeta, structs
 
 from .table import Table, kind_of
 
-PLAIN = {"float", "int", "str", "bool", "None", "Positive", "NotNegative", "Node", "Count", "Side", "SupportSide"}
+PLAIN = {"float", "int", "str", "bool", "None", "Positive", "NotNegative", "Node", "Count", "Modes", "Side", "SupportSide"}
 """Types of keys that hold nothing else."""
 NUMBERS = {float, int, str}
 """Types of numbers and words."""

@@ -78,6 +78,8 @@ class Beam(Table, forbid_unknown_fields=True):
         Axial stiffness (force), one number or one per span; default inf. Needed only with axial loads.
     N : float or list of float
         Axial force (force) that bending feels (second order), tension positive, one number or one per span; default 0.
+    mass : float or list of float
+        Mass (force*time^2/length) per length, one number or one per span, for `analysis.frequencies`; default 0.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
     width : float, optional
@@ -96,6 +98,7 @@ class Beam(Table, forbid_unknown_fields=True):
     GA: Positive | list[Positive] = inf
     EA: Positive | list[Positive] = inf
     N: float | list[float] = 0.0
+    mass: NotNegative | list[NotNegative] = 0.0
     hinges: list[float] = []
     width: Positive | None = None
     direction: Literal["right", "down"] = "right"

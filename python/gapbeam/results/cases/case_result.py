@@ -47,7 +47,7 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
     result.steps = LoadSteps(beam, rule, starting_scheme(beam), 1)
     fallen = result.steps.solve_all()
     if fallen is not None:
-        result._refuse("in this load case", fallen[1])
+        result._refuse("in this load case", *fallen[1:])
     for step in result.steps:
         result.compression = compression_of(result, step)
     return result

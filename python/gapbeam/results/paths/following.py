@@ -16,6 +16,7 @@ from ...scene.movements import refuse_movements
 from ...scene.rotations import which_turn
 from ...scene.structs import Scene
 from ...scene.tapers import is_tapered
+from ..state.motion import borne
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
 from ..state.steps import LoadSteps, PathSteps
@@ -104,8 +105,8 @@ def _by_steps(result: Result, closed: np.ndarray) -> None:
     result.steps = LoadSteps(result._beam, result._rule, closed, result.scene.analysis.steps)
     fallen = result.steps.solve_all()
     if fallen is not None:
-        factor, motion = fallen
-        result._refuse(f"at load factor {factor:g}", motion)
+        factor, *how = fallen
+        result._refuse(f"at load factor {factor:g}", *how)
 
 
 def _by_events(follow_events: Callable[..., Path | GroundPath | None], result: Result, closed: np.ndarray) -> None:
@@ -127,7 +128,7 @@ def _refuse_beyond_bounds(result: Result) -> None:
             if isinstance(found, Solution):
                 result.path = None
                 result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam), 0)
-                result._refuse(f"at load factor {last.stop:g}", found.motion)
+                result._refuse(f"at load factor {last.stop:g}", found.motion, borne(found))
                 return
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine.beam import NO_EQUILIBRIUM, Beam
+from ...base.errors import Status
+from ...engine.beam import SOLVED, Beam
 from ...engine.paths import follow_ground
 from ..state.breakpoints import EVENTS
 from ..state.motion import describe_motion
@@ -73,6 +74,8 @@ class GroundPath:
         How the beam moves there; None if it stands to the end, or slides along its axis.
     stands : bool
         Whether it stands to the end.
+    bears : float or None
+        Share of its axial forces that the beam bears above the last segment, if it buckles there.
     """
 
     nodes = 0
@@ -84,7 +87,8 @@ class GroundPath:
         self._schemes = found.closed
         self.solves = found.solves
         self.beyond = found.beyond
-        self.stands = found.status != NO_EQUILIBRIUM
+        self.stands = found.status == SOLVED
+        self.bears = found.axial_share if found.status == Status.BUCKLES else None
         self.motion = None if self.stands or found.slides else found.motion
         columns = (found.factor, found.support, found.foundation, found.x, found.event, found.branch)
         self.events = [
@@ -144,5 +148,5 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
         return path
     if not path.stands:
         where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
-        result._refuse(where, path.motion)
+        result._refuse(where, path.motion, path.bears)
     return path if path.segments else None

@@ -1,4 +1,4 @@
-"""Free motions in words."""
+"""Motions in words: free ones, and those with which a beam buckles."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...base.errors import Status
 from ...engine.beam import HINGE, Beam
+from ...engine.states import Solution
 
 SLIDES = "the beam slides along its axis, no axial support holds it"
 
@@ -35,6 +37,39 @@ def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     ]
     shown = parts[:4] + (["and so on"] if len(parts) > 4 else [])
     return "; ".join(shown) + "; the loads push it that way and no support resists"
+
+
+def borne(solution: Solution) -> float | None:
+    """Give the share of its axial forces that a beam bears; None where it does not buckle.
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a beam that does not stand.
+    """
+    return solution.axial_share if solution.status == Status.BUCKLES else None
+
+
+def describe_buckling(beam: Beam, motion: np.ndarray, bears: float) -> str:
+    """Say how a beam buckles.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    motion : numpy.ndarray
+        Displacements of the nodes as it gives way, positive downward.
+    bears : float
+        Share of its axial forces that it bears.
+
+    Returns
+    -------
+    str
+        For example "with these loads the beam bears 0.87 times its axial forces, and gives way most at x = 3, downward".
+    """
+    k = int(np.abs(motion).argmax())
+    way = f", and gives way most at x = {beam.node_x[k]:g}, {'down' if motion[k] > 0.0 else 'up'}ward" if motion[k] else ""
+    return f"with these loads the beam bears {bears:.6g} times its axial forces{way}; less compression, or more supports, would hold it"
 
 
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:

@@ -232,7 +232,7 @@ class TrainResult(TrainVerbs):
         result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam) if scheme is None else scheme, 1)
         fallen = result.steps.solve_all()
         if fallen is not None:
-            result._refuse(f"at position {position:g} of train {self.name}", fallen[1])
+            result._refuse(f"at position {position:g} of train {self.name}", *fallen[1:])
             raise ValueError(f"position: {result.reason}")
         return TrainState(result, position, traversal.course.direction, self.name)
 

@@ -1,0 +1,244 @@
+!> Motions that a beam with its acting scheme gives way to: under axial forces times a factor, or vibrating at a frequency.
+!>
+!> The number of negative eigenvalues of its stiffness comes from the pivots of its factor (Sylvester), for links so short that none
+!> gives way with both its ends pinned (Wittrick and Williams 1971). It never falls as the factor or the frequency grows, so the
+!> k-th value is where it reaches k: found by halving, and none is missed.
+module gapbeam_modes
+    use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_mode_stretches, most_halvings
+    use gapbeam_tolerances, only: mode_digits
+    use gapbeam_band, only: band_ok, count_unstable_pivots
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
+    use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
+    use gapbeam_ground_laws, only: between
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
+    use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
+    implicit none
+    private
+    public :: by_axial_force, by_vibration, count_modes, find_mode_values, find_mode_shape
+
+    !> What the value of a mode multiplies: the axial forces; the mass, and is the square of a circular frequency
+    integer, parameter :: by_axial_force = 1, by_vibration = 2
+
+contains
+
+    !> How many motions a beam gives way to at a value; -1 where that is a value of a mode exactly, or there are too many stretches
+    subroutine count_modes(ground, zones, acting, what, value, number, work, grounded, parts)
+        !> The beam and its ground; zones in which that acts, taken as it is near them; supports that act
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        logical, intent(in) :: acting(:)
+        !> by_axial_force or by_vibration, and the factor, or the square of the circular frequency
+        integer, intent(in) :: what
+        real(wp), intent(in) :: value
+        integer, intent(out) :: number
+        !> The factored beam, in stretches that are short enough
+        type(workspace_type), intent(out) :: work
+        type(grounded_type), intent(out) :: grounded
+        !> Stretches into which every piece is cut at least; default 1
+        integer, intent(in), optional :: parts
+        type(ground_type) :: changed
+        type(zones_type) :: cut
+        integer :: state, place
+
+        number = -1
+        changed = ground
+        if (what == by_axial_force) then
+            changed%pieces%tension = ground%pieces%slope_stiffness &
+                + value*(ground%pieces%tension - ground%pieces%slope_stiffness)
+        else
+            changed%frequency_squared = value
+        end if
+        call cut_zones(changed, zones, cut, parts)
+        if (size(cut%piece) == 0) return
+        call place_stretches(changed, cut, 0.0_wp, grounded)
+        call new_workspace(grounded%beam, work)
+        call set_loads(grounded%beam, 0.0_wp, work)
+        call apply_scheme(grounded%beam, acting, [0, size(grounded%beam%links)], work)
+        call factor_foundation_chain(work%nodes, grounded%beam%ground, work%pivots, state, place)
+        if (state /= band_ok .and. place < size(grounded%beam%links)) return
+        number = count_unstable_pivots(work%nodes, work%pivots)
+        if (state /= band_ok .and. number == 0) number = -1
+    end subroutine count_modes
+
+    !> Zones cut so that none of the stretches gives way by itself; of no size where there would be too many
+    subroutine cut_zones(ground, zones, cut, parts)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        type(zones_type), intent(out) :: cut
+        integer, intent(in), optional :: parts
+        type(stretch_type) :: stretch
+        type(stretch_load_type) :: dead, live
+        real(wp) :: steps(size(zones%piece))
+        integer :: i, k, m
+
+        do i = 1, size(zones%piece)
+            call stretch_on_layers(ground, zones, i, stretch, dead, live)
+            steps(i) = 1.0_wp
+            if (present(parts)) steps(i) = parts
+            if (stretch%tension < 0.0_wp .or. min(stretch%modulus_a, stretch%modulus_b) < 0.0_wp &
+                .or. abs(stretch%modulus_a - stretch%modulus_b) > 0.0_wp) steps(i) = max(steps(i), decay_lengths(stretch))
+        end do
+        if (.not. sum(steps) <= real(most_mode_stretches, wp)) then
+            call new_zones(0, size(zones%acts, 1), zones%steps, cut)
+            return
+        end if
+        call new_zones(sum(ceiling(steps)), size(zones%acts, 1), zones%steps, cut)
+        m = 0
+        do i = 1, size(zones%piece)
+            do k = 1, ceiling(steps(i))
+                m = m + 1
+                cut%piece(m) = zones%piece(i)
+                cut%from(m) = between(zones%from(i), zones%to(i), k - 1, ceiling(steps(i)))
+                cut%to(m) = between(zones%from(i), zones%to(i), k, ceiling(steps(i)))
+                cut%acts(:, m) = zones%acts(:, i)
+            end do
+        end do
+    end subroutine cut_zones
+
+    !> The first values of modes, in rising order
+    subroutine find_mode_values(ground, zones, acting, what, first, values, found, near)
+        !> As for count_modes
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        logical, intent(in) :: acting(:)
+        integer, intent(in) :: what
+        !> With which step to begin to look, above 0
+        real(wp), intent(in) :: first
+        !> Those that there are, shape (number wanted)
+        real(wp), intent(out) :: values(:)
+        integer, intent(out) :: found
+        !> Values known to some digits, if any: the others are not looked for
+        real(wp), intent(in), optional :: near(:)
+        real(wp) :: low, high, step
+        integer :: k, doubling
+        logical :: stopped
+
+        found = 0
+        stopped = .false.
+        low = 0.0_wp
+        do k = 1, merge(size(near), size(values), present(near))
+            step = first
+            if (k > 1) step = low/2
+            if (present(near)) then
+                step = mode_digits*near(k)
+                low = near(k) - step
+            end if
+            do doubling = 1, most_halvings
+                if (.not. low > 0.0_wp) exit
+                if (number_at(low) < k) exit
+                ! Another mode has that value too, or a known one is farther off
+                if (.not. present(near)) exit
+                low = max(0.0_wp, low - 2*step)
+                step = 4*step
+            end do
+            high = low
+            do doubling = 1, most_halvings
+                if (high > 0.0_wp) then
+                    if (number_at(high) >= k .or. stopped) exit
+                end if
+                low = high
+                high = high + step
+                step = 2*step
+            end do
+            if (stopped .or. doubling > most_halvings) return
+            call halve(k)
+            found = k
+            low = high
+        end do
+
+    contains
+
+        !> Bring the bracket of mode k together
+        subroutine halve(k)
+            integer, intent(in) :: k
+            real(wp) :: middle
+            integer :: step
+
+            do step = 1, most_halvings
+                middle = low + (high - low)/2
+                if (.not. (middle > low .and. middle < high)) exit
+                if (number_at(middle) >= k) then
+                    high = middle
+                else
+                    low = middle
+                end if
+            end do
+            values(k) = high
+        end subroutine halve
+
+        !> Modes at a value, or a hair beside it
+        function number_at(value) result(number)
+            real(wp), intent(in) :: value
+            integer :: number
+            type(workspace_type) :: work
+            type(grounded_type) :: grounded
+            integer :: trial
+
+            do trial = 0, 2
+                call count_modes(ground, zones, acting, what, value*(1 + 8*trial*epsilon(value)), number, work, grounded)
+                if (number >= 0) return
+            end do
+            stopped = .true.
+            number = 0
+        end function number_at
+
+    end subroutine find_mode_values
+
+    !> How the beam moves in a mode: what small forces near its value do (inverse iteration)
+    subroutine find_mode_shape(ground, zones, acting, what, value, parts, piece, distance, deflection, moment)
+        !> As for count_modes
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        logical, intent(in) :: acting(:)
+        integer, intent(in) :: what
+        !> Value of the mode, to rounding
+        real(wp), intent(in) :: value
+        !> Stretches between places at least, of every zone
+        integer, intent(in) :: parts
+        !> Places along the beam, with distances from the left ends of their pieces; deflection there, the largest 1, and moment left
+        !> and right of them, shape (2, ...)
+        integer, allocatable, intent(out) :: piece(:)
+        real(wp), allocatable, intent(out) :: distance(:), deflection(:), moment(:, :)
+        type(workspace_type) :: work
+        type(grounded_type) :: grounded
+        integer :: number, i, n, round, largest
+
+        call count_modes(ground, zones, acting, what, value, number, work, grounded, parts)
+        if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, parts)
+        n = size(grounded%stretches)
+        allocate (piece(n + 1), distance(n + 1), deflection(n + 1), moment(2, n + 1))
+        ! Forces that no mode is without work of
+        do i = 0, n
+            work%rhs(i)%shear = 1 + modulo(i*0.6180339887498949_wp, 1.0_wp)
+        end do
+        do round = 1, 3
+            do i = 0, n
+                work%rhs(i)%left = 0.0_wp
+                work%rhs(i)%right = 0.0_wp
+                work%rhs(i)%couple = 0.0_wp
+                work%rhs(i)%moment = 0.0_wp
+                work%rhs(i)%deflection = 0.0_wp
+            end do
+            call solve_foundation_chain(work%nodes, grounded%beam%ground, grounded%beam%links%length, work%pivots, work%rhs, &
+                                        work%eliminated, work%answers)
+            largest = maxloc(abs(work%answers%deflection), 1) - 1
+            work%rhs%shear = work%answers%deflection/abs(work%answers(largest)%deflection)
+        end do
+        associate (scale => 1/work%answers(largest)%deflection, node => grounded%node)
+            deflection(:) = scale*work%answers%deflection
+            moment(1, :) = scale*work%answers%moment_left
+            moment(2, :) = scale*work%answers%moment_right
+            piece(1) = 1
+            distance(1) = 0.0_wp
+            n = 1
+            do i = 1, size(grounded%stretches)
+                if (i > node(n)) n = n + 1
+                piece(i + 1) = n
+                distance(i + 1) = grounded%stretches(i)%length
+                if (piece(i) == n .and. i > 1) distance(i + 1) = distance(i + 1) + distance(i)
+            end do
+        end associate
+    end subroutine find_mode_shape
+
+end module gapbeam_modes

@@ -1,0 +1,172 @@
+!> Beams under compression: whether their state is unique, and the one that is reached as the axial forces grow.
+!>
+!> With all one-sided supports open and off all one-sided ground a stable beam has one state whatever acts (its matrix is
+!> positive definite, so the complementarity problem has one solution). Where it is not stable then, the axial forces grow from 0
+!> to what they are with all other loads in full, from state to state near the last one, each of which is stable. Where none is
+!> found at the full forces, neither so nor at once, the beam buckles on the way.
+module gapbeam_compressed
+    use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: least_compressions, most_compressions
+    use gapbeam_tolerances, only: same_compression, least_share
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_buckles, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_law, only: always_closed
+    use gapbeam_law_energy, only: is_convex
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
+    use gapbeam_layers, only: has_curves
+    use gapbeam_workspace, only: workspace_type
+    use gapbeam_modes, only: by_axial_force, count_modes
+    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_refined, only: detail_type
+    use gapbeam_ground_solution, only: ground_solution_type
+    use gapbeam_ground_start, only: ground_start_type, start_from
+    use gapbeam_ground_solver, only: solve_on_ground
+    implicit none
+    private
+    public :: solve_with_axial_force
+
+contains
+
+    !> Solve at a load factor
+    subroutine solve_with_axial_force(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        !> As for solve_on_ground
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(inout) :: closed(:)
+        type(ground_solution_type), intent(out) :: solution
+        !> Solved, no equilibrium, or buckles, with the motion; the solution says then at which share of the axial forces
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_start_type), intent(in), optional :: near
+
+        if (any(ground%pieces%tension < ground%pieces%slope_stiffness)) then
+            if (.not. is_unique(ground)) then
+                call follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
+                return
+            end if
+        end if
+        call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+    end subroutine solve_with_axial_force
+
+    !> Is there one state for sure: the beam is stable on what holds it both ways alone
+    function is_unique(ground) result(unique)
+        type(ground_type), intent(in) :: ground
+        logical :: unique
+        type(zones_type) :: zones
+        type(grounded_type) :: grounded
+        type(workspace_type) :: work
+        integer :: i, k, number
+
+        unique = is_convex(ground%beam%supports) .and. .not. any(has_curves(ground%layers))
+        if (.not. unique) return
+        call full_contact(ground, zones)
+        do i = 1, size(zones%piece)
+            associate (first => ground%first(zones%piece(i)))
+                do k = first, ground%first(zones%piece(i) + 1) - 1
+                    if (ground%layers(k)%side /= 0) zones%acts(k - first + 1, i) = 0
+                end do
+            end associate
+        end do
+        call count_modes(ground, zones, always_closed(ground%beam%supports), by_axial_force, 1.0_wp, number, work, grounded)
+        unique = number == 0
+    end function is_unique
+
+    !> Let the axial forces grow, with all other loads in full
+    subroutine follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        !> As for solve_with_axial_force
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        logical, intent(inout) :: closed(:)
+        type(ground_solution_type), intent(out) :: solution
+        type(outcome_type), intent(out) :: outcome
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_start_type), intent(in), optional :: near
+        type(ground_solution_type) :: last, before
+        type(ground_start_type) :: start
+        logical :: first(size(closed)), last_closed(size(closed))
+        real(wp) :: share, step
+        integer :: number, solves
+
+        first(:) = closed
+        if (present(near)) then
+            ! A state close by tells which one it is
+            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+            solution%unique = .false.
+            if (is_found() .or. has_ended()) return
+            closed(:) = first
+        end if
+        call solve_on_ground(forced_by(0.0_wp), detail, factor, rule, closed, last, outcome, error)
+        solves = last%solves
+        if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+        last_closed(:) = closed
+        before = last
+        share = 0.0_wp
+        step = 1.0_wp/least_compressions
+        do number = 1, most_compressions
+            call start_from(last, last_closed, start)
+            closed(:) = last_closed
+            call solve_on_ground(forced_by(min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, error, &
+                                 start)
+            solves = solves + solution%solves
+            if (has_ended()) return
+            if (is_found()) then
+                if (share + step >= 1.0_wp) exit
+                share = share + step
+                before = last
+                last = solution
+                last_closed(:) = closed
+                if (step < 1.0_wp/least_compressions) step = 2*step
+            else
+                step = step/2
+                if (step <= same_compression*max(share, least_share)) exit
+            end if
+        end do
+        if (.not. is_found()) then
+            closed(:) = first
+            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
+            if (has_ended()) return
+        end if
+        solution%solves = solves
+        solution%unique = .false.
+        if (is_found()) return
+        if (allocated(error)) deallocate (error)
+        solution%axial_share = share
+        outcome = outcome_type(status=gapbeam_buckles)
+        allocate (outcome%motion(0:size(ground%pieces)))
+        outcome%motion(:) = last%deflection - before%deflection
+        if (maxval(abs(outcome%motion)) > 0.0_wp) outcome%motion(:) = outcome%motion/maxval(abs(outcome%motion))
+
+    contains
+
+        !> Was a state found
+        pure function is_found() result(found)
+            logical :: found
+
+            found = .not. allocated(error) .and. outcome%status == gapbeam_solved
+        end function is_found
+
+        !> Has the call been ended
+        pure function has_ended() result(ended)
+            logical :: ended
+
+            ended = .false.
+            if (allocated(error)) ended = any(error%code == [gapbeam_no_memory, gapbeam_stopped])
+        end function has_ended
+
+        !> The beam under a share of its axial forces
+        pure function forced_by(share) result(changed)
+            real(wp), intent(in) :: share
+            type(ground_type) :: changed
+
+            changed = ground
+            associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
+                changed%pieces%tension = of_ground + share*(given - of_ground)
+            end associate
+        end function forced_by
+
+    end subroutine follow_compression
+
+end module gapbeam_compressed

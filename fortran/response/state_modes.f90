@@ -1,0 +1,150 @@
+!> Modes of a solved state: factors of its axial forces at which it buckles, and circular frequencies at which it vibrates, with the
+!> supports and the ground that act in it.
+module gapbeam_state_modes
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_layers, only: has_curves
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_start, only: ground_start_type, start_from
+    use gapbeam_refined_ground, only: refine_ground, refine_zones
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type
+    use gapbeam_modes, only: by_axial_force, by_vibration, find_mode_values
+    use gapbeam_modes_quad, only: find_fine_values => find_mode_values, find_fine_shape => find_mode_shape
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_solution, only: state_type
+    use gapbeam_state, only: ground_of, detail_of
+    implicit none
+    private
+    public :: by_axial_force, by_vibration, values_of_modes, shape_of_mode
+
+contains
+
+    !> The first values of modes, in rising order
+    subroutine values_of_modes(assembled, state, what, values, found, error)
+        !> The beam, and its solved state
+        type(assembled_type), intent(in), target :: assembled
+        type(state_type), intent(in) :: state
+        !> by_axial_force: factors of all axial forces; by_vibration: circular frequencies (rad per unit of time)
+        integer, intent(in) :: what
+        !> As many as are wanted, and how many there are
+        real(wp), intent(out) :: values(:)
+        integer, intent(out) :: found
+        !> Not available, or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_type) :: ground
+        type(ground_start_type) :: start
+        type(fine_ground_type) :: fine
+        type(fine_zones_type) :: zones
+        real(qp) :: fine_values(size(values))
+        real(wp) :: first
+        integer :: known
+
+        values(:) = 0.0_wp
+        found = 0
+        if (.not. has_any(assembled, what)) return
+        call check_state(assembled, state, error)
+        if (allocated(error)) return
+        ground = ground_of(assembled, state%factor)
+        call start_from(state%ground, state%closed, start)
+        first = first_step(ground, what)
+        call find_mode_values(ground, start%zones, start%closed, what, first, values, known)
+        if (known == 0) return
+        call refine_ground(ground, detail_of(assembled), fine)
+        call refine_zones(fine, start%zones, zones)
+        call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, real(values(:known), qp))
+        if (what == by_vibration) fine_values(:found) = sqrt(fine_values(:found))
+        values(:found) = real(fine_values(:found), wp)
+        values(found + 1:) = 0.0_wp
+    end subroutine values_of_modes
+
+    !> How the beam moves in a mode
+    subroutine shape_of_mode(assembled, state, what, value, parts, x, deflection, moment, error)
+        !> As for values_of_modes
+        type(assembled_type), intent(in), target :: assembled
+        type(state_type), intent(in) :: state
+        integer, intent(in) :: what
+        !> One of its values
+        real(wp), intent(in) :: value
+        !> Places on every stretch at least
+        integer, intent(in) :: parts
+        !> Places; deflections there, the largest 1; moments left and right of them with these, in the user's units, shape (2, ...)
+        real(wp), allocatable, intent(out) :: x(:), deflection(:), moment(:, :)
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_type) :: ground
+        type(ground_start_type) :: start
+        type(fine_ground_type) :: fine
+        type(fine_zones_type) :: zones
+        integer, allocatable :: piece(:)
+        real(qp), allocatable :: distance(:), w(:), m(:, :)
+        real(qp) :: at
+        integer :: i
+
+        call check_state(assembled, state, error)
+        if (allocated(error)) return
+        ground = ground_of(assembled, state%factor)
+        call start_from(state%ground, state%closed, start)
+        call refine_ground(ground, detail_of(assembled), fine)
+        call refine_zones(fine, start%zones, zones)
+        at = value
+        if (what == by_vibration) at = at**2
+        call find_fine_shape(fine, zones, start%closed, what, at, parts, piece, distance, w, m)
+        allocate (x(size(piece)), deflection(size(piece)), moment(2, size(piece)))
+        associate (units => assembled%units)
+            do i = 1, size(piece)
+                x(i) = point_x(assembled, piece(i) - 1) + scale(real(distance(i), wp), units%length)
+            end do
+            deflection(:) = real(w, wp)
+            moment(:, :) = scale(real(m, wp), units%force + units%length - units%deflection)
+        end associate
+    end subroutine shape_of_mode
+
+    !> Has a beam what its modes are of: compression, or mass
+    pure function has_any(assembled, what) result(it_has)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: what
+        logical :: it_has
+
+        associate (p => assembled%pieces)
+            if (what == by_vibration) then
+                it_has = any(p%mass > 0.0_wp)
+            else
+                it_has = any(p%tension < p%slope_stiffness)
+            end if
+        end associate
+    end function has_any
+
+    !> Are there modes of a state in this version
+    subroutine check_state(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(state%ground)) then
+            call fatal_error(error, gapbeam_bad_input, "modes: the beam has neither mass nor an axial force that bending feels")
+        else if (any(has_curves(assembled%layers))) then
+            call fatal_error(error, gapbeam_bad_input, "modes: beside ground whose law is a curve they are not available in "// &
+                             "this version; give the points of the curve")
+        else if (any(assembled%layers%rigid)) then
+            call fatal_error(error, gapbeam_bad_input, "modes: on rigid ground they are not available in this version; give "// &
+                             "the ground a stiffness")
+        end if
+    end subroutine check_state
+
+    !> A value that is below the first one, mostly: of the whole beam between pins, with the softest piece all along
+    pure function first_step(ground, what) result(step)
+        type(ground_type), intent(in) :: ground
+        integer, intent(in) :: what
+        real(wp) :: step
+
+        associate (p => ground%pieces, length => sum(ground%pieces%length))
+            step = max(maxval(p%flexibility)*length**2, maxval(p%shear_flexibility))
+            if (what == by_vibration) then
+                step = step*length**2*maxval(p%mass)
+            else
+                step = step*maxval(p%slope_stiffness - p%tension)
+            end if
+        end associate
+        step = 1/max(step, epsilon(step))
+    end function first_step
+
+end module gapbeam_state_modes

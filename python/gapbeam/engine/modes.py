@@ -1,0 +1,70 @@
+"""Modes of solved states: factors of the axial forces at which a beam buckles, frequencies at which it vibrates."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base.errors import check_status
+from . import calls as _engine
+from .states import State
+
+BUCKLING, VIBRATION = 1, 2
+"""What is asked for, as in gapbeam_state_modes."""
+ROOM, PARTS = 4096, 16
+"""Places of a shape at first; places on every stretch at least, so that its curve can be drawn."""
+
+
+def values_of_modes(state: State, what: int, count: int) -> np.ndarray:
+    """Find the first values of modes, with the supports and the ground that act in a state.
+
+    Parameters
+    ----------
+    state : State
+        Solved.
+    what : {BUCKLING, VIBRATION}
+        Factors of all axial forces, or circular frequencies (rad per unit of time).
+    count : int
+        How many.
+
+    Returns
+    -------
+    numpy.ndarray
+        In rising order; fewer where there are no more.
+
+    Raises
+    ------
+    EngineError
+        They are not available for this beam.
+    """
+    values, found, status, message = _engine.gbmode(state.beam.handle, state.handle, what, count)
+    check_status(status, message)
+    return values[:found]
+
+
+def shape_of_mode(state: State, what: int, value: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find how a beam moves in a mode.
+
+    Parameters
+    ----------
+    state, what
+        As for `values_of_modes`.
+    value : float
+        One of its values.
+
+    Returns
+    -------
+    x, deflection, moment : numpy.ndarray
+        Places, deflections there, the largest 1, and moments left and right of them with these, shape (2, n).
+
+    Raises
+    ------
+    EngineError
+        They are not available for this beam.
+    """
+    room = ROOM
+    while True:
+        x, w, moment, found, status, message = _engine.gbshap(state.beam.handle, state.handle, what, value, PARTS, room)
+        check_status(status, message)
+        if found <= room:
+            return x[:found], w[:found], moment[:, :found]
+        room = found
