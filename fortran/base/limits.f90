@@ -19,7 +19,7 @@ module gapbeam_limits
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
     public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings
-    public :: least_compressions, most_compressions
+    public :: least_compressions, most_compressions, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
@@ -63,6 +63,8 @@ module gapbeam_limits
     !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. After so many states
     !> it is given up. Read by precision/compressed
     integer, parameter :: least_compressions = 8, most_compressions = 400
+    !> Places of a mode on every stretch, so that it can be drawn. Read by precision/compressed
+    integer, parameter :: mode_parts = 8
 
     !
     ! Contact of supports

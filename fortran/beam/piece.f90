@@ -17,6 +17,8 @@ module gapbeam_piece
         integer :: power = 0, shear_power = 0
         !> Axial force in it that its bending feels, tension positive, with what ground resists slopes with, and that alone
         real(wp) :: tension = 0.0_wp, slope_stiffness = 0.0_wp
+        !> Compression for which it is cut into steps, the greatest that it comes under
+        real(wp) :: compression = 0.0_wp
         !> Mass per length, for vibrations
         real(wp) :: mass = 0.0_wp
     end type piece_type

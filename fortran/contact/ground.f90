@@ -189,7 +189,7 @@ contains
 
         modulus = 0.0_wp
         if (present(stiffer)) modulus = stiffer
-        varies = modulus > 0.0_wp .or. ground%pieces(piece)%tension < 0.0_wp
+        varies = modulus > 0.0_wp .or. ground%pieces(piece)%compression > 0.0_wp
         do k = ground%first(piece), ground%first(piece + 1) - 1
             associate (layer => ground%layers(k))
                 if (.not. has_points(layer)) then
@@ -214,7 +214,7 @@ contains
         if (.not. varies) return
         associate (p => ground%pieces(piece))
             steps = max(1, ceiling(decay_lengths(stretch_type(p%length, p%flexibility, p%shear_flexibility, modulus, modulus, &
-                                                              p%tension))))
+                                                              merge(p%tension, -p%compression, .not. p%compression > 0.0_wp)))))
         end associate
     end function steps_of_piece
 

@@ -40,7 +40,7 @@ contains
             parts(j) = steps_of_piece(ground, j)
             if (ground%first(j + 1) == ground%first(j)) cycle
             associate (p => ground%pieces(j))
-                parts(j) = max(2, merge(parts(j), 1, p%tension < 0.0_wp), &
+                parts(j) = max(2, merge(parts(j), 1, p%compression > 0.0_wp), &
                                ceiling(min(max(parts_of_decay*decays(ground, j, p%length, first_stiffness(j)), &
                                                least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
             end associate

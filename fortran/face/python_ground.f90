@@ -15,9 +15,8 @@ subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, messa
     integer, intent(in) :: closed(ns + 1)
     ! Events, segments, linear solves; 1 where ground that yields carries no more; 1 where it slides along its axis; for GBGPTE
     integer, intent(out) :: sizes(5)
-    ! Load factor that the path goes to, one above which there is no equilibrium for sure, and the share of the axial forces that the
-    ! beam bears there where it buckles
-    double precision, intent(out) :: ends(3)
+    ! Load factor that the path goes to, and one above which there is no equilibrium for sure
+    double precision, intent(out) :: ends(2)
     ! How the beam moves above it; 0 where it stands to the end
     double precision, intent(out) :: motion(0:nl)
     ! Solved, no equilibrium, or buckles
@@ -44,8 +43,7 @@ subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, messa
     status = state%status
     associate (path => handle%ground_path)
         sizes = [path%number, path%segments, path%solves, merge(1, 0, path%at_limit), merge(1, 0, state%slides)]
-        ends = [path%last, path%beyond, 1.0d0]
-        if (allocated(state%ground)) ends(3) = state%ground%axial_share
+        ends = [path%last, path%beyond]
     end associate
     if (status /= gapbeam_solved) motion = state%motion
 end subroutine gbgpth

@@ -53,3 +53,34 @@ subroutine gbshap(beam, state, what, value, parts, nx, x, w, moment, found, stat
     w(:found) = deflections
     moment(:, :found) = moments
 end subroutine gbshap
+
+! How a beam buckles that does not bear its axial forces; NX places have room, and there are FOUND
+subroutine gbbuck(beam, state, nx, x, w, found)
+    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_assembled_model, only: point_x
+    implicit none
+    integer(8), intent(in) :: beam, state
+    integer, intent(in) :: nx
+    ! Places, deflections (the largest 1)
+    double precision, intent(out) :: x(nx), w(nx)
+    integer, intent(out) :: found
+    !f2py threadsafe
+    type(handle_type), pointer :: handle, solved
+    integer :: i
+
+    handle => behind(beam)
+    solved => behind(state)
+    x = 0.0d0
+    w = 0.0d0
+    found = 0
+    if (.not. allocated(solved%result%state%ground)) return
+    associate (ground => solved%result%state%ground, beam_model => handle%beam%lowered)
+        if (.not. allocated(ground%mode_piece)) return
+        found = size(ground%mode_piece)
+        if (found > nx) return
+        do i = 1, found
+            x(i) = point_x(beam_model, ground%mode_piece(i) - 1) + scale(ground%mode_distance(i), beam_model%units%length)
+        end do
+        w(:found) = ground%mode_deflection
+    end associate
+end subroutine gbbuck

@@ -6,7 +6,7 @@
 !> found at the full forces, neither so nor at once, the beam buckles on the way.
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: least_compressions, most_compressions
+    use gapbeam_limits, only: least_compressions, most_compressions, mode_parts
     use gapbeam_tolerances, only: same_compression, least_share
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_buckles, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: always_closed
@@ -14,7 +14,7 @@ module gapbeam_compressed
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_layers, only: has_curves
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_modes, only: by_axial_force, count_modes
+    use gapbeam_modes, only: by_axial_force, count_modes, find_mode_shape
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
@@ -84,7 +84,7 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
-        type(ground_solution_type) :: last, before
+        type(ground_solution_type) :: last
         type(ground_start_type) :: start
         logical :: first(size(closed)), last_closed(size(closed))
         real(wp) :: share, step
@@ -102,7 +102,6 @@ contains
         solves = last%solves
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         last_closed(:) = closed
-        before = last
         share = 0.0_wp
         step = 1.0_wp/least_compressions
         do number = 1, most_compressions
@@ -115,7 +114,6 @@ contains
             if (is_found()) then
                 if (share + step >= 1.0_wp) exit
                 share = share + step
-                before = last
                 last = solution
                 last_closed(:) = closed
                 if (step < 1.0_wp/least_compressions) step = 2*step
@@ -136,10 +134,23 @@ contains
         solution%axial_share = share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
-        outcome%motion(:) = last%deflection - before%deflection
-        if (maxval(abs(outcome%motion)) > 0.0_wp) outcome%motion(:) = outcome%motion/maxval(abs(outcome%motion))
+        call take_mode()
 
     contains
+
+        !> How it gives way, with the supports and the ground that acted last
+        subroutine take_mode()
+            real(wp), allocatable :: moment(:, :)
+            integer :: i
+
+            call start_from(last, last_closed, start)
+            call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &
+                                 solution%mode_distance, solution%mode_deflection, moment)
+            outcome%motion(0) = solution%mode_deflection(1)
+            do i = 2, size(solution%mode_piece)
+                outcome%motion(solution%mode_piece(i)) = solution%mode_deflection(i)
+            end do
+        end subroutine take_mode
 
         !> Was a state found
         pure function is_found() result(found)

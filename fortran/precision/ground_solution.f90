@@ -58,6 +58,9 @@ module gapbeam_ground_solution
         !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears
         logical :: unique = .true.
         real(wp) :: axial_share = 1.0_wp
+        !> How it gives way then: pieces of the beam, distances from their left ends, deflections, the largest 1
+        integer, allocatable :: mode_piece(:)
+        real(wp), allocatable :: mode_distance(:), mode_deflection(:)
         !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
         !> compatibility, equilibrium and complementarity by the audit (gapbeam_ground_audit)
         real(wp) :: bounds(5) = 0.0_wp, residuals(3) = 0.0_wp

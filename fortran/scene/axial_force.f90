@@ -134,6 +134,7 @@ contains
         do j = 1, size(assembled%pieces)
             associate (p => assembled%pieces(j), N => stiffness_of(assembled, j, axial_force_in), units => assembled%units)
                 p%tension = p%slope_stiffness + in_units(N)
+                p%compression = max(0.0_wp, -p%tension)
                 p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
                                units%length + units%deflection - units%force)
                 if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then

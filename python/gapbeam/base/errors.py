@@ -137,6 +137,8 @@ class Status(IntEnum):
         return self.name.lower().replace("_", "-")
 
 
+FALLEN = (Status.NO_EQUILIBRIUM, Status.BUCKLES)
+"""Outcomes of a beam that does not stand."""
 WITHOUT_ANSWER = (Status.INDETERMINATE, Status.NOT_CONVERGED, Status.NOT_FINITE)
 """Errors that are about one load on a beam: other loads on it may have an answer."""
 ENDED = (Status.NO_MEMORY, Status.STOPPED)
@@ -212,6 +214,6 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
         )
     if status == Status.STOPPED:
         raise EngineError(f"{where}the call was ended before it was done: a signal has ended another call with this beam", status)
-    if status not in (Status.SOLVED, Status.NO_EQUILIBRIUM):
+    if status not in (Status.SOLVED, *FALLEN):
         words = re.sub(r"support (\d+) of \d+", lambda found: f"supports[{int(found[1]) - 1}]", message.decode().strip())
         raise EngineError(where + re.sub(r"\]: (law|stiffness)\b", r"].\1", words), status)

@@ -19,7 +19,7 @@ from .scene_cases import AT_SUPPORTS
 if TYPE_CHECKING:
     from .summary import Distribution
 
-WORST = ("solved", "limit-load", "no-equilibrium", "no-answer", "refused", "failed")
+WORST = ("solved", "limit-load", "buckles", "no-equilibrium", "no-answer", "refused", "failed")
 """Outcomes of cases, the worst last: that is the outcome of a batch."""
 
 

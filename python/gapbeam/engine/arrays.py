@@ -129,9 +129,8 @@ class GroundChanges(Record):
         Load factor at which every segment begins; none if there is no equilibrium at the first.
     closed : numpy.ndarray of int
         Its scheme, segments by supports of the engine.
-    last, beyond, axial_share : float
-        Load factor that the path goes to; one above which there is no equilibrium for sure; share of the axial forces that the
-        beam bears there where it buckles, else 1.
+    last, beyond : float
+        Load factor that the path goes to; one above which there is no equilibrium for sure.
     at_limit : bool
         Whether it ends where ground that yields carries no more.
     status : int
@@ -154,7 +153,6 @@ class GroundChanges(Record):
     closed: np.ndarray
     last: float
     beyond: float
-    axial_share: float
     at_limit: bool
     status: int
     motion: np.ndarray

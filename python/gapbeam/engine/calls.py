@@ -288,6 +288,7 @@ gbheng = interruptible(_engine.gbheng)
 gbgpth = interruptible(_engine.gbgpth)
 gbmode = interruptible(_engine.gbmode)
 gbshap = interruptible(_engine.gbshap)
+gbbuck = _engine.gbbuck
 gblaws = interruptible(lambda beam, laws, _: _engine.gblaws(beam, laws), lambda beam, laws, pieces: pieces + laws.shape[1])
 gbreco = interruptible(_recover, lambda beam, pieces, *_: pieces)
 gbcert = interruptible(lambda beam, nodes, *about: _engine.gbcert(beam, *about), lambda beam, nodes, *_: 3 * nodes)

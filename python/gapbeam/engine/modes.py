@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..base.errors import check_status
@@ -12,6 +14,22 @@ BUCKLING, VIBRATION = 1, 2
 """What is asked for, as in gapbeam_state_modes."""
 ROOM, PARTS = 4096, 16
 """Places of a shape at first; places on every stretch at least, so that its curve can be drawn."""
+
+
+class Buckling(NamedTuple):
+    """How a beam gives way that does not bear its axial forces.
+
+    Attributes
+    ----------
+    share : float
+        How much of them it bears, all other loads in full.
+    x, deflection : numpy.ndarray
+        Places and deflections as it gives way, the largest 1.
+    """
+
+    share: float
+    x: np.ndarray
+    deflection: np.ndarray
 
 
 def values_of_modes(state: State, what: int, count: int) -> np.ndarray:
@@ -67,4 +85,25 @@ def shape_of_mode(state: State, what: int, value: float) -> tuple[np.ndarray, np
         check_status(status, message)
         if found <= room:
             return x[:found], w[:found], moment[:, :found]
+        room = found
+
+
+def buckled_shape(state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Find how a beam gives way that does not bear its axial forces.
+
+    Parameters
+    ----------
+    state : State
+        Of such a beam.
+
+    Returns
+    -------
+    x, deflection : numpy.ndarray
+        Places, and deflections there, the largest 1.
+    """
+    room = ROOM
+    while True:
+        x, w, found = _engine.gbbuck(state.beam.handle, state.handle, room)
+        if found <= room:
+            return x[:found], w[:found]
         room = found

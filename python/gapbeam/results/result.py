@@ -38,7 +38,7 @@ class Result(Verbs):
     scene : Scene
         What was solved.
     status : str
-        ``solved``, ``no-equilibrium``, or ``limit-load``: supports soften or yield, and the load cannot grow to the end. Of a
+        ``solved``, ``no-equilibrium``, ``buckles``, or ``limit-load``: supports soften or yield, and the load cannot grow on. Of a
         combination also ``indeterminate``, ``not-converged``, ``not-finite``: it has no unique answer.
     reason : str or None
         Why there is no equilibrium or no unique answer, or which limit there is; of a beam that is solved, but free to move

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from ..state.step import Step
     from ..trains.trains import Trains
 
-WORST = ("solved", "limit-load", "no-equilibrium", *(status.word for status in WITHOUT_ANSWER))
+WORST = ("solved", "limit-load", "buckles", "no-equilibrium", *(status.word for status in WITHOUT_ANSWER))
 """Outcomes, the worst last: that is the outcome of all combinations together."""
 
 

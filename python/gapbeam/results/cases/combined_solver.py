@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ...base.errors import WITHOUT_ANSWER, EngineError, Status
+from ...base.errors import FALLEN, WITHOUT_ANSWER, EngineError, Status
 from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.combinations import Combined, all_combinations, solve_combinations
@@ -78,7 +78,7 @@ class OneByOne(Pickled):
             result._refuse_answer(error)
             values = at_full_load(result)
         note(k)
-        found.status[k] = Status.SOLVED if result.status == "solved" else Status.NO_EQUILIBRIUM
+        found.status[k] = next((one for one in FALLEN if one.word == result.status), Status.SOLVED)
         found.at_supports[k], found.extremes[k], found.places[k], found.solves[k] = values
         return result.status
 
@@ -131,7 +131,7 @@ class AtOnce(OneByOne):
         plan = self._plan
         found = all_combinations(self._beam, plan.factors, plan.settlements, self._rule, self._start)
         alone = self._in_states_of_others()
-        for k in np.flatnonzero(found.status > Status.NO_EQUILIBRIUM).tolist():
+        for k in np.flatnonzero(found.status > max(FALLEN)).tolist():
             if k not in alone:
                 self._combinations.failed[k] = Status(found.status[k])
                 if found.status[k] in (Status.BAD_INPUT, Status.NOT_FINITE):

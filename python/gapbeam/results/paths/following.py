@@ -16,7 +16,7 @@ from ...scene.movements import refuse_movements
 from ...scene.rotations import which_turn
 from ...scene.structs import Scene
 from ...scene.tapers import is_tapered
-from ..state.motion import borne
+from ..state.motion import buckling_of
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
 from ..state.steps import LoadSteps, PathSteps
@@ -128,7 +128,7 @@ def _refuse_beyond_bounds(result: Result) -> None:
             if isinstance(found, Solution):
                 result.path = None
                 result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam), 0)
-                result._refuse(f"at load factor {last.stop:g}", found.motion, borne(found))
+                result._refuse(f"at load factor {last.stop:g}", found.motion, buckling_of(found))
                 return
 
 

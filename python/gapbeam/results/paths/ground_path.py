@@ -12,7 +12,7 @@ from ...base.errors import Status
 from ...engine.beam import SOLVED, Beam
 from ...engine.paths import follow_ground
 from ..state.breakpoints import EVENTS
-from ..state.motion import describe_motion
+from ..state.motion import buckling_of, describe_motion
 from ..state.step import Step
 from .branches import Limit
 from .path import Segment
@@ -74,8 +74,8 @@ class GroundPath:
         How the beam moves there; None if it stands to the end, or slides along its axis.
     stands : bool
         Whether it stands to the end.
-    bears : float or None
-        Share of its axial forces that the beam bears above the last segment, if it buckles there.
+    buckles : bool
+        Whether it does not bear its axial forces above the last segment.
     """
 
     nodes = 0
@@ -88,7 +88,7 @@ class GroundPath:
         self.solves = found.solves
         self.beyond = found.beyond
         self.stands = found.status == SOLVED
-        self.bears = found.axial_share if found.status == Status.BUCKLES else None
+        self.buckles = found.status == Status.BUCKLES
         self.motion = None if self.stands or found.slides else found.motion
         columns = (found.factor, found.support, found.foundation, found.x, found.event, found.branch)
         self.events = [
@@ -148,5 +148,6 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
         return path
     if not path.stands:
         where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
-        result._refuse(where, path.motion, path.bears)
+        fallen = result._beam.solve(path.beyond, rule, closed) if path.buckles else None
+        result._refuse(where, path.motion, None if fallen is None else buckling_of(fallen))
     return path if path.segments else None

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...base.errors import Status
 from ...engine.beam import HINGE, Beam
+from ...engine.modes import Buckling, buckled_shape
 from ...engine.states import Solution
 
 SLIDES = "the beam slides along its axis, no axial support holds it"
@@ -39,37 +40,34 @@ def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     return "; ".join(shown) + "; the loads push it that way and no support resists"
 
 
-def borne(solution: Solution) -> float | None:
-    """Give the share of its axial forces that a beam bears; None where it does not buckle.
+def buckling_of(solution: Solution) -> Buckling | None:
+    """Give how a beam buckles; None where it does not.
 
     Parameters
     ----------
     solution : Solution
         Of a beam that does not stand.
     """
-    return solution.axial_share if solution.status == Status.BUCKLES else None
+    if solution.status != Status.BUCKLES:
+        return None
+    return Buckling(solution.axial_share, *buckled_shape(solution.state))
 
 
-def describe_buckling(beam: Beam, motion: np.ndarray, bears: float) -> str:
+def describe_buckling(found: Buckling) -> str:
     """Say how a beam buckles.
 
     Parameters
     ----------
-    beam : Beam
-        The beam.
-    motion : numpy.ndarray
-        Displacements of the nodes as it gives way, positive downward.
-    bears : float
-        Share of its axial forces that it bears.
+    found : Buckling
+        How.
 
     Returns
     -------
     str
         For example "with these loads the beam bears 0.87 times its axial forces, and gives way most at x = 3, downward".
     """
-    k = int(np.abs(motion).argmax())
-    way = f", and gives way most at x = {beam.node_x[k]:g}, {'down' if motion[k] > 0.0 else 'up'}ward" if motion[k] else ""
-    return f"with these loads the beam bears {bears:.6g} times its axial forces{way}; less compression, or more supports, would hold it"
+    k = int(np.abs(found.deflection).argmax())
+    return f"with these loads the beam bears {found.share:.6g} times its axial forces, and gives way most at x = {found.x[k]:.6g}"
 
 
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:

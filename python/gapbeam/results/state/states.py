@@ -15,6 +15,7 @@ from ...base.errors import EngineError, NoStepError
 from ...base.memory import refuse_beyond
 from ...base.records import Pickled
 from ...engine.beam import Beam
+from ...engine.modes import Buckling
 from ...engine.states import Solution
 from ...scene.held import hold
 from ...scene.movements import moves_with_load
@@ -173,7 +174,7 @@ class States(Pickled):
         """Time of these."""
         return self.steps.seconds if self.path is None else self.path.seconds
 
-    def _refuse(self, where: str, motion: np.ndarray | None, bears: float | None = None) -> None:
+    def _refuse(self, where: str, motion: np.ndarray | None, buckling: Buckling | None = None) -> None:
         """Note that there is no equilibrium, or that the beam buckles.
 
         Parameters
@@ -182,19 +183,20 @@ class States(Pickled):
             At or above which load factor.
         motion : numpy.ndarray or None
             Displacements of the nodes in the free motion; None where the beam slides along its axis.
-        bears : float, optional
-            Share of its axial forces that it bears, if it buckles.
+        buckling : Buckling, optional
+            How it buckles, if it does.
         """
-        if bears is None:
+        if buckling is None:
             self.status = "no-equilibrium"
             self.reason = f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(self._beam, motion)}"
         else:
             self.status = "buckles"
-            self.reason = f"buckles {where}: {describe_buckling(self._beam, motion, bears)}"
+            self.reason = f"buckles {where}: {describe_buckling(buckling)}"
         self.steps.outcome = self.status, self.reason
         if motion is None:
             return
-        self.motion = list(zip(self._beam.node_x.tolist(), motion.tolist(), strict=True))
+        x, w = (self._beam.node_x, motion) if buckling is None else buckling[1:]
+        self.motion = list(zip(x.tolist(), w.tolist(), strict=True))
 
     def _refuse_answer(self, error: EngineError) -> None:
         """Note that there is no unique answer.

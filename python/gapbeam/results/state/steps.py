@@ -12,8 +12,9 @@ from ...base.errors import NoStepError, SceneError
 from ...base.memory import LITTLE, refuse_beyond
 from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
+from ...engine.modes import Buckling
 from .arguments import whole
-from .motion import borne
+from .motion import buckling_of
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -178,14 +179,14 @@ class LoadSteps(Steps):
         known = Known(self.closed(k), int(self._solves[k]), float(self._seconds[k]))
         return Step(self._beam, self.factor(k), self._rule, self._before(k), known)
 
-    def solve_all(self) -> tuple[float, np.ndarray | None, float | None] | None:
+    def solve_all(self) -> tuple[float, np.ndarray | None, Buckling | None] | None:
         """Solve one step after the other, as long as they stand.
 
         Returns
         -------
-        None or (float, numpy.ndarray or None, float or None)
+        None or (float, numpy.ndarray or None, Buckling or None)
             None if all stand; else the load factor at which there is no equilibrium, with the free motion of the nodes,
-            or None where the beam slides along its axis, and the share of its axial forces that it bears where it buckles.
+            or None where the beam slides along its axis, and how it buckles if it does.
 
         Raises
         ------
@@ -198,7 +199,7 @@ class LoadSteps(Steps):
                 self._schemes, self._solves, self._seconds = (
                     part[:k].copy() for part in (self._schemes, self._solves, self._seconds)
                 )
-                return self.factor(k), None if step.slides else step.motion, borne(step)
+                return self.factor(k), None if step.slides else step.motion, buckling_of(step)
             self._schemes[k] = np.packbits(step.closed)
             self._solves[k] = step.solves
             self._seconds[k] = step.seconds

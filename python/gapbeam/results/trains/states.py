@@ -12,7 +12,7 @@ from ...engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
 from ...engine.quantities import FIELDS
 from ...engine.trains import NOT_UNIQUE
 from ...scene.columns import BY_X, DISTRIBUTED, FORCE
-from ..state.motion import SLIDES, describe_motion
+from ..state.motion import SLIDES, buckling_of, describe_buckling, describe_motion
 from ..state.schemes import starting_scheme
 from ..state.step import Step
 from .traversals import NO_ANSWER
@@ -55,6 +55,9 @@ class Placed:
         if solution.status == NO_EQUILIBRIUM:
             self.status = NO_EQUILIBRIUM
             self.reason = f"no equilibrium: {SLIDES if solution.slides else describe_motion(beam, solution.motion)}"
+        elif solution.status == Status.BUCKLES:
+            self.status = Status.BUCKLES
+            self.reason = f"buckles: {describe_buckling(buckling_of(solution))}"
         elif solution.indifferent:
             self.status, self.reason = NOT_UNIQUE, NO_ANSWER[NOT_UNIQUE]
 
