@@ -4,7 +4,7 @@ module gapbeam_foundation_fields
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
     use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped, stretched_shear, &
-        trace_of, determinant_of, shear_of
+        trace_of, determinant_of, shear_of, transverse_of
     use gapbeam_foundation_series, only: triple_type, response_type, short_response, is_short
     use gapbeam_foundation_long, only: long_type, long_of, decay_type, long_response
     implicit none
@@ -14,7 +14,7 @@ module gapbeam_foundation_fields
 contains
 
     !> Fields anywhere in a stretch in equilibrium
-    pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear)
+    pure subroutine fields_at(stretch, load, ends, xi, w, psi, moment, shear, transverse)
         !> The stretch, its load, deflections and moments of its ends
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -23,14 +23,17 @@ contains
         real(wp), intent(in) :: xi
         !> Deflection, rotation, moment, shear
         real(wp), intent(out) :: w, psi, moment, shear
+        !> Transverse force, without differences of what an axial force makes of rotations
+        real(wp), intent(out), optional :: transverse
         type(response_type) :: r
         type(decay_type) :: decay
         type(long_type) :: long
         type(stretch_ends_type) :: over
-        real(wp) :: sigma, tau, eta, l, f, k, y(4), raised
+        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised
 
         if (is_sloped(stretch)) then
             call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
+            if (present(transverse)) transverse = transverse_of(stretch, psi, shear)
             return
         end if
         l = stretch%length
@@ -47,6 +50,7 @@ contains
                 y(3) = eta*e%moment_a + xi*e%moment_b
                 y(4) = (e%moment_b - e%moment_a)/l
                 y(2) = (e%w_b - e%w_a)/l - stretch%shear_flexibility*y(4)
+                y(5) = y(4) + stretch%tension*((e%w_b - e%w_a)/l)
                 call respond(stretch, r%even, r%even_slope, f*((e%moment_a + e%moment_b)/2) - c%kappa, &
                              (c%qa + c%qb)/2 - k*((e%w_a + e%w_b)/2), y)
                 call respond(stretch, r%odd, r%odd_slope, f*((e%moment_b - e%moment_a)/2), &
@@ -68,6 +72,7 @@ contains
                 y(1) = (load%qa*eta + load%qb*xi + load%qc*xi*eta)/k + raised
                 y(2) = (load%qb - load%qa + load%qc*(eta - xi))/(k*l)
                 y(3) = (load%kappa + 2*load%qc/(k*l**2))/f
+                y(5) = stretch%tension*y(2)
                 over%w_a = ends%w_a - load%qa/k - raised
                 over%w_b = ends%w_b - load%qb/k - raised
                 over%moment_a = ends%moment_a - y(3)
@@ -80,6 +85,7 @@ contains
         psi = y(2)
         moment = y(3)
         shear = y(4)
+        if (present(transverse)) transverse = y(5)
     end subroutine fields_at
 
     !> Add the answer to a curvature and a load per length
@@ -88,8 +94,8 @@ contains
         !> The answer and its slope
         type(triple_type), intent(in) :: value, slope
         real(wp), intent(in) :: curvature, q
-        !> Deflection, rotation, moment, shear
-        real(wp), intent(inout) :: y(4)
+        !> Deflection, rotation, moment, shear, transverse force
+        real(wp), intent(inout) :: y(5)
         real(wp) :: bent, pressed, f, k
 
         associate (l => stretch%length, g => stretch%shear_flexibility, n => stretch%tension)
@@ -101,6 +107,7 @@ contains
             y(2) = y(2) + ((stretched_shear(stretch)*slope%al + n*f*slope%be)*bent - f*slope%be*pressed)/l
             y(3) = y(3) + ((k*value%be - n*value%ga)*bent + value%ga*pressed)
             y(4) = y(4) + ((k*slope%be - n*slope%ga)*bent + slope%ga*pressed)/l
+            y(5) = y(5) + (k*slope%be*bent + (stretched_shear(stretch)*slope%al + k*g*slope%be)*pressed)/l
         end associate
     end subroutine respond
 
@@ -110,8 +117,8 @@ contains
         !> How they fade and the slope of it
         type(triple_type), intent(in) :: value, slope
         real(wp), intent(in) :: w, moment
-        !> Deflection, rotation, moment, shear
-        real(wp), intent(inout) :: y(4)
+        !> Deflection, rotation, moment, shear, transverse force
+        real(wp), intent(inout) :: y(5)
         real(wp) :: f, k, pull
 
         associate (l => stretch%length, g => stretch%shear_flexibility)
@@ -122,6 +129,7 @@ contains
             y(2) = y(2) + (slope%al*(w - g*moment) - l**2*stretch%flexibility*slope%be*moment)/l
             y(3) = y(3) + (k*value%be*w + (value%al + pull*value%be)*moment)
             y(4) = y(4) + (k*slope%be*w + (slope%al + pull*slope%be)*moment)/l
+            y(5) = y(5) + ((l**2*stretch%modulus_a*slope%be + stretch%tension*slope%al)*w + slope%al*moment)/l
         end associate
     end subroutine fade
 

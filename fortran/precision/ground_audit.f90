@@ -185,7 +185,7 @@ contains
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
                 if (beam%kind(j) == hinge) then
-                    part = sums_type(after, 0.0_wp, abs(after), 0.0_wp)
+                    part = sums_type(after, 0.0_wp, max(abs(after), sizes%shear), 0.0_wp)
                 else
                     part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
                                      part%moment_size + abs(left) + abs(right))

@@ -12,7 +12,8 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch, deflection_size, find_sizes
+    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch, deflection_size, &
+        find_sizes
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type
@@ -48,9 +49,9 @@ contains
         !> Is it enough if rotations and shears are made of load and moments, which costs less; default: no
         logical, intent(in), optional :: roughly
 
+        inside%stretch = solution%stretches(i)
         call curved_stretch(layers, laws, length, solution, i, inside%curved)
         if (allocated(inside%curved)) return
-        inside%stretch = solution%stretches(i)
         inside%load = solution%loads(i)
         associate (ends => solution%ends(i))
             ! Beside the chord
@@ -126,6 +127,24 @@ contains
         field%rotation = inside%slope + field%rotation + along(inside%off(1, 1), inside%off(1, 2), xi, 1.0_wp)
         field%shear = field%shear + along(inside%off(2, 1), inside%off(2, 2), xi, 1.0_wp)
     end subroutine field_inside
+
+    !> Transverse force between the ends of a stretch
+    pure function force_inside(inside, xi) result(force)
+        type(inside_type), intent(in) :: inside
+        !> As for field_inside
+        real(wp), intent(in) :: xi
+        real(wp) :: force
+        type(field_type) :: field
+
+        if (allocated(inside%curved) .or. inside%sloped) then
+            call field_inside(inside, xi, field)
+            force = transverse_of(inside%stretch, field%rotation, field%shear)
+        else
+            call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
+                           field%shear, force)
+            force = force + inside%stretch%tension*inside%slope
+        end if
+    end function force_inside
 
     !> Fields beside the chord between the ends
     pure function beside_chord(inside, xi) result(field)

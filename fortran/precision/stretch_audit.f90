@@ -234,7 +234,7 @@ contains
                 end do
                 sums%force = sum(r(:n)) - q
                 sums%force_size = sum(abs(r(:n))) + l*(sum(terms(:n)) + qsize)
-                sums%moment_size = l*sums%force_size
+                sums%moment_size = l*sums%force_size + abs(solution%stretches(i)%tension)*wsize
                 call fits(of_equilibrium, forces, (push(2) - push(1)) - sums%force, sum(abs(push)) + sizes%shear + sums%force_size)
             end associate
         end subroutine audit_resultants

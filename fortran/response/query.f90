@@ -21,7 +21,7 @@ module gapbeam_query
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_query, only: ground_values, ground_extremes
     use gapbeam_pressure, only: pressure_in_pieces, extremes_of_pressure
-    use gapbeam_transverse, only: transverse_at, transverse_extremes
+    use gapbeam_transverse, only: transverse_forces, transverse_extremes
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: recover_state
     implicit none
@@ -146,11 +146,12 @@ contains
         type(ground_along_type), intent(in), optional :: along_ground
         type(field_type), allocatable :: bent(:)
         type(piece_load_type) :: load
-        real(wp), allocatable :: found(:, :), pressure(:)
+        real(wp), allocatable :: found(:, :), pressure(:), across(:)
         real(wp) :: all_of_them(quantity_count)
         integer :: powers(size(quantities)), i, k, stat
 
-        allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), stat=stat)
+        allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), across(size(piece)), &
+                  stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
@@ -159,8 +160,12 @@ contains
         pressure(:) = scale(distance, -assembled%units%length)
         if (present(ground)) then
             call ground_values(assembled, ground, piece, pressure, bent)
+            across(:) = bent%shear
+            if (any(quantities == of_transverse)) call transverse_forces(assembled, ground, piece, pressure, across)
         else
             call values_at(assembled%pieces, assembled%dead, assembled%live, factor, starts, piece, pressure, bent)
+            ! Without an axial force that bending feels it is the shear
+            across(:) = bent%shear
         end if
         pressure(:) = 0.0_wp
         all_of_them(:) = 0.0_wp
@@ -170,7 +175,7 @@ contains
                                                   curvature_at(load, scale(distance(i), -assembled%units%length), &
                                                                assembled%pieces(piece(i))%length), &
                                                   scale(distance(i), -assembled%units%length))
-            all_of_them(of_transverse) = transverse_at(assembled%pieces(piece(i)), bent(i))
+            all_of_them(of_transverse) = across(i)
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement), along_ground)
             found(:, i) = all_of_them(quantities)

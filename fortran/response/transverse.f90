@@ -2,32 +2,56 @@
 module gapbeam_transverse
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: same_extreme
-    use gapbeam_element, only: field_type
-    use gapbeam_piece, only: piece_type
-    use gapbeam_foundation_taylor, only: stretch_type, transverse_of
     use gapbeam_foundation_pieces, only: slope_of_transverse
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: along
-    use gapbeam_ground_fields, only: force_at_end
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, force_at_end, force_inside
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_query, only: values_in, curved_in, peaks_in
+    use gapbeam_ground_query, only: layers_under, stretch_of, share_of, curved_in, peaks_in
     implicit none
     private
-    public :: transverse_at, transverse_extremes
+    public :: transverse_forces, transverse_extremes
 
 contains
 
-    !> Transverse force where the other fields are known; without an axial force the shear
-    elemental function transverse_at(piece, field) result(force)
-        !> The piece of the beam
-        type(piece_type), intent(in) :: piece
-        type(field_type), intent(in) :: field
-        real(wp) :: force
+    !> Transverse force at distances from the left ends of pieces
+    pure subroutine transverse_forces(assembled, solution, piece, distance, force)
+        !> The beam, and its solution
+        type(assembled_type), intent(in) :: assembled
+        type(ground_solution_type), intent(in) :: solution
+        !> Pieces of the beam, and distances in the engine's units, shape (n)
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        !> In the engine's units, shape (n)
+        real(wp), intent(out) :: force(:)
+        integer :: i, k
 
-        force = transverse_of(stretch_type(shear_flexibility=piece%shear_flexibility, tension=piece%tension), field%rotation, &
-                              field%shear)
-    end function transverse_at
+        do k = 1, size(piece)
+            i = stretch_of(solution, piece(k), distance(k))
+            force(k) = force_in(assembled, solution, i, share_of(solution, i, distance(k)))
+        end do
+    end subroutine transverse_forces
+
+    !> The same inside a stretch, at its ends as it was solved
+    pure function force_in(assembled, solution, i, xi) result(force)
+        type(assembled_type), intent(in) :: assembled
+        type(ground_solution_type), intent(in) :: solution
+        integer, intent(in) :: i
+        real(wp), intent(in) :: xi
+        real(wp) :: force
+        type(inside_type) :: inside
+
+        if (xi <= 0.0_wp .or. xi >= 1.0_wp) then
+            force = force_at_end(solution, i, merge(1, 2, xi <= 0.0_wp))
+            return
+        end if
+        associate (j => solution%piece(i))
+            call prepare_inside(layers_under(assembled, solution, j), assembled%law_pieces, assembled%pieces(j)%length, solution, &
+                                i, inside, roughly=.true.)
+        end associate
+        force = force_inside(inside, xi)
+    end function force_in
 
     !> Its maximum (1) and minimum (2), and where they are: at ends of stretches, or where ground and load balance
     subroutine transverse_extremes(assembled, solution, value, piece, distance)
@@ -39,7 +63,6 @@ contains
         !> Pieces of the beam, and distances from their left ends in the engine's units
         integer, intent(out) :: piece(2)
         real(wp), intent(out) :: distance(2)
-        type(field_type) :: field
         type(curved_type), allocatable :: curved
         real(wp), allocatable :: xi(:)
         integer :: i, j, number
@@ -53,8 +76,7 @@ contains
             call curved_in(assembled, solution, i, curved)
             call peaks_in(solution, i, slope_of_transverse, 0.0_wp, curved, xi, number)
             do j = 1, number
-                call values_in(assembled, solution, i, xi(j), field)
-                call consider(transverse_at(assembled%pieces(solution%piece(i)), field), xi(j))
+                call consider(force_in(assembled, solution, i, xi(j)), xi(j))
             end do
         end do
 
