@@ -11,7 +11,6 @@ module gapbeam_axial_force
     use gapbeam_units, only: rotation_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in
     use gapbeam_piece_stiffness, only: stiffness_of
-    use gapbeam_check_foundations, only: at_right
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
     private
@@ -95,7 +94,7 @@ contains
 
             if (.not. (f%shear >= 0.0_wp .and. f%shear <= huge(1.0_wp))) then
                 call say("shear", not_expected, "expected a finite number, 0 or more, got "//trim(shown(f%shear)))
-            else if (f%shear > 0.0_wp .and. (f%side /= gapbeam_both .or. max(abs(f%gap), abs(at_right(f%gap, f%gap_to))) > 0.0_wp &
+            else if (f%shear > 0.0_wp .and. (f%side /= gapbeam_both .or. abs(f%gap) > 0.0_wp .or. (f%gap_to > gapbeam_unchanged .and. abs(f%gap_to) > 0.0_wp) &
                                              .or. f%law /= gapbeam_law_by_points .or. any(model%ground%foundation == number) &
                                              .or. any(model%ground_law%foundation == number))) then
                 call say("shear", bad_law, "ground with a second parameter holds the beam both ways and has a modulus k, "// &
