@@ -12,8 +12,8 @@ module gapbeam_ground_fields
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
-    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch, deflection_size, &
-        find_sizes
+    public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch
+    public :: deflection_size, find_sizes
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type

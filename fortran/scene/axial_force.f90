@@ -94,7 +94,8 @@ contains
 
             if (.not. (f%shear >= 0.0_wp .and. f%shear <= huge(1.0_wp))) then
                 call say("shear", not_expected, "expected a finite number, 0 or more, got "//trim(shown(f%shear)))
-            else if (f%shear > 0.0_wp .and. (f%side /= gapbeam_both .or. abs(f%gap) > 0.0_wp .or. (f%gap_to > gapbeam_unchanged .and. abs(f%gap_to) > 0.0_wp) &
+            else if (f%shear > 0.0_wp .and. (f%side /= gapbeam_both .or. abs(f%gap) > 0.0_wp &
+                                             .or. (f%gap_to > gapbeam_unchanged .and. abs(f%gap_to) > 0.0_wp) &
                                              .or. f%law /= gapbeam_law_by_points .or. any(model%ground%foundation == number) &
                                              .or. any(model%ground_law%foundation == number))) then
                 call say("shear", bad_law, "ground with a second parameter holds the beam both ways and has a modulus k, "// &
