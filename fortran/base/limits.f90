@@ -58,7 +58,8 @@ module gapbeam_limits
 
     !> Stretches beyond which modes are not looked for: some 20,000 waves along a beam. Read by contact/modes
     integer, parameter :: most_mode_stretches = 100000
-    !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by contact/modes
+    !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
+    !> contact/modes
     integer, parameter :: most_halvings = 1000
     !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. After so many states
     !> it is given up. Read by precision/compressed

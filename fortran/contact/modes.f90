@@ -196,8 +196,8 @@ contains
         real(wp), intent(in) :: value
         !> Stretches between places at least, of every zone
         integer, intent(in) :: parts
-        !> Places along the beam, with distances from the left ends of their pieces; deflection there, the largest 1, and moment left
-        !> and right of them, shape (2, ...)
+        !> Places along the beam, with distances from the left ends of their pieces; deflection there, the largest 1, and moment
+        !> left and right of them, shape (2, ...)
         integer, allocatable, intent(out) :: piece(:)
         real(wp), allocatable, intent(out) :: distance(:), deflection(:), moment(:, :)
         type(workspace_type) :: work

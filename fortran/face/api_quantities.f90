@@ -29,8 +29,8 @@ contains
         type(result_type), intent(inout) :: result
         !> Which: gapbeam_of_deflection (down), gapbeam_of_rotation (clockwise), gapbeam_of_moment (sagging), gapbeam_of_shear,
         !> gapbeam_of_axial_force (tension), gapbeam_of_axial_displacement (to the right), gapbeam_of_pressure (of the ground, up),
-        !> gapbeam_of_curvature (sagging: M/EI less what is imposed), gapbeam_of_transverse (shear and axial force times slope), shape
-        !> (m)
+        !> gapbeam_of_curvature (sagging: M/EI less what is imposed), gapbeam_of_transverse (shear and axial force times slope),
+        !> shape (m)
         integer, intent(in) :: quantities(:)
         !> Places, shape (n)
         real(wp), intent(in) :: x(:)

@@ -29,6 +29,8 @@ module gapbeam_ground_fields
         real(wp) :: start(4, 2) = 0.0_wp
         !> What rotation and shear at its ends lack when they are made of load and moments, shape (2, 2)
         real(wp) :: off(2, 2) = 0.0_wp
+        !> The same of the transverse force
+        real(wp) :: off_force(2) = 0.0_wp
         !> Allocated if ground acts there by curves
         type(curved_type), allocatable :: curved
     end type inside_type
@@ -63,6 +65,9 @@ contains
         if (inside%sloped) then
             inside%start(:, 1) = sloped_start(inside%stretch, inside%load, inside%ends, 1)
             inside%start(:, 2) = sloped_start(inside%stretch, inside%load, inside%ends, 2)
+        end if
+        if (abs(inside%stretch%tension) > 0.0_wp) then
+            inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
         end if
         if (present(roughly)) then
             if (roughly) return
@@ -108,7 +113,7 @@ contains
         integer, intent(in) :: i, side
         real(wp) :: force
 
-        force = transverse_of(solution%stretches(i), solution%rotation(side, i), solution%shear(side, i))
+        force = solution%force(side, i)
     end function force_at_end
 
     !> Fields between the ends of a stretch
@@ -142,7 +147,7 @@ contains
         else
             call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
                            field%shear, force)
-            force = force + inside%stretch%tension*inside%slope
+            force = force + (inside%stretch%tension*inside%slope + along(inside%off_force(1), inside%off_force(2), xi, 1.0_wp))
         end if
     end function force_inside
 

@@ -37,8 +37,8 @@ module gapbeam_ground_solution
         type(stretch_ends_type), allocatable :: ends(:)
         !> Slope of the chord, shape (m)
         real(wp), allocatable :: slope(:)
-        !> Rotations and shears at the two ends, shape (2, m)
-        real(wp), allocatable :: rotation(:, :), shear(:, :)
+        !> Rotations, shears and transverse forces (gapbeam_foundation) at the two ends, shape (2, m)
+        real(wp), allocatable :: rotation(:, :), shear(:, :), force(:, :)
         !> Force of every layer on the stretch, up, shape (most layers of a piece, m)
         real(wp), allocatable :: resultant(:, :)
         !> Of rigid ground, not allocated where there is none: pressure at both ends of every stretch, up, shape (2, m), and point
@@ -123,6 +123,7 @@ contains
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
+            solution%force(:, i) = real(transverse_of(stretch, field(:, 1), field(:, 2)), wp)
         end do
         allocate (margin(size(closed)), rounding(size(closed)))
         call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
@@ -232,6 +233,7 @@ contains
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
                   solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
                   solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
+                  solution%force(2, stretches), &
                   solution%resultant(layers, stretches), solution%steps(pieces))
         allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
                   solution%reaction(supports), solution%undecided(supports))

@@ -28,8 +28,8 @@ contains
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function has_axial_force
 
-    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or with
-    !> mass
+    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or
+    !> with mass
     pure function in_stretches(model) result(it_is)
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
