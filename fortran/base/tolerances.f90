@@ -10,7 +10,7 @@ module gapbeam_tolerances
     public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power
     public :: narrowest_interval, narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left
     public :: root_piece_length, same_parameters, tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution
-    public :: same_compression, least_share, mode_digits
+    public :: same_compression, least_share, little_compression, mode_digits
     public :: no_decay_length, shortest_step, most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change
     public :: pivot_hair, least_quad_pivot, near_zero, last_width, rounding_product, most_in_subdomains, subdomain_lengths
     public :: boundary_share, first_spring, first_reaction_share, last_correction, harmless_correction, no_work, no_speed
@@ -126,6 +126,9 @@ module gapbeam_tolerances
     !> Share of the axial forces to which is found when a beam buckles, beside the share and beside the least that is looked for.
     !> Read by precision/compressed
     real(wp), parameter :: same_compression = 2.0_wp**(-44), least_share = 2.0_wp**(-30)
+    !> Share by which more of the axial forces are tried there, and of the greatest reaction that is hardly any; tuned: the last
+    !> state is nearer. Read by precision/compressed
+    real(wp), parameter :: little_compression = 2.0_wp**(-14)
     !> Share of a value of a mode by which it is off in double precision, mostly: brackets widen where it is more; tuned. Read by
     !> contact/modes
     real(wp), parameter :: mode_digits = 2.0_wp**(-36)

@@ -3,7 +3,7 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_taylor, only: expand, terms_of, stretched_shear, trace_of, determinant_of
+    use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, determinant_of
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
@@ -198,7 +198,9 @@ contains
                 m = m + square*(q + s%tension*abs(p%kappa))
                 bent = abs(p%kappa) + s%flexibility*m
                 w = w + l**2*bent/8
-                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l + s%tension*w/l]
+                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l]
+                ! Where series begin with the transverse force
+                if (is_sloped(s)) scale(4) = scale(4) + abs(s%tension)*w/l
             end if
         end associate
     end function scales

@@ -110,15 +110,16 @@ contains
         integer, intent(out) :: found
         !> Values known to some digits, if any: the others are not looked for
         real(wp), intent(in), optional :: near(:)
-        real(wp) :: low, high, step
+        real(wp) :: low, high, step, limit
         integer :: k, doubling
         logical :: stopped
 
         found = 0
         stopped = .false.
+        limit = greatest_value(ground, what)
         low = 0.0_wp
         do k = 1, merge(size(near), size(values), present(near))
-            step = first
+            step = min(first, limit/2)
             if (k > 1) step = low/2
             if (present(near)) then
                 step = mode_digits*near(k)
@@ -138,7 +139,8 @@ contains
                     if (number_at(high) >= k .or. stopped) exit
                 end if
                 low = high
-                high = high + step
+                high = min(high + step, high + (limit - high)/2)
+                if (.not. high > low) return
                 step = 2*step
             end do
             if (stopped .or. doubling > most_halvings) return
@@ -184,6 +186,24 @@ contains
         end function number_at
 
     end subroutine find_mode_values
+
+    !> Above which value a beam would give way by shear alone: where its axial force takes all of GA (Engesser)
+    pure function greatest_value(ground, what) result(limit)
+        type(ground_type), intent(in) :: ground
+        integer, intent(in) :: what
+        real(wp) :: limit
+        integer :: j
+
+        limit = huge(limit)
+        if (what /= by_axial_force) return
+        do j = 1, size(ground%pieces)
+            associate (p => ground%pieces(j))
+                if (p%tension < p%slope_stiffness .and. p%shear_flexibility > 0.0_wp) then
+                    limit = min(limit, (1/p%shear_flexibility + p%slope_stiffness)/(p%slope_stiffness - p%tension))
+                end if
+            end associate
+        end do
+    end function greatest_value
 
     !> How the beam moves in a mode: what small forces near its value do (inverse iteration)
     subroutine find_mode_shape(ground, zones, acting, what, value, parts, piece, distance, deflection, moment)

@@ -2,13 +2,14 @@
 !>
 !> With all one-sided supports open and off all one-sided ground a stable beam has one state whatever acts (its matrix is
 !> positive definite, so the complementarity problem has one solution). Where it is not stable then, the axial forces grow from 0
-!> to what they are with all other loads in full, from state to state near the last one, each of which is stable. Where none is
-!> found at the full forces, neither so nor at once, the beam buckles on the way.
+!> to what they are with all other loads in full, from state to state near the last one, each of which is stable. Where there is
+!> none nearby any more the beam buckles: other stable states, farther away, are not looked for.
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: least_compressions, most_compressions, mode_parts
-    use gapbeam_tolerances, only: same_compression, least_share
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_buckles, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_tolerances, only: same_compression, least_share, little_compression
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, gapbeam_no_memory, &
+        gapbeam_stopped
     use gapbeam_law, only: always_closed
     use gapbeam_law_energy, only: is_convex
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
@@ -88,7 +89,9 @@ contains
         type(ground_start_type) :: start
         logical :: first(size(closed)), last_closed(size(closed))
         real(wp) :: share, step
+        logical :: ended
         integer :: number, solves
+        character(len=20) :: text
 
         first(:) = closed
         if (present(near)) then
@@ -111,7 +114,9 @@ contains
                                  start)
             solves = solves + solution%solves
             if (has_ended()) return
-            if (is_found()) then
+            ended = .not. is_found()
+            if (.not. ended) ended = jumps(last, solution)
+            if (.not. ended) then
                 if (share + step >= 1.0_wp) exit
                 share = share + step
                 last = solution
@@ -122,21 +127,43 @@ contains
                 if (step <= same_compression*max(share, least_share)) exit
             end if
         end do
-        if (.not. is_found()) then
-            closed(:) = first
-            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
-            if (has_ended()) return
-        end if
         solution%solves = solves
         solution%unique = .false.
-        if (is_found()) return
+        if (.not. ended) return
         if (allocated(error)) deallocate (error)
+        if (.not. gives_way()) then
+            write (text, "(f0.6)") share
+            call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(text)// &
+                             " times its axial forces, where it is still stable: look for supports or ground far stiffer than it")
+            return
+        end if
         solution%axial_share = share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
         call take_mode()
 
     contains
+
+        !> Is that the end of stable states: a little more compression, or the loss of what hardly carries any more, lets it give way
+        function gives_way() result(it_does)
+            logical :: it_does
+            type(workspace_type) :: work
+            type(grounded_type) :: grounded
+            logical :: held(size(closed))
+            integer :: number
+
+            call start_from(last, last_closed, start)
+            held(:) = last_closed
+            do
+                call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, &
+                                 grounded)
+                it_does = number /= 0
+                if (it_does .or. .not. all(held .eqv. last_closed)) return
+                where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
+                    held = .false.
+                if (all(held .eqv. last_closed)) return
+            end do
+        end function gives_way
 
         !> How it gives way, with the supports and the ground that acted last
         subroutine take_mode()
@@ -179,5 +206,28 @@ contains
         end function forced_by
 
     end subroutine follow_compression
+
+    !> Are two states farther apart than one grows out of the other: by more than the smaller one of them
+    pure function jumps(one, other) result(far)
+        type(ground_solution_type), intent(in) :: one, other
+        logical :: far
+
+        if (size(one%ends) == size(other%ends)) then
+            far = apart(one%ends%w_a, other%ends%w_a) .or. apart(one%ends%moment_a, other%ends%moment_a)
+        else
+            far = apart(one%deflection, other%deflection)
+        end if
+
+    contains
+
+        !> Is a difference greater than the smaller one of two
+        pure function apart(a, b)
+            real(wp), intent(in) :: a(:), b(:)
+            logical :: apart
+
+            apart = maxval(abs(a - b)) > min(maxval(abs(a)), maxval(abs(b)))
+        end function apart
+
+    end function jumps
 
 end module gapbeam_compressed

@@ -1,0 +1,274 @@
+"""Axial force in bending: closed forms, independent solutions in many digits, ground, compression, what is refused."""
+
+import math
+
+import gapbeam
+import numpy as np
+import pytest
+from gapbeam.base.errors import SceneError
+from mpmath import mpf
+from oracle.axial_force import solve
+from oracle.axial_modes import buckling, frequencies
+from oracle.axial_path import follow
+from scenes import axial_force as generated
+from scenes import force, scene, uniform
+
+PINS = [{"node": 0}, {"node": 1}]
+STOP = {"x": 0.5, "side": "below", "gap": 0.02}
+PE = math.pi**2
+
+
+def beam(N, supports=PINS, loads=(), length=1.0, EI=1.0, **keys):
+    """A scene of one span with an axial force."""
+    found = scene([length], list(supports), list(loads), EI=EI)
+    return {**found, "beam": {**found["beam"], "N": N}, **keys}
+
+
+def plain(data):
+    """Doubles in place of numbers with many digits; without what scenes do not have."""
+    if isinstance(data, dict):
+        return {key: plain(value) for key, value in data.items() if key != "masses"}
+    if isinstance(data, list | tuple):
+        return [plain(value) for value in data]
+    return float(data) if isinstance(data, mpf) else data
+
+
+@pytest.mark.parametrize(
+    ("u", "w", "moment"),
+    [
+        (0.001, 0.013020832009548745, 0.124999986979168),
+        (1.0, 0.011818883970073909, 0.113181116029926),
+        (3.0, 0.0067913090733614872, 0.0638782183397466),
+    ],
+)
+def test_a_uniform_load_under_tension(u, w, moment):
+    found = gapbeam.solve(beam(u**2, loads=[uniform(1.0)])).at(0.5)
+    assert found.deflection == pytest.approx(w, rel=1e-14)
+    assert found.moment == pytest.approx(moment, rel=1e-14)
+
+
+@pytest.mark.parametrize(("u", "w"), [(0.001, 0.0208333312500002), (1.0, 0.0189414213699951), (3.0, 0.0110157730806506)])
+def test_a_force_under_tension(u, w):
+    assert gapbeam.solve(beam(u**2, loads=[force(0.5, 1.0)])).at(0.5).deflection == pytest.approx(w, rel=1e-13)
+
+
+@pytest.mark.parametrize(("u", "reaction"), [(1.0, 59.75731044135905), (3.0, 57.111825264558784)])
+def test_a_stop_under_tension(u, reaction):
+    stop = {"x": 5.0, "side": "below", "gap": 0.005}
+    result = gapbeam.solve(beam(u**2 * 100.0, [*PINS, stop], [uniform(10.0)], 10.0, 1e4))
+    assert result.steps[-1].reaction[2] == pytest.approx(reaction, rel=1e-14)
+
+
+def test_shear_and_transverse_force():
+    u, q = 3.0, 1.0
+    result = gapbeam.solve(beam(u**2, loads=[uniform(q)]))
+    found = result.at([0.0, 0.2])
+    # Of a simple beam the reactions do not feel N; the shear is q tanh(u/2)/u
+    np.testing.assert_allclose(found.transverse, [0.5, 0.3], rtol=1e-14)
+    np.testing.assert_allclose(found.shear[0], math.tanh(u / 2) / u, rtol=1e-14)
+    np.testing.assert_allclose(found.transverse, found.shear + u**2 * found.rotation, rtol=1e-13)
+    assert result.steps[-1].reaction[0] == 0.5
+    assert result.extremes["transverse"]["max"].value == 0.5
+
+
+def test_shear_flexibility_by_engesser():
+    # A column of N0 = pi**2 EI/L**2 gives way at N0/(1 + N0/GA)
+    columns = beam(-1.0, loads=[uniform(1.0)], analysis={"buckling": 2})
+    columns["beam"]["GA"] = 5.0
+    found = gapbeam.solve(columns).buckling
+    np.testing.assert_allclose(found, [k**2 * PE / (1 + k**2 * PE / 5.0) for k in (1, 2)], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("N", "half", "w"),
+    [(0.0, math.pi / 2, 0.136291426340921), (0.5, 2.065569613649225, 0.119333969689935), (1.0, 2.41839915231229, 0.112186856560072)],
+)
+def test_a_weightless_beam_on_one_sided_ground(N, half, w):
+    result = gapbeam.solve(beam(N, [], [force(40.0, 1.0)], 80.0, foundation=[{"k": 4.0, "side": "below"}]))
+    found = result.at(40.0)
+    assert found.deflection == pytest.approx(w, rel=1e-13)
+    assert found.moment == pytest.approx(2 * w, rel=1e-13)
+    middle = next(zone for zone in result.steps[-1].contact if zone.from_ < 40.0 < zone.to)
+    assert (middle.from_, middle.to) == pytest.approx((40.0 - half, 40.0 + half), rel=1e-13)
+
+
+def test_a_pasternak_layer_acts_as_tension():
+    ground = {"k": 3.0}
+    loads = [uniform(1.0), force(2.0, 5.0)]
+    by_layer = gapbeam.solve(beam(0.0, [], loads, 5.0, foundation=[{**ground, "shear": 2.5}]))
+    by_force = gapbeam.solve(beam(2.5, [], loads, 5.0, foundation=[ground]))
+    x = np.linspace(0.0, 5.0, 11)
+    np.testing.assert_array_equal(by_layer.at(x).deflection, by_force.at(x).deflection)
+    assert by_layer.buckling == ()
+
+
+@pytest.mark.parametrize(
+    ("share", "reaction"), [(0.34, 0.0), (0.5, 0.14714005862549203), (0.9, 0.53807030793317657), (2.0, 1.6440875059318176)]
+)
+def test_a_column_against_a_stop(share, reaction):
+    result = gapbeam.solve(beam(-share * PE, [*PINS, STOP], [uniform(1.0)]))
+    step = result.steps[-1]
+    assert step.reaction[2] == pytest.approx(reaction, rel=1e-13)
+    # Beyond the Euler load nothing but the stop holds it
+    assert step.solution.unique is (share < 1.0)
+
+
+def test_a_column_closes_its_stop_at_the_load_of_the_closed_form():
+    closes = 0.34815287816531529
+    for share, closed in ((closes * (1 - 1e-13), False), (closes * (1 + 1e-13), True)):
+        step = gapbeam.solve(beam(-share * PE, [*PINS, STOP], [uniform(1.0)])).steps[-1]
+        assert bool(step.closed[2]) is closed
+
+
+def test_a_column_buckles_beside_its_stop():
+    result = gapbeam.solve(beam(-5.0 * PE, [*PINS, STOP], [uniform(1.0)]))
+    assert result.status == "buckles"
+    assert "bears 0.8 times its axial forces" in result.reason
+    x, w = np.transpose(result.motion)
+    np.testing.assert_allclose(np.abs(w), np.abs(np.sin(2 * math.pi * x)), atol=1e-6)
+
+
+def test_a_beam_without_a_support_at_its_end_buckles_at_a_quarter():
+    result = gapbeam.solve(beam(-0.26 * PE, [{"node": 0, "rotation": "fixed"}], [uniform(1.0)]))
+    assert result.status == "buckles"
+    assert gapbeam.solve(beam(-0.24 * PE, [{"node": 0, "rotation": "fixed"}], [uniform(1.0)])).status == "solved"
+
+
+@pytest.mark.parametrize(("k", "factor"), [(10.0, 1.2046188484569489), (50.0, 2.0075802309154398), (16 * PE, 4.0), (500.0, 4.0)])
+def test_factors_of_buckling(k, factor):
+    result = gapbeam.solve(beam(-PE, [*PINS, {"x": 0.5, "stiffness": k}], [uniform(1.0)], analysis={"buckling": 1}))
+    assert result.buckling == pytest.approx((factor,), rel=1e-14)
+
+
+def test_frequencies_with_a_support_closed_and_open():
+    for gap, expected in ((0.0, (9.869604401089, 15.41820571698)), (1.0, (2.467401100272, 9.869604401089))):
+        supports = [{"node": 0}, {"node": 1, "side": "below", "gap": gap}, {"node": 2}]
+        found = scene([1.0, 1.0], supports, [uniform(1.0)], EI=1.0)
+        result = gapbeam.solve({**found, "beam": {**found["beam"], "mass": 1.0}, "analysis": {"frequencies": 2}})
+        assert result.frequencies == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("N", "expected"), [(0.0, (0.923729504793, 2.4934881405)), (5.0, (1.76512387529, 3.80941611761))])
+def test_frequencies_of_a_free_span(N, expected):
+    ground = [{"k": 100.0, "to": 10.0}, {"k": 100.0, "from": 14.0}]
+    found = scene([10.0, 4.0, 10.0], [{"node": 0}, {"node": 3}], [uniform(1.0)], EI=1.0)
+    data = {**found, "beam": {**found["beam"], "N": N, "mass": 1.0}, "foundation": ground, "analysis": {"frequencies": 2}}
+    assert gapbeam.solve(data).frequencies == pytest.approx(expected, rel=1e-11)
+
+
+def test_modes_are_shaped_as_sines():
+    data = beam(-1.0, loads=[uniform(1.0)], analysis={"buckling": 2, "frequencies": 2})
+    data["beam"]["mass"] = 2.0
+    result = gapbeam.solve(data)
+    np.testing.assert_allclose(result.buckling, [PE, 4 * PE], rtol=1e-14)
+    np.testing.assert_allclose(result.frequencies, [math.sqrt((k**4 * PE**2 - k**2 * PE) / 2.0) for k in (1, 2)], rtol=1e-14)
+    for kind in ("buckling", "vibration"):
+        mode = result.mode(kind, 2)
+        np.testing.assert_allclose(np.abs(mode.deflection), np.abs(np.sin(2 * math.pi * mode.x)), atol=1e-10)
+    with pytest.raises(ValueError, match="there are 3 such modes, got 0"):
+        gapbeam.solve({**data, "analysis": {"buckling": 3}}).mode("buckling", 0)
+    with pytest.raises(ValueError, match='expected "buckling" or "vibration"'):
+        result.mode("bending")
+
+
+def test_without_compression_there_is_no_buckling():
+    assert gapbeam.solve(beam(4.0, loads=[uniform(1.0)], analysis={"buckling": 3})).buckling == ()
+
+
+def check(data, places=24):
+    """Compare a scene with the independent solution: fields, extremes and reactions, relative to the largest of their kind."""
+    exact, result = solve(data), gapbeam.solve(data)
+    assert result.status == exact.status, result.reason
+    if exact.status != "solved":
+        return
+    x = np.linspace(0.0, sum(data["beam"]["spans"]), places)
+    found, truth = result.at(x), [exact.at(place) for place in x.tolist()]
+    reactions = [abs(value) for value in exact.reaction]
+    for name in ("deflection", "rotation", "moment", "shear", "transverse"):
+        actual, expected = getattr(found, name), [getattr(one, name) for one in truth]
+        if actual is None:
+            continue
+        largest = max([abs(value) for value in expected] + (reactions if name in ("shear", "transverse") else []))
+        if name in ("deflection", "moment"):
+            of_all = exact.extremes()[name]
+            largest = max(largest, *(abs(of_all[end][0]) for end in ("max", "min")))
+            for end in ("max", "min"):
+                # What it found by sampling is no further out, and is reached
+                of = result.extremes[name][end]
+                sign = 1 if end == "max" else -1
+                assert sign * (of.value - of_all[end][0]) >= -1e-13 * largest, (name, end)
+                sides = [getattr(exact.at(mpf(of.x), side), name) for side in ("left", "right")]
+                assert min(abs(of.value - value) for value in sides) <= 1e-13 * largest, (name, end)
+        assert max(abs(mpf(float(a)) - b) for a, b in zip(actual, expected, strict=True)) <= 1e-13 * largest, name
+    actual = result.steps[-1].reaction
+    assert max((abs(mpf(float(a)) - b) for a, b in zip(actual, exact.reaction, strict=True)), default=0) <= 1e-13 * max(reactions)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 8, 10, 15, 20, 21])
+def test_random_beams_under_tension(seed):
+    check(plain(generated.random_scene(seed)))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_beams_under_compression(seed):
+    check(plain(generated.random_scene(seed, compression=0.9)))
+
+
+@pytest.mark.parametrize("seed", [1, 9, 11, 22, 25, 39])
+def test_columns_against_stops_beyond_the_euler_load(seed):
+    data = plain(generated.column(seed))
+    path, result = follow(data), gapbeam.solve(data)
+    assert result.status == path.status
+    if path.status == "solved":
+        step = result.steps[-1]
+        assert step.solution.unique is False
+        np.testing.assert_allclose(step.reaction, [float(value) for value in path.end.reaction], rtol=0.0, atol=1e-13 * max(step.reaction))
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+def test_modes_of_random_beams(seed):
+    data = plain(generated.random_scene(seed, compression=0.7, mass=True))
+    result = gapbeam.solve({**data, "analysis": {"buckling": 2, "frequencies": 2}})
+    sides = [item.get("side", "both") for item in data["supports"]]
+    acting = tuple(k for k, side in enumerate(sides) if side != "both" and result.steps[-1].state[k] == "closed")
+    for found, exact in ((result.buckling, buckling(data, acting, 2)), (result.frequencies, frequencies(data, acting, 2))):
+        np.testing.assert_allclose(found, [float(value) for value in exact], rtol=1e-14)
+
+
+def test_no_axial_force_leaves_all_bits():
+    data = scene([6.0, 6.0], [{"node": 0}, {"node": 1, "side": "below", "gap": 0.01}, {"node": 2}], [uniform(5.0)], EI=1e4)
+    with_zero = {**data, "beam": {**data["beam"], "N": 0.0, "mass": 3.0}}
+    x = np.linspace(0.0, 12.0, 13)
+    one, other = gapbeam.solve(data), gapbeam.solve(with_zero)
+    np.testing.assert_array_equal(one.at(x).moment, other.at(x).moment)
+    assert one.at(x).transverse is None
+    assert other.steps[-1].solution.ground is None
+
+
+def test_sections_and_spans_have_their_own():
+    data = beam(2.0, loads=[uniform(1.0)], length=3.0)
+    by_sections = {**data, "beam": {**data["beam"], "N": 0.0}, "sections": [{"N": 5.0}, {"from": 0.0, "to": 3.0, "N": 2.0}]}
+    assert gapbeam.solve(data).at(1.0).deflection == gapbeam.solve(by_sections).at(1.0).deflection
+
+
+@pytest.mark.parametrize(
+    ("keys", "place", "words"),
+    [
+        ({"sections": [{"from": 0.2, "to": 0.8, "EI": [1.0, 2.0]}]}, "sections[0].EI", "tapers beside an axial force"),
+        ({"hinges": [{"x": 0.5, "stiffness": 3.0}]}, "hinges[0].stiffness", "beside an axial force N is not available"),
+        ({"foundation": [{"k": math.inf, "side": "below"}]}, "foundation[0].k", "rigid ground beside an axial force N"),
+        ({"foundation": [{"k": 1.0, "side": "below", "shear": 2.0}]}, "foundation[0].shear", "holds the beam both ways"),
+    ],
+)
+def test_what_is_not_there_is_refused_in_words(keys, place, words):
+    with pytest.raises(SceneError) as caught:
+        gapbeam.solve(beam(-1.0, loads=[uniform(1.0)], **keys))
+    assert caught.value.place == place
+    assert words in str(caught.value)
+
+
+def test_compression_beyond_the_shear_stiffness_is_refused():
+    data = beam(-6.0, loads=[uniform(1.0)])
+    data["beam"]["GA"] = 5.0
+    with pytest.raises(gapbeam.GapbeamError, match="not below GA there"):
+        gapbeam.solve(data)
