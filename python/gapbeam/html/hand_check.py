@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..results.equilibrium import resultants_of_loads
+from ..results.equilibrium import moments_on_deflected_axis, resultants_of_loads
 from ..scene.names import label
 from ..scene.rotations import turns
 
@@ -64,6 +64,8 @@ def terms_of(result: Result, step: Step) -> list[Term]:
             found.append(Term(name, -reaction, x, -reaction * x))
         if couple:
             found.append(Term(f"couple of support {label(scene.supports, k)}", 0.0, None, couple))
+    for one in moments_on_deflected_axis(result, step):
+        found.append(Term(f"{one.of} along the deflected axis at {fmt.number(one.x, fmt.DIGITS)}", 0.0, None, one.moment))
     return found + _ground(result, step)
 
 

@@ -110,7 +110,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         title=fmt.title(scene), lines=answer(result), data=_json(data), version=data["version"], sha256=data["sha256"],
         source=source.name, text=source.data.decode("utf-8", "replace").lstrip("\ufeff"),
         tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
-        exactness=exactness(collected, bool(scene.foundation)),
+        exactness=exactness(collected, result._beam.in_stretches),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
         units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),

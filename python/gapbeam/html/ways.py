@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..base.characters import visible
+from ..results import formatting as fmt
 from .geometry import beam_data, loads_data, supports_data
 from .load_ways import count_numbers, way_of_load
 from .train_ways import MOST_NUMBERS, way_of_train
@@ -136,7 +137,8 @@ def _ways_of(
         found.add(way, words, result, way_of_train(result, train, traversal, found.words, largest, most, also))
     if result.motion or not (result.steps or traversals):
         motion = {"motion": [list(pair) for pair in result.motion or ()], "reason": visible(result.reason or ""), "axis": "motion"}
-        words = "free motion" if result.motion else "no answer"
+        words = fmt.MOTIONS.get(result.status, "free motion") if result.motion else "no answer"
+        motion["moves"] = words
         found.add((of, None, "motion"), ": ".join(part for part in (name, words) if part), result, motion)
     if result.steps:
         alone = "without trains" if traversals else "as far as it stands" if result.motion else ""

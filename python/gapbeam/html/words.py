@@ -26,8 +26,9 @@ LEFT_OUT = {
     "second order": "Effect of axial forces on bending (second order).",
 }
 """By the words of `System.left_out`."""
+FIRST_ORDER = "Equilibrium is that of the undeformed beam (first order). Deflections and rotations are small."
+SECOND_ORDER = "Equilibrium is that of the deflected beam under the axial forces N that are given (second order). Slopes are small."
 ALWAYS = (
-    "Equilibrium is that of the undeformed beam (first order). Deflections and rotations are small.",
     "The material is linear elastic. Supports and ground do what their keys in the input say, and nothing else.",
     "Loads act slowly: there are no inertia forces. Weight, impact and partial factors count only where the input has them.",
     "Strength, buckling, fatigue and the design of bearings are not checked, but for the limits that the input gives.",
@@ -54,7 +55,8 @@ def left_out(result: Result) -> list[str]:
     result : Result
         Of one load.
     """
-    return [LEFT_OUT.get(one, one) for one in result.system.left_out] + list(ALWAYS)
+    order = SECOND_ORDER if result._beam.has_axial_force else FIRST_ORDER
+    return [LEFT_OUT.get(one, one) for one in result.system.left_out] + [order, *ALWAYS]
 
 
 def bounds_in_words(result: Result, step: Step) -> list[str]:
@@ -83,23 +85,23 @@ def bounds_in_words(result: Result, step: Step) -> list[str]:
     return found
 
 
-def exactness(collected: Collected, scene_has_ground: bool) -> list[str]:
+def exactness(collected: Collected, at_places: bool) -> list[str]:
     """Say how exact the pictures are.
 
     Parameters
     ----------
     collected : Collected
         All that the page moves.
-    scene_has_ground : bool
-        Whether the beam lies on the ground.
+    at_places : bool
+        Whether fields are given at places: on the ground, and with axial forces that bending feels.
     """
     kinds = dict.fromkeys(way["over"] for way in collected.ways if "over" in way)
     found = [EXACT[kind] for kind in kinds if kind != "one" or len(collected.ways) == 1]
     if "close positions" in kinds:
         worst = max(1.0, *(way.get("pixels", 0.0) for way in collected.ways))
         found.append(f"These are right to {fmt.count(math.ceil(worst), 'pixel')}.")
-    if scene_has_ground:
-        found.append("Along a beam on the ground values are given at many places, with straight lines between them.")
+    if at_places:
+        found.append("Along the beam values are given at many places, with straight lines between them.")
     elif kinds:
         found.append("Along the beam moments, shears and deflections are drawn from their polynomials.")
     if any(way.get("short") for way in collected.ways):

@@ -6,6 +6,7 @@ is the field itself. Deflections are of degree five at most and are cut into som
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,11 +14,19 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..results.state.fields import Fields
 
 MOVE, LINE, CURVE = 1, 2, 4
 """Codes of the vertices of a path, as matplotlib has them; a curve has three vertices."""
 TO_CONTROL = np.array([[6.0, 0.0, 0.0, 0.0], [-5.0, 18.0, -9.0, 2.0], [2.0, -9.0, 18.0, -5.0], [0.0, 0.0, 0.0, 6.0]]) / 6.0
 """From the values of a cubic at 0, 1/3, 2/3, 1 to its control points."""
+
+
+SIXTHS = np.array([1.0, 3.0, 5.0]) / 6.0
+AT_SIXTHS = np.array([[5.0, 15.0, -5.0, 1.0], [-1.0, 9.0, 9.0, -1.0], [1.0, -5.0, 15.0, 5.0]]) / 16.0
+"""Places in a cell, and from the values of a cubic at 0, 1/3, 2/3, 1 to those there."""
+SEEN, MOST_HALVINGS = 2e-3, 12
+"""Share of the range of a field that is seen, and how often a cell is halved to show it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +107,30 @@ def cells_of(result: Result, step: int, cells: int) -> Cells:
     inner = result.at(np.concatenate((low + wide / 3.0, low + wide * (2.0 / 3.0))), step)
     tables = [(name, column, getattr(inner, name)) for name, column in ends.columns().items()]
     of = {name: np.column_stack((column[left], *between.reshape(2, -1), column[left + 1])) for name, column, between in tables}
+    if result._beam.has_axial_force:
+        of = _halved(of, lambda x: result.at(x, step))
     return Cells(of.pop("x"), of)
+
+
+def _halved(of: dict[str, np.ndarray], at: Callable[[np.ndarray], Fields]) -> dict[str, np.ndarray]:
+    """Halve cells in which a field is no cubic to the eye: beside supports a beam in tension bends within a short length."""
+    size = {name: SEEN * np.ptp(values) for name, values in of.items()}
+    done = []
+    for _ in range(MOST_HALVINGS):
+        low, wide = of["x"][:, 0], of["x"][:, 3] - of["x"][:, 0]
+        found = at((low + wide * SIXTHS[:, None]).ravel())
+        between = {name: getattr(found, name).reshape(3, -1).T for name in of}
+        off = [np.abs(values @ AT_SIXTHS.T - between[name]).max(axis=1) > size[name] for name, values in of.items()]
+        rough = np.any(off, axis=0)
+        done.append({name: values[~rough] for name, values in of.items()})
+        if not rough.any():
+            break
+        every = {name: np.insert(values[rough], [1, 2, 3], between[name][rough], axis=1) for name, values in of.items()}
+        of = {name: np.concatenate((values[:, :4], values[:, 3:])) for name, values in every.items()}
+    else:
+        done.append(of)
+    order = np.argsort(np.concatenate([one["x"][:, 0] for one in done]), kind="stable")
+    return {name: np.concatenate([one[name] for one in done])[order] for name in of}
 
 
 def path_of(points: np.ndarray, flat: float) -> tuple[np.ndarray, np.ndarray]:

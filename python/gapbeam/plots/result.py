@@ -63,14 +63,14 @@ def figure(result: "Result", step: int = -1) -> Figure:
     -------
     matplotlib.figure.Figure
         The first panel holds the beam; the symbols of all supports in the same state and on the same side are one
-        collection there, labelled for example ``open below``. Without equilibrium the second panel shows the
-        free motion, else the panels are those of the fields. Of combinations and trains their envelope.
+        collection there, labelled for example ``open below``. Without equilibrium the second panel shows the free motion, of a
+        beam that buckles its mode, else the panels are those of the fields. Of combinations and trains their envelope.
     """
     if result.scene.trains or result.combinations:
         return envelope_figure(result)
     scene = result.scene
-    stands = result.status != "no-equilibrium" and len(result.steps) > 0
-    panels = [("motion", "free motion", True)]
+    stands = result.status not in fmt.MOTIONS and len(result.steps) > 0
+    panels = [("motion", fmt.MOTIONS.get(result.status, ""), True)]
     contact: tuple[Contact, ...] = ()
     states = plain_states(scene)
     kinds, values, state = plain_kinds(states), None, None

@@ -14,6 +14,7 @@ from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
 from ..scene.rotations import at_support, which_turn
+from .axial_force import write_modes_of_combinations
 from .ground import free_span_headings
 from .over_path import write_over_path
 from .signs import positive_fields
@@ -62,6 +63,7 @@ def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False)
             _supports(say, result, envelope, of)
             _foundations(say, result, envelope, of)
         _factors_between(say, result)
+        write_modes_of_combinations(say, result)
     write_over_path(say, result)
     _list(say, result)
     if verbose:

@@ -60,7 +60,7 @@ def write_foundations(say: Writer, result: "Result", at: str) -> None:
     ]
     say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(3,))
     if not scene.supports:
-        for line in balance_in_words(scene, step):
+        for line in balance_in_words(result, step):
             say.line(line, "dim")
 
 

@@ -19,6 +19,7 @@ from ..results.plausibility import SIGN
 from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from ..scene.rotations import at_support, which_turn
+from .axial_force import axial_forces_in_words, some_of, write_axial_force
 from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
@@ -73,6 +74,7 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         write_foundations(say, result, at)
         write_contact(say, result, at)
         _extremes(say, result, at)
+        write_axial_force(say, result, at)
         write_over_path(say, result, at)
         _history(say, result)
         _events(say, result)
@@ -142,8 +144,14 @@ def _no_solution(say: "Writer", result: "Result") -> None:
     if result.motion:
         scene = result.scene
         say.line()
-        say.line("The mechanism (straight between the points, scale arbitrary):")
-        points = [fmt.column(values, fmt.DIGITS) for values in zip(*result.motion, strict=True)]
+        motion = result.motion
+        if result.status == "buckles":
+            say.line(axial_forces_in_words(scene))
+            say.line("The mode (sign and scale arbitrary):")
+            motion = some_of(motion)
+        else:
+            say.line("The mechanism (straight between the points, scale arbitrary):")
+        points = [fmt.column(values, fmt.DIGITS) for values in zip(*motion, strict=True)]
         say.table([fmt.with_unit(scene, "x"), "displacement, downward"], list(zip(*points, strict=True)))
 
 
@@ -217,7 +225,7 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
         lost = [k for k in range(len(rows)) if step.state[k] == "open" and k not in kept]
         words = f"; no contact at {fmt.ranges(lost)}" if lost else "; all of them are in contact"
         say.line(f"{len(rows) - len(kept):,} supports are left out here{words}. All are in the output of --json.", "italic")
-    for line in balance_in_words(scene, step):
+    for line in balance_in_words(result, step):
         say.line(line, "dim")
     counts = Counter(state_in_words(state) for state, turned in zip(step.state, turning, strict=True) if not turned)
     say.line(f"Upward positive; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")

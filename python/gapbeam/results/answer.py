@@ -34,6 +34,9 @@ MOST_WORK = 2_000_000
 """States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds."""
 WIDTH = 56
 """Characters of two values that stand in one line."""
+ONE_OF_SEVERAL = ("Under this compression other stable states are not excluded. This one is reached as the axial forces grow "
+                  "from 0, with all other loads in full.")  # fmt: skip
+"""Of a state that is not proved to be the only one."""
 NOT_FOLLOWED = "the path has so many states that its largest values are looked for on request only"
 
 
@@ -173,6 +176,17 @@ def headline(result: Result) -> str:
     return f"{title}: {MOVING}" if result._is_neutral else title
 
 
+def is_one_of_several(result: Result) -> bool:
+    """Tell whether the last state is not known to be the only stable one.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations; of these False.
+    """
+    return bool(not result.combinations and result._beam.has_axial_force and result.steps and not result.steps[-1].solution.unique)
+
+
 def outcome_in_words(result: Result) -> list[str]:
     """Say whether the beam stands; nothing where all is well.
 
@@ -187,7 +201,8 @@ def outcome_in_words(result: Result) -> list[str]:
         lines.append(f"{number:,} of {fmt.count(len(result.names), 'combination')} solved.")
     elif result.status != "solved" and not result.limits:
         title = "No equilibrium" if result.status == "no-equilibrium" else result.status.replace("-", " ").capitalize()
-        lines.append(f"{title}. {fmt.sentence(visible(result.reason))}")
+        said = fmt.sentence(visible(result.reason))
+        lines.append(said if said.startswith(title) else f"{title}. {said}")
     return lines
 
 
@@ -220,4 +235,6 @@ def answer(result: Result) -> list[str]:
         lines += ground_in_words(result)
     lines += values_in_words(result, envelope)
     lines += limits_in_words(result, find_utilisations(result, envelope))
+    if result.stands and is_one_of_several(result):
+        lines.append(ONE_OF_SEVERAL)
     return lines + doubts_of_scene(result, envelope)

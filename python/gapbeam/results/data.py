@@ -73,6 +73,7 @@ def result_data(
     if result.steps:
         data["lifted"] = lifted_data(result)
         data |= limits_data(result)
+        data |= modes_data(result)
         data["fields"] = columns
         data["extremes"] = {
             name: {which: list(pair) for which, pair in row.items()} for name, row in result._pairs_of_extremes().items()
@@ -118,6 +119,23 @@ def limits_data(result: Result) -> dict[str, Any]:
     """
     used = result.utilisations
     return {"utilisations": {name: one.to_dict() for name, one in used.items()}} if used else {}
+
+
+def modes_data(result: Result) -> dict[str, Any]:
+    """Give factors of buckling and frequencies as plain data.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load, with a state.
+
+    Returns
+    -------
+    dict
+        What the scene asks for.
+    """
+    analysis = result.scene.analysis
+    return {name: list(getattr(result, name)) for name in ("buckling", "frequencies") if getattr(analysis, name)}
 
 
 def name_of(item: Any) -> dict[str, str]:
@@ -292,6 +310,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             **({"slip_zones": [_zone_data(one) for one in step.slip_zones]} if result._beam.is_on_axial_ground else {}),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,
+            **({} if step.solution.unique else {"unique": False}),
             "certificate": step.certificate,
         }
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ..scene.structs import Scene
+    from .result import Result
     from .state.step import Step
 
 NONE = 1e-12
@@ -130,6 +131,74 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     )  # fmt: skip
 
 
+def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
+    """Give the axial forces that bending feels, from left to right.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    list of (float, float, float)
+        Left and right end, and the force, tension positive.
+
+    Examples
+    --------
+    >>> from gapbeam import Beam, Scene, Section
+    >>> axial_forces(Scene(beam=Beam([4.0, 4.0], EI=1.0, N=5.0), sections=[Section(from_=6.0, N=-2.0)]))
+    [(0.0, 6.0, 5.0), (6.0, 8.0, -2.0)]
+    """
+    ends = scene.span_ends()
+    sections = [(*fmt.stretch(scene, one), one.N) for one in scene.sections if one.N is not None]
+    cuts = np.unique([*ends, *(x for from_, to, _ in sections for x in (from_, to))])
+    middle = (cuts[:-1] + cuts[1:]) / 2.0
+    force = np.broadcast_to(np.asarray(scene.beam.N, dtype=float), len(ends) - 1)[np.searchsorted(ends, middle) - 1].copy()
+    for from_, to, N in sections:
+        force[(from_ <= middle) & (middle <= to)] = N
+    first = np.flatnonzero(np.append(True, np.diff(force) != 0.0))
+    return list(zip(cuts[first].tolist(), cuts[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
+
+
+class Turning(NamedTuple):
+    """A moment about x = 0, clockwise, of a force along the deflected beam."""
+
+    of: str
+    x: float
+    moment: float
+
+
+def moments_on_deflected_axis(result: Result, step: Step) -> list[Turning]:
+    """Give the moments about x = 0 of axial forces that bending feels, and of ground that resists slopes.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    step : Step
+        One of its states.
+
+    Returns
+    -------
+    list of Turning
+        One for each place where the axial force begins, changes or ends.
+    """
+    scene, changes = result.scene, []
+    if result._beam.has_axial_force:
+        runs = axial_forces(scene)
+        places, inner = [0.0, *(to for _, to, _ in runs)], [0.0, *(N for *_, N in runs), 0.0]
+        changes += [("axial force N", x, right - left) for x, left, right in zip(places, inner[:-1], inner[1:], strict=True)]
+    for one in scene.foundation:
+        if one.shear:
+            from_, to = fmt.stretch(scene, one)
+            changes += [("shear of the ground", from_, one.shear), ("shear of the ground", to, -one.shear)]
+    if not changes:
+        return []
+    deflection = result.at_state(step, np.array([x for _, x, _ in changes])).deflection.tolist()
+    return [Turning(of, x, w * by) for (of, x, by), w in zip(changes, deflection, strict=True) if w * by]
+
+
 def _sum(values: Iterable[float]) -> float:
     """Add up; what is left of nothing but rounding is zero."""
     values = list(values)
@@ -142,13 +211,13 @@ def _sum(values: Iterable[float]) -> float:
     return 0.0 if abs(total) <= NONE * largest else total
 
 
-def balance_in_words(scene: Scene, step: Step) -> list[str]:
+def balance_in_words(result: Result, step: Step) -> list[str]:
     """Set the sums of reactions above those of loads.
 
     Parameters
     ----------
-    scene : Scene
-        The scene.
+    result : Result
+        Of one load.
     step : Step
         A state of it.
 
@@ -157,10 +226,12 @@ def balance_in_words(scene: Scene, step: Step) -> list[str]:
     list of str
         Two lines: forces; moments where only supports carry; forces along the beam where supports hold it.
     """
+    scene = result.scene
     sums = sum_of_reactions(scene, step), sum_of_loads(scene, step.factor)
     parts = [("", "force", [one.force for one in sums])]
     if not len(scene.foundation):
-        parts.append(("moment about x = 0", "moment", [one.moment for one in sums]))
+        along = [one.moment for one in moments_on_deflected_axis(result, step)]
+        parts.append(("moment about x = 0", "moment", [sums[0].moment, _sum([sums[1].moment, *along])]))
     if any(support.direction == "axial" or support.friction for support in scene.supports):
         parts.append(("along the beam", "force", [one.axial for one in sums]))
     lines = ["Sum of reactions  ", "Sum of loads      "]

@@ -239,6 +239,10 @@ SMALL = ("deflection", "opening", "sag", "gap", "set", "slip")
 """Displacements, which are small beside lengths."""
 
 
+MOTIONS = {"no-equilibrium": "free motion", "buckles": "buckling mode"}
+"""What the motion of a beam that does not stand is called, by its status."""
+
+
 def reported(extremes: dict[str, Any]) -> dict[str, Any]:
     """Take what the report tells of extremes along the beam.
 

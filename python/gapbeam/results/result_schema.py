@@ -45,9 +45,19 @@ STATE = {
     "slip_zones?": ("[SlipZone]", "Where the beam slides over ground along its axis, or has slid last."),
     "undecided?": ("[integer]", "Supports whose state the last digits of the data decide, by number."),
     "indifferent?": ("boolean", "true where the beam is in neutral equilibrium: forces are unique, its position is not."),
+    "unique?": ("boolean", "false where under compression other stable states are not excluded; else left out."),
     "certificate?": ("Certificate", "Residuals and error bounds."),
 }
 """Keys of a state. Those that end in ? may be left out."""
+
+MOTION = "Mechanism of an unstable beam, or the mode in which it buckles: position and deflection, in any scale."
+MODES = {
+    "buckling?": ("[number]", "Factors by which all axial forces N must be multiplied for the beam to buckle as it stands at the "
+                              "end; only with analysis.buckling."),
+    "frequencies?": ("[number]", "Circular frequencies of the beam as it stands at the end (rad per unit of time); only with "
+                                 "analysis.frequencies."),
+}  # fmt: skip
+"""Keys of modes."""
 
 TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
     "ResultUnits": ("Labels of the units, as in the scene.", {
@@ -258,12 +268,12 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "supports": ("[SupportRange]", "Supports, in the order of the scene."),
         "missing?": ("[Source]", "States that could not be solved."),
     }),
-    "CombinationResult": ("A combination in its own contact state; of several states the last one.", STATE | {
+    "CombinationResult": ("A combination in its own contact state; of several states the last one.", STATE | MODES | {
         "name": ("string", "Its name."),
         "limit_state?": ("string", "Name of its limit state; only where it has one."),
         "status": ("Status", "Its outcome."),
         "reason?": ("string | null", "Why it is not solved, in words."),
-        "motion?": ("[[number]] | null", "Mechanism of an unstable beam: position and deflection, in any scale."),
+        "motion?": ("[[number]] | null", MOTION),
         "without_trains?": ("string", "Why the beam is unstable while no train is on it."),
         "limit?": ("LimitLoad", "First limit of the load."),
         "events?": ("[Event]", "Changes; with follow = \"events\"."),
@@ -271,13 +281,13 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "steps?": ("[StepState]", "All states, where there are several."),
         "extremes?": ("Extremes", "Exact extremes along the beam: value and position."),
     }),
-    "Results": ("The JSON output of a scene.", {
+    "Results": ("The JSON output of a scene.", MODES | {
         "schema": ("Schema", "Name and version of this form; it changes when programs that read it have to."),
         "title": ("string", "Title of the scene."),
         "units": ("ResultUnits", "Labels of the units."),
         "status": ("Status", "Outcome; with combinations the worst."),
         "reason?": ("string | null", "Why it is not solved, in words."),
-        "motion?": ("[[number]] | null", "Mechanism of an unstable beam: position and deflection, in any scale."),
+        "motion?": ("[[number]] | null", MOTION),
         "remarks?": ("[string]", "What one should know about the answer."),
         "system?": ("ResultSystem", "The system of equations; without combinations."),
         "compression?": ("Compression", "Largest compression; with combinations."),

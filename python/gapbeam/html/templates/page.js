@@ -67,9 +67,9 @@ function show() {
     const share = stops[view.stop].at;
     svg.setAttribute("viewBox", `0 0 ${WIDTH} 220`);
     svg.innerHTML = drawMotion(way, share, 100);
-    byId("now").textContent = way.motion.length ? "free motion" : "";
+    byId("now").textContent = way.motion.length ? way.moves : "";
     say(`${capital(way.title)}: ${way.reason}.`);
-    slider.setAttribute("aria-valuetext", `free motion, ${Math.round(100 * share)} %`);
+    slider.setAttribute("aria-valuetext", `${way.moves ?? "free motion"}, ${Math.round(100 * share)} %`);
     byId("place-row").hidden = true;
     return;
   }

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..data import SCHEMA, event_data, ground_data, lifted_data, limit_data, limits_data, step_data
+from ..data import (
+    SCHEMA,
+    event_data,
+    ground_data,
+    lifted_data,
+    limit_data,
+    limits_data,
+    modes_data,
+    step_data,
+)
 from ..envelopes.over_path import is_followed
 from ..trains.data import trains_data
 
@@ -81,7 +90,7 @@ def _one(result: Result) -> dict[str, Any]:
         return data
     steps = list(step_data(result))
     data |= steps[-1] if len(steps) == 1 else {"steps": steps, "supports": steps[-1]["supports"]}
-    data |= ground_data(result, result.steps[-1])
+    data |= ground_data(result, result.steps[-1]) | modes_data(result)
     found = result._pairs_of_extremes()
     data["extremes"] = {name: {which: list(pair) for which, pair in row.items()} for name, row in found.items()}
     return data
