@@ -12,7 +12,8 @@ from gapbeam.plots import plot, plot_path
 TOP = Path(__file__).resolve().parents[2]
 PATHS = ["snap_through", "rubber_stops", "pile_head", "shaft_jack_up"]
 BEAMS = ["rail_lift_off", "strip_footing", "slab_on_mound", "seabed_pipe", "pipe_on_rock", "laterally_loaded_pile",
-         "pipe_rack_states", "crane_runway_bays", "bridge_bearings", "rail_bogie_passes"]  # fmt: skip
+         "pipe_rack_states", "crane_runway_bays", "bridge_bearings", "rail_bogie_passes",
+         "tensioned_pipe_span", "column_stop"]  # fmt: skip
 
 
 def page(name):

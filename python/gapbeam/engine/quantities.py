@@ -64,7 +64,7 @@ QUANTITIES = (
     Quantity("curvature", "1/{length}", "Curvature M/EI less what is imposed (1/length), positive as the sagging moment.",
              by_equilibrium=True, reported=False, downward=True),
     Quantity("transverse", "{force}",
-             "Transverse force (force), shear and axial force times slope, which loads and reactions balance; only with an axial force.",
+             "Transverse force (force), shear and axial force times slope, which loads and reactions balance; only with N.",
              "second order", by_equilibrium=True),
 )
 

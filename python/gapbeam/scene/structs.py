@@ -43,7 +43,7 @@ from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
 from .table import NotNegative, Point, Positive, Side, Spans, Stretch, SupportSide, Table
-from .tapers import Stiffness
+from .tapers import Section
 
 inf = math.inf
 
@@ -79,7 +79,7 @@ class Beam(Table, forbid_unknown_fields=True):
     N : float or list of float
         Axial force (force) that bending feels (second order), tension positive, one number or one per span; default 0.
     mass : float or list of float
-        Mass (force*time^2/length) per length, one number or one per span, for `analysis.frequencies`; default 0.
+        Mass per length (force*time^2/length^2), one number or one per span, for `analysis.frequencies`; default 0.
     hinges : list of float
         Places of moment hinges inside the beam (length, from the left end).
     width : float, optional
@@ -104,28 +104,6 @@ class Beam(Table, forbid_unknown_fields=True):
     direction: Literal["right", "down"] = "right"
     alpha: float | list[float] | None = None
     depth: Positive | list[Positive] | None = None
-
-
-class Section(Stretch, kw_only=True, gc=False):
-    """Other stiffness between two places; later sections win over earlier ones.
-
-    Parameters
-    ----------
-    EI : float, (float, float) or table, optional
-        Bending stiffness (force*length^2) here; inf = rigid. Or (at from, at to), linear in between; or a table with from, to and
-        power, the power of a linear depth that it is (`Taper`). Left out: as it was.
-    GA : float, (float, float) or table, optional
-        Shear stiffness kappa*G*A (force) here, likewise. Left out: as it was.
-    EA : float, (float, float) or table, optional
-        Axial stiffness (force) here, likewise. Left out: as it was.
-    N : float, optional
-        Axial force (force) that bending feels here, tension positive. Left out: as it was.
-    """
-
-    EI: Stiffness | None = None
-    GA: Stiffness | None = None
-    EA: Stiffness | None = None
-    N: float | None = None
 
 
 class Support(Point, kw_only=True, gc=False):

@@ -1,4 +1,4 @@
-"""Stiffnesses that change along a section: one number, a pair, or a power of a linear depth."""
+"""Sections and their stiffnesses, which may change along them: one number, a pair, or a power of a linear depth."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import field
 
-from .table import Count, Positive, Table
+from .table import Count, Positive, Stretch, Table
 
 
 class Taper(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
@@ -30,6 +30,28 @@ class Taper(Table, forbid_unknown_fields=True, kw_only=True, gc=False):
 
 
 Stiffness = Positive | tuple[Positive, Positive] | Taper
+
+
+class Section(Stretch, kw_only=True, gc=False):
+    """Other stiffness between two places; later sections win over earlier ones.
+
+    Parameters
+    ----------
+    EI : float, (float, float) or table, optional
+        Bending stiffness (force*length^2) here; inf = rigid. Or (at from, at to), linear in between; or a table with from, to and
+        power, the power of a linear depth that it is (`Taper`). Left out: as it was.
+    GA : float, (float, float) or table, optional
+        Shear stiffness kappa*G*A (force) here, likewise. Left out: as it was.
+    EA : float, (float, float) or table, optional
+        Axial stiffness (force) here, likewise. Left out: as it was.
+    N : float, optional
+        Axial force (force) that bending feels here, tension positive. Left out: as it was.
+    """
+
+    EI: Stiffness | None = None
+    GA: Stiffness | None = None
+    EA: Stiffness | None = None
+    N: float | None = None
 
 
 def ends_of(value: Any) -> tuple[float, float, int]:

@@ -133,13 +133,14 @@ def _refuse_beyond_bounds(result: Result) -> None:
 
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
-    """Refuse what cannot be had on a foundation."""
+    """Refuse what cannot be had on a foundation, and with an axial force that bending feels."""
+    there = "a foundation" if beam.ground_layers else "an axial force N" if beam.has_axial_force else "a mass for frequencies"
     if beam.beyond_one_search is not None:
         what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
-        problem = f"supports with laws {what} cannot be combined with a foundation in this version; use non-decreasing polylines"
+        problem = f"supports with laws {what} cannot be combined with {there} in this version; use non-decreasing polylines"
         raise SceneError("supports", problem)
     if scene.analysis.has_history:
-        raise SceneError("analysis.history", "a beam on a foundation unloads along its path; leave it out")
+        raise SceneError("analysis.history", f"a beam with {there} unloads along its path; leave it out")
 
 
 def _on_path(result: Result, _: np.ndarray) -> None:

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...base.records import Record, read_only
 from ...engine.modes import BUCKLING, VIBRATION, shape_of_mode, values_of_modes
+from .arguments import whole
 
 if TYPE_CHECKING:
+    from ...scene.structs import Scene
     from .step import Step
+    from .steps import Steps
 
 KINDS = {"buckling": BUCKLING, "vibration": VIBRATION}
 
@@ -84,3 +88,51 @@ def mode_of(step: Step, kind: str, value: float) -> Mode:
         They are not available for this beam.
     """
     return Mode(kind, value, *map(read_only, shape_of_mode(step.solution.state, KINDS[kind], value)))
+
+
+class WithModes:
+    """What is asked of the last state of a beam about its modes."""
+
+    scene: Scene
+    steps: Steps
+
+    @cached_property
+    def buckling(self) -> tuple[float, ...]:
+        """Factors of all axial forces at which the beam buckles as it stands at the end; see `analysis.buckling`."""
+        return modes_of(self.steps[-1], "buckling", self.scene.analysis.buckling)
+
+    @cached_property
+    def frequencies(self) -> tuple[float, ...]:
+        """Circular frequencies (rad per unit of time) of the beam as it stands at the end; see `analysis.frequencies`."""
+        return modes_of(self.steps[-1], "vibration", self.scene.analysis.frequencies)
+
+    def mode(self, kind: str, number: int = 1) -> Mode:
+        """Find how the beam moves in a mode.
+
+        Parameters
+        ----------
+        kind : {"buckling", "vibration"}
+            Which modes are meant.
+        number : int
+            Which of them, from 1.
+
+        Returns
+        -------
+        Mode
+
+        Raises
+        ------
+        ValueError
+            There is no such mode.
+        EngineError
+            Modes are not available for this beam.
+        """
+        if kind not in KINDS:
+            raise ValueError(f'kind: expected "buckling" or "vibration", got {kind!r}')
+        number = whole("number", number)
+        asked = "buckling" if kind == "buckling" else "frequencies"
+        values = modes_of(self.steps[-1], kind, max(number, getattr(self.scene.analysis, asked)))
+        if not 1 <= number <= len(values):
+            there = f"there are {len(values)} such modes, got {number}"
+            raise ValueError(f"number: {there}; analysis.{asked} and the beam say how many")
+        return mode_of(self.steps[-1], kind, values[number - 1])

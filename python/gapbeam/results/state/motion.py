@@ -70,6 +70,29 @@ def describe_buckling(found: Buckling) -> str:
     return f"with these loads the beam bears {found.share:.6g} times its axial forces, and gives way most at x = {found.x[k]:.6g}"
 
 
+def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: Buckling | None) -> tuple[str, str]:
+    """Say that a beam does not stand, and why.
+
+    Parameters
+    ----------
+    beam : Beam
+        The beam.
+    where : str
+        At or above which load factor.
+    motion : numpy.ndarray or None
+        Displacements of the nodes in the free motion; None where it slides along its axis.
+    buckling : Buckling or None
+        How it buckles, if it does.
+
+    Returns
+    -------
+    status, reason : str
+    """
+    if buckling is not None:
+        return "buckles", f"buckles {where}: {describe_buckling(buckling)}"
+    return "no-equilibrium", f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(beam, motion)}"
+
+
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:
     """One body between two hinges or ends, nodes a to b."""
     x = beam.node_x

@@ -26,8 +26,8 @@ from ..views.extreme import Extremes
 from .arguments import finite, numbers, whole
 from .fields import Fields, find_places
 from .ground import with_ends_of_zones
-from .modes import KINDS, Mode, mode_of, modes_of
-from .motion import SLIDES, describe_buckling, describe_motion
+from .modes import WithModes
+from .motion import describe_fall, describe_motion
 from .schemes import starting_scheme
 from .slip_zones import with_ends_of_slip
 from .step import Step, solve_step
@@ -46,7 +46,7 @@ BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
 
 
-class States(Pickled):
+class States(Pickled, WithModes):
     """All load steps of a beam, without what stands on them; its attributes are those of `Result`."""
 
     __hash__ = None
@@ -99,46 +99,6 @@ class States(Pickled):
             and all(a == b for a, b in zip(self.steps, other.steps, strict=True))
         )
 
-    @cached_property
-    def buckling(self) -> tuple[float, ...]:
-        """Factors by which all axial forces must be multiplied for the beam to buckle as it stands at the end; see `analysis.buckling`."""
-        return modes_of(self.steps[-1], "buckling", self.scene.analysis.buckling)
-
-    @cached_property
-    def frequencies(self) -> tuple[float, ...]:
-        """Circular frequencies (rad per unit of time) of the beam as it stands at the end; see `analysis.frequencies`."""
-        return modes_of(self.steps[-1], "vibration", self.scene.analysis.frequencies)
-
-    def mode(self, kind: str, number: int = 1) -> Mode:
-        """Find how the beam moves in a mode.
-
-        Parameters
-        ----------
-        kind : {"buckling", "vibration"}
-            Which modes are meant.
-        number : int
-            Which of them, from 1.
-
-        Returns
-        -------
-        Mode
-
-        Raises
-        ------
-        ValueError
-            There is no such mode.
-        EngineError
-            Modes are not available for this beam.
-        """
-        if kind not in KINDS:
-            raise ValueError(f'kind: expected "buckling" or "vibration", got {kind!r}')
-        number = whole("number", number)
-        asked = "buckling" if kind == "buckling" else "frequencies"
-        values = modes_of(self.steps[-1], kind, max(number, getattr(self.scene.analysis, asked)))
-        if not 1 <= number <= len(values):
-            raise ValueError(f"number: there are {len(values)} such modes, got {number}; analysis.{asked} and the beam say how many")
-        return mode_of(self.steps[-1], kind, values[number - 1])
-
     @property
     def depends_on_path(self) -> bool:
         """Whether states depend on the loading history: by the laws of supports, or since it goes to several factors in turn."""
@@ -186,17 +146,10 @@ class States(Pickled):
         buckling : Buckling, optional
             How it buckles, if it does.
         """
-        if buckling is None:
-            self.status = "no-equilibrium"
-            self.reason = f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(self._beam, motion)}"
-        else:
-            self.status = "buckles"
-            self.reason = f"buckles {where}: {describe_buckling(buckling)}"
-        self.steps.outcome = self.status, self.reason
-        if motion is None:
-            return
-        x, w = (self._beam.node_x, motion) if buckling is None else buckling[1:]
-        self.motion = list(zip(x.tolist(), w.tolist(), strict=True))
+        self.status, self.reason = self.steps.outcome = describe_fall(self._beam, where, motion, buckling)
+        if motion is not None:
+            x, w = (self._beam.node_x, motion) if buckling is None else buckling[1:]
+            self.motion = list(zip(x.tolist(), w.tolist(), strict=True))
 
     def _refuse_answer(self, error: EngineError) -> None:
         """Note that there is no unique answer.
