@@ -386,7 +386,7 @@ class Solution(Record):
     def largest_fields(self) -> np.ndarray:
         """Largest absolute values of deflection, rotation, moment, shear, in the engine's units."""
         state, beam = self.state, self.state.beam
-        if self.ground is not None:
+        if beam.in_stretches:
             values, _ = self.extremes()
             bounded = [FIELDS.index(name) for name in BOUNDED]
             return scaled(np.abs(values[:, bounded]).max(axis=0), -np.array(beam.units.field))

@@ -10,6 +10,7 @@ import numpy as np
 from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
 from ..results.contact import source_in_words
+from ..results.data import modes_data
 from ..results.event_words import state_in_words
 from ..results.state.ground import joined
 from ..results.views.extreme import IN_WORDS
@@ -68,7 +69,7 @@ def tables_of(result: Result, envelope: Envelope | TrainEnvelope | None, ways: l
             found.append(_support_extremes(result, envelope))
     if result.combinations:
         found.append(_combinations(result))
-    found += [_events(result, ways), _zones(result)]
+    found += [_events(result, ways), _zones(result), _modes(result)]
     return [one._replace(rows=one.rows[:MOST_ROWS], note=_cut(one)) for one in found if one.rows]
 
 
@@ -190,3 +191,20 @@ def _zones(result: Result) -> TableData:
     head = ["", "foundation", *(fmt.shown_heading(scene, "x", words) for words in ("from", "to", "length")),
             fmt.shown_heading(scene, "resultant"), fmt.shown_heading(scene, "sag")]  # fmt: skip
     return TableData("zones", "Contact with the ground at the end of the load", head, rows)
+
+
+def _modes(result: Result) -> TableData:
+    """Factors of buckling and frequencies at the end of the load."""
+    found = {} if result.combinations or not len(result.steps) else modes_data(result)
+    columns = {}
+    if found.get("buckling"):
+        columns["buckling factor of all N"] = found["buckling"]
+    if found.get("frequencies"):
+        columns["omega [rad per unit of time]"] = found["frequencies"]
+        columns["f = omega/2\u03c0"] = [value / (2.0 * np.pi) for value in found["frequencies"]]
+    rows = [
+        [_number(k + 1), *(_number(values[k]) if k < len(values) else Cell("") for values in columns.values())]
+        for k in range(max(map(len, columns.values()), default=0))
+    ]
+    note = "With the supports and the ground that act there."
+    return TableData("modes", "Modes at the end of the load", ["number", *columns], rows, note)

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..results.equilibrium import axial_forces
 from ..results.state.ground import joined, noun_of
 from .beam import SupportLanes, draw_beam, draw_contacts
 from .bezier import cells_of
@@ -119,6 +120,10 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
+    if result._beam.has_axial_force:
+        forces = [force for *_, force in axial_forces(result.scene)]
+        ends = dict.fromkeys(fmt.value(result.scene, "axial_force", force) for force in (min(forces), max(forces)))
+        text += with_minus_signs(f", N {' to '.join(ends)}")
     zones = joined(contact)
     return text + (f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else "")
 
