@@ -6,7 +6,8 @@ module gapbeam_limits
     implicit none
     private
     public :: most_path_segments, changes_at_a_time, most_extreme_ties, most_train_states
-    public :: most_steps_on_curves, most_taylor_terms, most_panels, most_waiting_patches, most_nodes_solved, least_solves
+    public :: most_steps_on_curves, most_taylor_terms, most_power, most_panels, most_waiting_patches, most_nodes_solved
+    public :: least_solves
     public :: non_monotone_solves, warm_non_monotone_solves, polish_non_monotone_solves, last_non_monotone_solves
     public :: law_non_monotone_solves, final_non_monotone_solves, rounding_changes, most_guess_steps, few_guess_changes
     public :: steps_between_guesses, subdomain_rounds, few_wrong_supports, long_beam_links, least_margin_nodes, nodes_apart
@@ -50,6 +51,9 @@ module gapbeam_limits
     !> Terms of a Taylor series on ground of linear modulus; beyond it the stretch is cut. Read by beam/foundation_pieces,
     !> beam/foundation_taylor, precision/ground_solution
     integer, parameter :: most_taylor_terms = 120
+    !> Power of a depth that is linear which a stiffness may be: 4 of a round pole. Read by
+    !> beam/foundation_stretch, beam/taper_extremes, scene/check
+    integer, parameter :: most_power = 4
     !> Panels of half a stretch in a quadrature: they grow the faster the farther they are from the end. Read by base/quadrature
     integer, parameter :: most_panels = 64
     !> Patches that wait to be looked into; each cut adds one, and they are cut to narrowest_patch in both directions. Read by

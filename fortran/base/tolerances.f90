@@ -18,7 +18,7 @@ module gapbeam_tolerances
     public :: lone_node_zone, parts_of_decay, straight_force, no_node_slope, balanced, flat_energy, first_way, last_way
     public :: moving_noise, far_from_solution, largest_ratio, most_ahead, same_ends, unmoved_share, straight_field
     public :: stationary_place, mesh_rounding, fine_width, most_left_out, most_hidden, given_leeway, least_force_share
-    public :: softest_hinge, steepest_taper
+    public :: softest_hinge, steepest_taper, most_deepening
     public :: everywhere, audit_allows, movement_safety, fine_error, upward, rough, nearly_settled, fine_ends, movable_ends
     public :: no_displacement, min_tied_zone, least_tied_share, no_tied_force, no_ground_work, fine_rounding, near_motion
     public :: ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance, same_extreme
@@ -271,6 +271,9 @@ module gapbeam_tolerances
     !> Ratio of a stiffness at both ends of a section beyond which it is refused: integrals take an interval for each factor of two
     !> in depth. Read by scene/check
     real(wp), parameter :: steepest_taper = 1e12_wp
+    !> Growth of the depth of a tapered beam along a stretch on ground: a Taylor series loses a factor of four with every term, so
+    !> quadruple precision takes sixty of them; tuned. Read by beam/taper
+    real(wp), parameter :: most_deepening = 1.25_wp
     !> Share of the largest terms of the beam that count as terms of every sum: elimination carries their rounding everywhere, and
     !> refining leaves the square of it. Read by precision/audit
     real(wp), parameter :: everywhere = 2.0_wp**(-40)

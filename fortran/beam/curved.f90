@@ -9,6 +9,7 @@ module gapbeam_curved
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_steps_on_curves
     use gapbeam_tolerances, only: largest_field, no_curve_slope, beginning_of_way, step_caution, shortest_step
+    use gapbeam_foundation_stretch, only: softness_type, is_of_one_stiffness, softness_in, softness_around, soften
     use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_of_transfer, transfer_of_forces, &
         stretched_shear, transverse_of
     use gapbeam_foundation, only: stretch_link_type, link_of_halves
@@ -45,7 +46,9 @@ contains
         !> To which t, 1 at most, they hold to rounding
         real(wp), intent(out) :: step
         type(law_series_type) :: series(size(curved%curves))
-        real(wp) :: h, k(0:1), q(0:order), pressure, w, pull
+        type(softness_type) :: softness
+        real(wp) :: h, k(0:1), q(0:order), pressure, w, axis(0:order)
+        real(wp), dimension(1, 0:order) :: bent, slid, shifted
         integer :: i, n
 
         associate (s => curved%stretch, p => curved%load, eta => 1 - xi)
@@ -53,8 +56,8 @@ contains
             k = [s%modulus_a*eta + s%modulus_b*xi, (s%modulus_b - s%modulus_a)*way]
             q(3:) = 0.0_wp
             q(0:2) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*way, -p%qc*way**2]
-            w = y(1) + s%shear_flexibility*y(3)
-            pull = s%tension*s%flexibility
+            softness = softness_around(s, xi, way)
+            w = y(1) + softness%value(2)*y(3)
             q(0) = q(0) + s%tension*p%kappa
             do i = 1, size(series)
                 associate (curve => curved%curves(i))
@@ -65,11 +68,13 @@ contains
             modulus(0:order) = 0.0_wp
             modulus(0:1) = k
             do n = 0, order
-                pressure = k(0)*deflection(n)
-                if (n > 0) pressure = pressure + k(1)*deflection(n - 1)
+                call soften(softness, n, c(3:3, n), bent, slid, shifted)
+                axis(n) = c(1, n) + slid(1, n)
+                pressure = k(0)*axis(n)
+                if (n > 0) pressure = pressure + k(1)*axis(max(0, n - 1))
                 do i = 1, size(series)
                     associate (curve => curved%curves(i), one => series(i))
-                        one%u(n) = deflection(n)
+                        one%u(n) = axis(n)
                         if (n == 0) one%u(0) = one%u(0) - (curve%contact_a*eta + curve%contact_b*xi)
                         if (n == 1) one%u(1) = one%u(1) - (curve%contact_b - curve%contact_a)*way
                         one%u(n) = curve%side*one%u(n)
@@ -80,13 +85,14 @@ contains
                 if (n == order) exit
                 associate (part => h/(n + 1))
                     c(1, n + 1) = part*c(2, n)
-                    c(2, n + 1) = -part*s%flexibility*c(3, n)
+                    if (s%power(2) > 0) c(1, n + 1) = c(1, n + 1) - shifted(1, n)/(n + 1)
+                    c(2, n + 1) = -part*bent(1, n)
                     if (n == 0) c(2, 1) = c(2, 1) + part*p%kappa
                     c(3, n + 1) = part*c(4, n)
-                    c(4, n + 1) = part*(pressure + pull*c(3, n) - q(n))/stretched_shear(s)
+                    c(4, n + 1) = part*(pressure + s%tension*bent(1, n) - q(n))/stretched_shear(s)
                 end associate
             end do
-            step = step_of(c(4, :), sum(abs(c(4, 0:3))))
+            step = min(step_of(c(4, :), sum(abs(c(4, 0:3)))), step_on_taper(softness))
             do i = 1, size(series)
                 if (sum(abs(series(i)%k(0:3))) > no_curve_slope*slope_scale(series(i))) then
                     modulus(0:order) = modulus(0:order) + series(i)%k
@@ -99,14 +105,6 @@ contains
 
     contains
 
-        !> Term of the deflection
-        pure function deflection(degree) result(term)
-            integer, intent(in) :: degree
-            real(wp) :: term
-
-            term = c(1, degree) + curved%stretch%shear_flexibility*c(3, degree)
-        end function deflection
-
         !> Is the beam before the contact at the beginning of the way: where a zone begins rotation and curvature tell
         pure function is_negative(curve) result(negative)
             type(curve_type), intent(in) :: curve
@@ -115,14 +113,28 @@ contains
 
             there = xi + beginning_of_way*way
             ahead = beginning_of_way*h
-            associate (g => curved%stretch%shear_flexibility)
-                negative = curve%side*(w + (y(2) + g*y(4))*ahead &
-                                       + (curved%load%kappa - curved%stretch%flexibility*y(3))*ahead**2/2 &
+            associate (f => softness%value(1), g => softness%value(2))
+                negative = curve%side*(w + (y(2) + g*y(4))*ahead + (curved%load%kappa - f*y(3))*ahead**2/2 &
                                        - (curve%contact_a*(1 - there) + curve%contact_b*there)) < 0.0_wp
             end associate
         end function is_negative
 
     end subroutine expand_curved
+
+    !> To which t, 1 at most, the series of 1/EI and 1/GA hold
+    pure function step_on_taper(softness) result(step)
+        type(softness_type), intent(in) :: softness
+        real(wp) :: step
+        real(wp), dimension(1, 0:order) :: bent, slid, shifted
+        integer :: n
+
+        step = 1.0_wp
+        if (all(softness%power == 0)) return
+        do n = 0, order
+            call soften(softness, n, [merge(1.0_wp, 0.0_wp, n == 0)], bent, slid, shifted)
+        end do
+        step = min(step_of(bent(1, :), softness%value(1)), step_of(slid(1, :), softness%value(2)))
+    end function step_on_taper
 
     !> To which t, 1 at most, a series of some size holds
     pure function step_of(c, scale) result(step)
@@ -170,7 +182,7 @@ contains
             call expand_curved(curved, at, values, left, c, modulus, r, step)
             lost = .not. step > shortest_step
             if (lost) return
-            if (present(transfer)) transfer = matmul(transfer_of(curved%stretch, left, modulus, step), transfer)
+            if (present(transfer)) transfer = matmul(transfer_of(curved%stretch, at, left, modulus, step), transfer)
             if (present(forces)) then
                 do i = 1, size(forces)
                     forces(i) = forces(i) + curved%stretch%length*left*integral(r(:, i), step)
@@ -187,27 +199,32 @@ contains
     end subroutine advance_curved
 
     !> How the fields at the end of a step change with those where it begins
-    pure function transfer_of(stretch, way, modulus, step) result(transfer)
+    pure function transfer_of(stretch, xi, way, modulus, step) result(transfer)
         type(stretch_type), intent(in) :: stretch
-        !> Unit of t, the modulus as a series in it, and the step
-        real(wp), intent(in) :: way, modulus(0:), step
+        !> Where it begins, unit of t, the modulus as a series in it, and the step
+        real(wp), intent(in) :: xi, way, modulus(0:), step
         real(wp) :: transfer(4, 4)
         real(wp) :: c(0:order, 4), w(0:order), part
+        real(wp), dimension(1, 0:order) :: bent, slid, shifted
+        type(softness_type) :: softness
         integer :: j, n, i, terms
 
         ! Where the force of the ground does not change with the deflection, nothing is left beyond cubes
         terms = order
-        if (.not. (any(abs(modulus) > 0.0_wp) .or. abs(stretch%tension) > 0.0_wp)) terms = 3
+        if (.not. (any(abs(modulus) > 0.0_wp) .or. abs(stretch%tension) > 0.0_wp) .and. is_of_one_stiffness(stretch)) terms = 3
+        softness = softness_around(stretch, xi, way)
         do j = 1, 4
             c(0, :) = 0.0_wp
             c(0, j) = 1.0_wp
             do n = 0, terms - 1
                 part = stretch%length*way/(n + 1)
-                w(n) = c(n, 1) + stretch%shear_flexibility*c(n, 3)
+                call soften(softness, n, c(n:n, 3), bent, slid, shifted)
+                w(n) = c(n, 1) + slid(1, n)
                 c(n + 1, 1) = part*c(n, 2)
-                c(n + 1, 2) = -part*stretch%flexibility*c(n, 3)
+                if (stretch%power(2) > 0) c(n + 1, 1) = c(n + 1, 1) - shifted(1, n)/(n + 1)
+                c(n + 1, 2) = -part*bent(1, n)
                 c(n + 1, 3) = part*c(n, 4)
-                c(n + 1, 4) = part*(dot_product(modulus(0:n), w(n:0:-1)) + stretch%tension*stretch%flexibility*c(n, 3)) &
+                c(n + 1, 4) = part*(dot_product(modulus(0:n), w(n:0:-1)) + stretch%tension*bent(1, n)) &
                     /stretched_shear(stretch)
             end do
             do i = 1, 4
@@ -251,7 +268,7 @@ contains
         !> As for advance_curved; then nothing else is set
         logical, intent(out) :: lost
         type(half_type) :: a, b
-        real(wp) :: transfer(4, 4), mirrored(4, 4), values(4), turn(0), shear(0)
+        real(wp) :: transfer(4, 4), mirrored(4, 4), values(4), turn(0), shear(0), soft(2), soft_b(2)
         integer :: i
 
         turn_a = 0.0_wp
@@ -262,17 +279,19 @@ contains
         if (lost) return
         transfer = transfer_of_forces(curved%stretch, transfer)
         ! Seen from the other side x, psi and T change their signs
-        mirrored = inverse(transfer, curved%stretch%shear_flexibility)
+        soft(:) = softness_in(curved%stretch, 0.0_wp)
+        soft_b(:) = softness_in(curved%stretch, 1.0_wp)
+        mirrored = inverse(transfer, [soft(2), soft_b(2)])
         do i = 2, 4, 2
             mirrored(i, :) = -mirrored(i, :)
             mirrored(:, i) = -mirrored(:, i)
         end do
         call half_of_transfer(transfer, a, turn, shear)
         call half_of_transfer(mirrored, b, turn, shear)
-        call link_of_halves(curved%stretch%shear_flexibility, a, b, link)
+        call link_of_halves([soft(2), soft_b(2)], a, b, link)
         ! What the link leaves over of the fields given, which so are met to all digits
-        associate (w_a => curved%left(1) + curved%stretch%shear_flexibility*curved%left(3), m_a => curved%left(3), &
-                   w_b => values(1) + curved%stretch%shear_flexibility*values(3), m_b => values(3))
+        associate (w_a => curved%left(1) + soft(2)*curved%left(3), m_a => curved%left(3), &
+                   w_b => values(1) + soft_b(2)*values(3), m_b => values(3))
             turn_a = curved%left(2) + link%pa*w_a - link%p1*w_b - link%faa*m_a - link%fab*m_b
             turn_b = link%pb*w_b - link%p2*w_a - link%fab*m_a - link%fbb*m_b - values(2)
             shear_a = transverse_of(curved%stretch, curved%left(2), curved%left(4)) + link%pa*m_a - link%p2*m_b + link%gaa*w_a &
@@ -284,7 +303,8 @@ contains
 
     !> The inverse of a transfer: by Betti's theorem w T' - T w' - psi M' + M psi' of two changes is the same everywhere
     pure function inverse(transfer, shear_flexibility) result(back)
-        real(wp), intent(in) :: transfer(4, 4), shear_flexibility
+        !> At the first and the second place
+        real(wp), intent(in) :: transfer(4, 4), shear_flexibility(2)
         real(wp) :: back(4, 4)
         real(wp) :: of_w(4, 4)
         integer, parameter :: partner(4) = [4, 3, 2, 1]
@@ -293,15 +313,15 @@ contains
 
         ! From v to w = v + M/GA and back
         of_w = transfer
-        of_w(1, :) = of_w(1, :) + shear_flexibility*of_w(3, :)
-        of_w(:, 3) = of_w(:, 3) - shear_flexibility*of_w(:, 1)
+        of_w(1, :) = of_w(1, :) + shear_flexibility(2)*of_w(3, :)
+        of_w(:, 3) = of_w(:, 3) - shear_flexibility(1)*of_w(:, 1)
         do j = 1, 4
             do i = 1, 4
                 back(i, j) = sign_of(i)*sign_of(j)*of_w(partner(j), partner(i))
             end do
         end do
-        back(1, :) = back(1, :) - shear_flexibility*back(3, :)
-        back(:, 3) = back(:, 3) + shear_flexibility*back(:, 1)
+        back(1, :) = back(1, :) - shear_flexibility(1)*back(3, :)
+        back(:, 3) = back(:, 3) + shear_flexibility(2)*back(:, 1)
     end function inverse
 
     !> Fields anywhere in a stretch, from its nearer end
@@ -311,7 +331,7 @@ contains
         real(wp), intent(in) :: xi
         !> Deflection, rotation, moment, shear
         real(wp), intent(out) :: w, psi, moment, shear
-        real(wp) :: y(4)
+        real(wp) :: y(4), soft(2)
         logical :: lost
 
         if (xi <= 0.5_wp) then
@@ -319,7 +339,8 @@ contains
         else
             call advance_curved(curved, 1.0_wp, curved%right, xi - 1, y, lost)
         end if
-        w = y(1) + curved%stretch%shear_flexibility*y(3)
+        soft(:) = softness_in(curved%stretch, xi)
+        w = y(1) + soft(2)*y(3)
         psi = y(2)
         moment = y(3)
         shear = y(4)

@@ -1,4 +1,4 @@
-!> Stiffness of a prismatic stretch of beam on elastic ground and under an axial force (Winkler 1867; Hetenyi 1946).
+!> Stiffness of a stretch of beam on elastic ground and under an axial force (Winkler 1867; Hetenyi 1946).
 !>
 !> The unknowns are those of the simply supported bar of docs/method.md 2, deflections and moments of both ends; a
 !> modulus of zero leaves that bar. Local coordinate x = 0..L to the right, xi = x/L. Signs as there: deflection, load and
@@ -6,6 +6,7 @@
 !> psi' = -M/EI + kappa, T' = K w - q. T is the transverse force V + N w', without an axial force the shear.
 module gapbeam_foundation
     use gapbeam_kinds, only: wp
+    use gapbeam_foundation_stretch, only: softest, softness_in
     use gapbeam_foundation_taylor, only: stretch_type, stretch_load_type, half_type, half_link, mirrored, turned, is_sloped, &
         stretched_shear, trace_of, determinant_of
     use gapbeam_foundation_series, only: end_functions_type, short_ends, is_short
@@ -55,17 +56,17 @@ module gapbeam_foundation
 contains
 
     !> How many decay lengths a stretch is long: beta L, beta = (K/(4 EI))**(1/4), and more with shear or an axial force. Where the
-    !> modulus is linear or negative, or the beam is compressed, it is the caller's to cut stretches until this is 1 at most;
-    !> others may be as long as they are
+    !> modulus is linear or negative, the stretch tapers, or the beam is compressed, it is the caller's to cut stretches until this
+    !> is 1 at most; others may be as long as they are
     elemental function decay_lengths(stretch) result(number)
         !> The stretch
         type(stretch_type), intent(in) :: stretch
         real(wp) :: number
-        real(wp) :: k
+        real(wp) :: k, soft(2)
 
         k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))
-        number = stretch%length*sqrt(abs(trace_of(stretch, k)) &
-                                     + 2*sqrt(k/stretched_shear(stretch))*sqrt(stretch%flexibility))/2
+        soft(:) = softest(stretch)
+        number = stretch%length*sqrt(abs(trace_of(stretch, k)) + 2*sqrt(k/stretched_shear(stretch))*sqrt(soft(1)))/2
     end function decay_lengths
 
     !> How the ends of a stretch answer to their deflections and moments
@@ -103,7 +104,7 @@ contains
         link%grounded = max(abs(stretch%modulus_a), abs(stretch%modulus_b)) > 0.0_wp
     end subroutine condense_loaded
 
-    !> How the ends answer where the modulus is constant
+    !> How the ends answer where modulus and stiffness are constant
     pure subroutine condense_even(stretch, h, link)
         type(stretch_type), intent(in) :: stretch
         !> The functions of its ends
@@ -146,7 +147,7 @@ contains
         link%gbb = link%gaa
     end subroutine condense_even
 
-    !> The same where the modulus changes along the stretch
+    !> The same where modulus or stiffness change along the stretch
     pure subroutine condense_sloped(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
         !> As for condense_loaded
         type(stretch_type), intent(in) :: stretch
@@ -157,13 +158,25 @@ contains
 
         call half_link(stretch, loads, a, turn_a, shear_a)
         call half_link(mirrored(stretch), turned(loads), b, turn_b, shear_b)
-        call link_of_halves(stretch%shear_flexibility, a, b, link)
+        call link_of_halves(shear_softness(stretch), a, b, link)
     end subroutine condense_sloped
+
+    !> 1/GA at both ends of a stretch
+    pure function shear_softness(stretch) result(g)
+        type(stretch_type), intent(in) :: stretch
+        real(wp) :: g(2), soft(2)
+        integer :: end
+
+        do end = 1, 2
+            soft(:) = softness_in(stretch, real(end - 1, wp))
+            g(end) = soft(2)
+        end do
+    end function shear_softness
 
     !> The link from what its ends feel
     pure subroutine link_of_halves(g, a, b, link)
-        !> 1/GA
-        real(wp), intent(in) :: g
+        !> 1/GA at both ends
+        real(wp), intent(in) :: g(2)
         !> What the left end feels, and the right one, seen from there
         type(half_type), intent(in) :: a, b
         type(stretch_link_type), intent(out) :: link
@@ -178,13 +191,13 @@ contains
         link%dg = a%dg
         link%dh = a%dh
         ! With shear w = v + M/GA; the sums are arranged as where the modulus is constant
-        link%faa = a%faa + g*a%pa
-        link%fbb = b%faa + g*b%pa
-        link%fab = a%fab - g*a%p1
-        link%df = a%df + g*(a%faa*b%pa + b%faa*a%pa + a%fab*b%p1 + b%fab*a%p1 + g*a%dh)
-        link%s1 = a%faa*b%p1**2 + a%pa*b%p1*(a%fab + b%fab) + a%pa**2*b%faa + g*a%pa*a%dh
-        link%s2 = b%p1*a%fab + a%pa*b%faa + g*a%dh
-        link%s3 = a%faa*b%pa + a%p1*b%fab + g*a%dh
+        link%faa = a%faa + g(1)*a%pa
+        link%fbb = b%faa + g(2)*b%pa
+        link%fab = a%fab - g(2)*a%p1
+        link%df = a%df + (g(1)*(b%faa*a%pa + a%fab*b%p1) + g(2)*(a%faa*b%pa + b%fab*a%p1) + g(1)*g(2)*a%dh)
+        link%s1 = a%faa*b%p1**2 + a%pa*b%p1*(a%fab + b%fab) + a%pa**2*b%faa + g(2)*a%pa*a%dh
+        link%s2 = b%p1*a%fab + a%pa*b%faa + g(2)*a%dh
+        link%s3 = a%faa*b%pa + a%p1*b%fab + g(1)*a%dh
         link%s4 = link%gaa*link%s3 + a%pa*a%dh + link%gab*(a%pa*b%fab + a%faa*b%p1)
         link%s5 = 2*a%dh + 1/a%determinant
         link%s6 = link%gaa*link%pb + link%p2*link%gab

@@ -1,8 +1,9 @@
-!> Fields inside a prismatic stretch of beam on elastic ground, from its load and end values.
+!> Fields inside a stretch of beam on elastic ground, from its load and end values.
 !> Units and signs as in gapbeam_foundation.
 module gapbeam_foundation_fields
     use gapbeam_kinds, only: wp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
+    use gapbeam_foundation_stretch, only: softness_in, without_slip
     use gapbeam_foundation_taylor, only: half_type, half_link, advance, mirrored, turned, is_sloped, stretched_shear, &
         trace_of, determinant_of, shear_of, transverse_of
     use gapbeam_foundation_series, only: triple_type, response_type, short_response, is_short
@@ -133,7 +134,7 @@ contains
         end associate
     end subroutine fade
 
-    !> Fields where the modulus changes along the stretch, from its nearer end
+    !> Fields where modulus or stiffness change along the stretch, from its nearer end
     pure subroutine sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -148,7 +149,7 @@ contains
         call sloped_fields_from(stretch, load, start, xi, w, psi, moment, shear)
     end subroutine sloped_fields
 
-    !> v = w - M/GA, psi, M and V at an end of a stretch whose modulus changes, seen from there
+    !> v = w - M/GA, psi, M and V at an end of a stretch whose modulus or stiffness changes, seen from there
     pure function sloped_start(stretch, load, ends, side) result(y)
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -157,16 +158,18 @@ contains
         integer, intent(in) :: side
         real(wp) :: y(4)
         type(half_type) :: h
+        type(stretch_type) :: other
         real(wp) :: v_a, v_b, by_load(2)
 
-        v_a = ends%w_a - stretch%shear_flexibility*ends%moment_a
-        v_b = ends%w_b - stretch%shear_flexibility*ends%moment_b
+        v_a = without_slip(stretch, 0.0_wp, ends%w_a, ends%moment_a)
+        v_b = without_slip(stretch, 1.0_wp, ends%w_b, ends%moment_b)
         if (side == 1) then
             call half_link(stretch, [load], h, by_load(1:1), by_load(2:2))
             y = start_of(stretch, h, by_load, v_a, v_b, ends%moment_a, ends%moment_b)
         else
-            call half_link(mirrored(stretch), [turned(load)], h, by_load(1:1), by_load(2:2))
-            y = start_of(stretch, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a)
+            other = mirrored(stretch)
+            call half_link(other, [turned(load)], h, by_load(1:1), by_load(2:2))
+            y = start_of(other, h, by_load, v_b, v_a, ends%moment_b, ends%moment_a)
         end if
     end function sloped_start
 
@@ -178,7 +181,7 @@ contains
         real(wp), intent(in) :: start(:, :)
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: w, psi, moment, shear
-        real(wp) :: y(4)
+        real(wp) :: y(4), soft(2)
 
         if (xi <= 0.5_wp) then
             call advance(stretch, load, 0.0_wp, start(:, 1), xi, y)
@@ -186,7 +189,8 @@ contains
             call advance(mirrored(stretch), turned(load), 0.0_wp, start(:, 2), 1 - xi, y)
             y = [y(1), -y(2), y(3), -y(4)]
         end if
-        w = y(1) + stretch%shear_flexibility*y(3)
+        soft(:) = softness_in(stretch, xi)
+        w = y(1) + soft(2)*y(3)
         psi = y(2)
         moment = y(3)
         shear = y(4)
@@ -194,6 +198,7 @@ contains
 
     !> v = w - M/GA, psi, M and V at the left end from v and M at both
     pure function start_of(stretch, half, by_load, v_a, v_b, moment_a, moment_b) result(y)
+        !> Seen from that end
         type(stretch_type), intent(in) :: stretch
         type(half_type), intent(in) :: half
         !> Rotation and shear by the load

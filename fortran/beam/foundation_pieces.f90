@@ -3,18 +3,19 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, determinant_of
+    use gapbeam_foundation_stretch, only: is_sloped, is_of_one_stiffness, softest, softness_in, without_slip
+    use gapbeam_foundation_taylor, only: expand, terms_of, stretched_shear, trace_of, determinant_of, deflection_series
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
     implicit none
     private
-    public :: question_type, piece_type, over_line, slope_of_transverse
+    public :: question_type, piece_type, over_line, slope_of_transverse, slope_of_curvature
     public :: has_middle, fading, piece_between, middle_piece, evaluate
 
     !> The functions whose zeros are sought, numbered as the fields whose slopes they are
     integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4, &
-        slope_of_transverse = 5
+        slope_of_transverse = 5, slope_of_curvature = 6
 
     !> What is asked, of which stretch
     type :: question_type
@@ -50,7 +51,7 @@ contains
 
         associate (s => stretch)
             has = s%modulus_a > 0.0_wp .and. .not. abs(s%modulus_b - s%modulus_a) > 0.0_wp .and. .not. s%tension < 0.0_wp &
-                .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
+                .and. is_of_one_stiffness(s) .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
         end associate
     end function has_middle
 
@@ -62,14 +63,15 @@ contains
         type(piece_type), intent(out) :: piece
         !> v, psi, M, V in its middle, where they are known
         real(wp), intent(in), optional :: in_middle(:)
-        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed
+        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed, soft(2), axis(0:most_taylor_terms)
         integer :: n, j
 
         associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
-                   xi => piece%middle, g => question%stretch%shear_flexibility)
+                   xi => piece%middle, f => soft(1), g => soft(2))
             xi = left + (right - left)/2
             piece%half = (right - left)/2
             pressed = 0.0_wp
+            soft(:) = softness_in(s, xi)
             if (allocated(question%curved)) then
                 call curved_piece(question%curved, xi, piece%half, c(1, :, :), pressed, in_middle)
                 n = order
@@ -87,32 +89,42 @@ contains
             scale = scale + scales(question, xi, piece%half, pressed)
             select case (question%what)
             case (over_line)
-                a(0:n) = c(1, 1, 0:n) + g*c(1, 3, 0:n)
+                a(0:n) = deflection_series(s, xi, piece%half, c(1, :, 0:n))
                 a(0) = a(0) - (question%line_a*(1 - xi) + question%line_b*xi)
                 a(1) = a(1) - (question%line_b - question%line_a)*piece%half
                 piece%noise = scale(1) + abs(question%line_a) + abs(question%line_b)
                 if (question%is_limit) call take_limit(question, n, piece)
             case (slope_of_w)
-                a(0:n) = c(1, 2, 0:n) + g*c(1, 4, 0:n)
+                if (is_of_one_stiffness(s)) then
+                    a(0:n) = c(1, 2, 0:n) + g*c(1, 4, 0:n)
+                else
+                    axis(0:n) = deflection_series(s, xi, piece%half, c(1, :, 0:n))
+                    call take_slope(axis, s%length*piece%half, a, n)
+                end if
                 a(0) = a(0) - question%line_a/s%length
                 piece%noise = scale(2) + abs(question%line_a)/s%length
             case (slope_of_psi)
-                a(0:n) = -s%flexibility*c(1, 3, 0:n)
-                a(0) = a(0) + p%kappa
-                piece%noise = s%flexibility*scale(3) + abs(p%kappa)
+                if (is_of_one_stiffness(s)) then
+                    a(0:n) = -f*c(1, 3, 0:n)
+                    a(0) = a(0) + p%kappa
+                else
+                    call take_slope(c(1, 2, :), s%length*piece%half, a, n)
+                end if
+                piece%noise = f*scale(3) + abs(p%kappa)
             case (slope_of_moment)
                 a(0:n) = c(1, 4, 0:n)
                 piece%noise = scale(4)
+            case (slope_of_curvature)
+                call take_slope(c(1, 2, :), s%length*piece%half, axis, n)
+                call take_slope(axis, s%length*piece%half, a, n)
+                piece%noise = f*(scale(4) + maxval(s%power*abs(s%taper))/s%length*scale(3))
             case default
-                n = n - 1
-                do j = 0, n
-                    a(j) = (j + 1)*c(1, 4, j + 1)/(s%length*piece%half)
-                end do
+                call take_slope(c(1, 4, :), s%length*piece%half, a, n)
                 piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed &
-                    + abs(s%tension)*(s%flexibility*scale(3) + abs(p%kappa))
+                    + abs(s%tension)*(f*scale(3) + abs(p%kappa))
                 if (question%what == slope_of_transverse) then
                     ! s V' + N psi' = ground's pressure less the load
-                    a(0:n) = stretched_shear(s)*a(0:n) - s%tension*s%flexibility*c(1, 3, 0:n)
+                    a(0:n) = stretched_shear(s)*a(0:n) - s%tension*f*c(1, 3, 0:n)
                     a(0) = a(0) + s%tension*p%kappa
                 end if
             end select
@@ -127,6 +139,22 @@ contains
             piece%degree = n
         end associate
     end subroutine piece_between
+
+    !> The slope of a field along the stretch from its series
+    pure subroutine take_slope(series, unit, slope, degree)
+        real(wp), intent(in) :: series(0:)
+        !> Of the series' variable, a length
+        real(wp), intent(in) :: unit
+        real(wp), intent(out) :: slope(0:)
+        !> Of the series, and of its slope
+        integer, intent(inout) :: degree
+        integer :: i
+
+        degree = degree - 1
+        do i = 0, degree
+            slope(i) = (i + 1)*series(i + 1)/unit
+        end do
+    end subroutine take_slope
 
     !> From w - line to stiffness side (w - line) - limit
     pure subroutine take_limit(question, degree, piece)
@@ -167,7 +195,7 @@ contains
             y = in_middle
         else
             call curved_fields(curved, xi, w, y(2), y(3), y(4))
-            y(1) = w - curved%stretch%shear_flexibility*y(3)
+            y(1) = without_slip(curved%stretch, xi, w, y(3))
         end if
         call expand_curved(curved, xi, y, half, c, modulus, forces, step)
         pressed = sum(abs(forces))
@@ -179,7 +207,7 @@ contains
         !> Middle and half of the piece, and what acts on it beside load and linear ground
         real(wp), intent(in) :: xi, half, pressed
         real(wp) :: scale(4)
-        real(wp) :: w, m, q, k, bent, square
+        real(wp) :: w, m, q, k, bent, square, soft(2)
 
         associate (s => question%stretch, p => question%load, e => question%ends, l => question%stretch%length)
             k = max(abs(s%modulus_a), abs(s%modulus_b))
@@ -193,12 +221,13 @@ contains
                 m = abs(e%moment_a) + abs(e%moment_b)
                 q = abs(p%qa) + abs(p%qb) + abs(p%qc) + k*w + pressed
                 square = l**2/8
+                soft(:) = softest(s)
                 ! Along a beam in tension what is farther away than sqrt(EI/N) bends it no more
                 if (s%tension > 0.0_wp) square = square/(1 + square*trace_of(s, k))
                 m = m + square*(q + s%tension*abs(p%kappa))
-                bent = abs(p%kappa) + s%flexibility*m
+                bent = abs(p%kappa) + soft(1)*m
                 w = w + l**2*bent/8
-                scale = [w, w/l + s%shear_flexibility*m/l, m, m/l]
+                scale = [w, w/l + soft(2)*m/l, m, m/l]
                 ! Where series begin with the transverse force
                 if (is_sloped(s)) scale(4) = scale(4) + abs(s%tension)*w/l
             end if
@@ -265,12 +294,15 @@ contains
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: f, slope
-        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, c(4, 0:order)
+        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, soft(2), softer(2), c(4, 0:order)
 
-        associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi)
+        associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi, f_of => soft(1), &
+                   g => soft(2))
+            soft(:) = softness_in(s, xi)
+            softer(:) = -s%power*s%taper/(1 + s%taper*xi)*soft
             if (allocated(question%curved)) then
                 call curved_piece(question%curved, xi, 1.0_wp, c, steeper)
-                w = c(1, 0) + s%shear_flexibility*c(3, 0)
+                w = c(1, 0) + g*c(3, 0)
                 psi = c(2, 0)
                 moment = c(3, 0)
                 shear = c(4, 0)
@@ -278,13 +310,13 @@ contains
                 steeper = 2*c(4, 2)/l
             else
                 call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
-                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + s%tension*(s%flexibility*moment - p%kappa) &
+                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + s%tension*(f_of*moment - p%kappa) &
                            - (p%qa*eta + p%qb*xi + p%qc*xi*eta))/stretched_shear(s)
-                steeper = ((s%modulus_b - s%modulus_a)*w + l*s%tension*s%flexibility*shear &
-                           + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + s%shear_flexibility*shear) &
+                steeper = ((s%modulus_b - s%modulus_a)*w + l*s%tension*f_of*shear &
+                           + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + g*shear) &
                            - (p%qb - p%qa + p%qc*(eta - xi)))/stretched_shear(s)
             end if
-            incline = psi + s%shear_flexibility*shear
+            incline = psi + g*shear
             select case (question%what)
             case (over_line)
                 f = w - (question%line_a*eta + question%line_b*xi)
@@ -297,10 +329,13 @@ contains
                 end if
             case (slope_of_w)
                 f = incline - question%line_a/l
-                slope = l*(p%kappa - s%flexibility*moment + s%shear_flexibility*pressed)
+                slope = l*(p%kappa - f_of*moment + g*pressed) + softer(2)*shear
             case (slope_of_psi)
-                f = p%kappa - s%flexibility*moment
-                slope = -l*s%flexibility*shear
+                f = p%kappa - f_of*moment
+                slope = -l*f_of*shear - softer(1)*moment
+            case (slope_of_curvature)
+                f = -f_of*shear - softer(1)*moment/l
+                slope = -l*f_of*pressed - 2*softer(1)*shear + (s%power(1) + 1)*s%taper(1)/(1 + s%taper(1)*xi)*softer(1)*moment/l
             case (slope_of_moment)
                 f = shear
                 slope = l*pressed

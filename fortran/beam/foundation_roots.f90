@@ -96,7 +96,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
         type(stretch_ends_type), intent(in) :: ends
-        !> 1 deflection, 2 rotation, 3 moment, 4 shear, 5 transverse force
+        !> 1 deflection, 2 rotation, 3 moment, 4 shear, 5 transverse force, 6 curvature
         integer, intent(in) :: what
         !> As for find_crossings
         real(wp), allocatable, intent(out) :: xi(:)

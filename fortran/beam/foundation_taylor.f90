@@ -3,31 +3,19 @@
 !> v = w - M/GA instead of w leaves four equations without derivatives of loads: v' = psi, psi' = -M/EI + kappa, M' = V,
 !> (1 + N/GA) V' = K (v + M/GA) + N (M/EI - kappa) - q. Their series converge everywhere (K is a polynomial); they are short where
 !> beta L is 1 at most, and the caller cuts stretches to that. Links know the transverse force T = V + N w' in place of V.
+!> Where the beam tapers M/EI, M/GA and (1/GA)' M have series of their own (gapbeam_foundation_stretch).
 module gapbeam_foundation_taylor
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: taylor_tail
+    use gapbeam_foundation_stretch, only: stretch_type, stretch_load_type, softness_type, is_of_one_stiffness, softest, &
+        softness_around, soften, part_of_stretch
     implicit none
     private
     public :: stretch_type, stretch_load_type, half_type
     public :: half_link, half_of_transfer, transfer_of_forces, advance, expand, terms_of
     public :: mirrored, turned, is_sloped, stretched_shear, trace_of, determinant_of, transverse_of, shear_of
-
-    !> A prismatic stretch on elastic ground
-    type :: stretch_type
-        !> Length, 1/EI and 1/GA (zero: rigid)
-        real(wp) :: length = 0.0_wp, flexibility = 0.0_wp, shear_flexibility = 0.0_wp
-        !> Modulus of the ground (force/length**2) at the left and right end, linear in between; negative where it softens
-        real(wp) :: modulus_a = 0.0_wp, modulus_b = 0.0_wp
-        !> Axial force N in it, tension positive, with that of a layer that resists slopes (Pasternak)
-        real(wp) :: tension = 0.0_wp
-    end type stretch_type
-
-    !> What loads a stretch
-    type :: stretch_load_type
-        !> Load per length qa (1 - xi) + qb xi + qc xi (1 - xi), down; imposed curvature
-        real(wp) :: qa = 0.0_wp, qb = 0.0_wp, qc = 0.0_wp, kappa = 0.0_wp
-    end type stretch_load_type
+    public :: deflection_series
 
     !> What the left end feels of both, with v in place of w and signs as in stretch_link_type:
     !> psi_a = -pa v_a + p1 v_b + faa M_a + fab M_b + turn, V_a = -.. M_a + p2 M_b - gaa v_a - gab v_b + shear, where turn and shear
@@ -147,6 +135,8 @@ contains
         !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
         real(wp), intent(out), contiguous :: c(:, :, 0:)
         real(wp) :: q(size(loads), 0:2), k0, k1, h, part, slack
+        real(wp), dimension(size(start, 1), 0:n) :: w, bent, slid, shifted
+        type(softness_type) :: softness
         integer :: i, first
 
         associate (s => stretch, p => loads, eta => 1 - xi)
@@ -162,21 +152,43 @@ contains
             k1 = k1*slack
             q(:, 0) = (q(:, 0) + s%tension*p%kappa)*slack
             q(:, 1:) = q(:, 1:)*slack
+            softness = softness_around(s, xi, step)
             c(:, :, 0) = start
             do i = 0, n - 1
                 part = h/(i + 1)
+                call soften(softness, i, c(:, 3, i), bent, slid, shifted)
+                w(:, i) = c(:, 1, i) + slid(:, i)
                 c(:, 1, i + 1) = part*c(:, 2, i)
-                c(:, 2, i + 1) = -part*s%flexibility*c(:, 3, i)
+                if (s%power(2) > 0) c(:, 1, i + 1) = c(:, 1, i + 1) - shifted(:, i)/(i + 1)
+                c(:, 2, i + 1) = -part*bent(:, i)
                 c(:, 3, i + 1) = part*c(:, 4, i)
-                c(:, 4, i + 1) = part*k0*(c(:, 1, i) + s%shear_flexibility*c(:, 3, i))
-                if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) &
-                    + part*k1*(c(:, 1, i - 1) + s%shear_flexibility*c(:, 3, i - 1))
-                if (abs(s%tension) > 0.0_wp) c(:, 4, i + 1) = c(:, 4, i + 1) + part*s%tension*slack*s%flexibility*c(:, 3, i)
+                c(:, 4, i + 1) = part*k0*w(:, i)
+                if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) + part*k1*w(:, i - 1)
+                if (abs(s%tension) > 0.0_wp) c(:, 4, i + 1) = c(:, 4, i + 1) + part*s%tension*slack*bent(:, i)
                 if (i == 0) c(first:, 2, 1) = c(first:, 2, 1) + part*p%kappa
                 if (i <= 2) c(first:, 4, i + 1) = c(first:, 4, i + 1) - part*q(:, i)
             end do
         end associate
     end subroutine expand
+
+    !> Series of the deflection w = v + M/GA from those of the fields
+    pure function deflection_series(stretch, xi, step, c) result(w)
+        !> As for expand
+        type(stretch_type), intent(in) :: stretch
+        real(wp), intent(in) :: xi, step
+        !> Of v, psi, M, V, shape (4, 0:n)
+        real(wp), intent(in) :: c(:, 0:)
+        real(wp) :: w(0:ubound(c, 2))
+        real(wp), dimension(1, 0:ubound(c, 2)) :: bent, slid, shifted
+        type(softness_type) :: softness
+        integer :: i
+
+        softness = softness_around(stretch, xi, step)
+        do i = 0, ubound(c, 2)
+            call soften(softness, i, c(3:3, i), bent, slid, shifted)
+        end do
+        w(:) = c(1, :) + slid(1, :)
+    end function deflection_series
 
     !> How many terms it takes until the next ones are below rounding
     pure function terms_of(stretch, step) result(n)
@@ -185,7 +197,8 @@ contains
         !> Distance in parts of its length
         real(wp), intent(in) :: step
         integer :: n
-        real(wp) :: rate, term, k
+        real(wp) :: rate, term, k, growth(2)
+        integer :: i, number
 
         k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))
         rate = stretch%length*abs(step)*sqrt(abs(trace_of(stretch, k)) + sqrt(determinant_of(stretch, k)))
@@ -198,6 +211,21 @@ contains
         ! A modulus that changes gives five terms in place of four, with shear three in place of two; a load begins late
         if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
         n = min(n + 6, most_taylor_terms)
+        if (is_of_one_stiffness(stretch)) return
+        ! Beside them those of the reciprocal of a power of the depth
+        growth(:) = abs(stretch%taper)*step/min(1.0_wp, 1 + stretch%taper)
+        number = 0
+        do i = 1, 2
+            if (stretch%power(i) == 0) cycle
+            k = 0.0_wp
+            term = 1.0_wp
+            do while (term > taylor_tail .and. k < most_taylor_terms)
+                k = k + 1
+                term = term*growth(i)*(k + stretch%power(i) - 1)/k
+            end do
+            number = max(number, nint(k))
+        end do
+        n = min(n + number, most_taylor_terms)
     end function terms_of
 
     !> 1 + N/GA: the shear force is normal to the deflected axis (Engesser 1891), so T = (1 + N/GA) V + N psi
@@ -208,14 +236,17 @@ contains
         factor = 1 + stretch%tension*stretch%shear_flexibility
     end function stretched_shear
 
-    !> Trace of the matrix A of y'' = A y, y = (w, M), with the rows (K/GA, -1/EI) and (K, N/EI), both over 1 + N/GA
+    !> Trace of the matrix A of y'' = A y, y = (w, M), with the rows (K/GA, -1/EI) and (K, N/EI), both over 1 + N/GA; of a tapered
+    !> stretch where it is softest
     elemental function trace_of(stretch, modulus) result(trace)
         type(stretch_type), intent(in) :: stretch
         !> K
         real(wp), intent(in) :: modulus
         real(wp) :: trace
+        real(wp) :: soft(2)
 
-        trace = (modulus*stretch%shear_flexibility + stretch%tension*stretch%flexibility)/stretched_shear(stretch)
+        soft(:) = softest(stretch)
+        trace = (modulus*soft(2) + stretch%tension*soft(1))/stretched_shear(stretch)
     end function trace_of
 
     !> Its determinant
@@ -224,8 +255,10 @@ contains
         type(stretch_type), intent(in) :: stretch
         real(wp), intent(in) :: modulus
         real(wp) :: determinant
+        real(wp) :: soft(2)
 
-        determinant = modulus*stretch%flexibility/stretched_shear(stretch)
+        soft(:) = softest(stretch)
+        determinant = modulus*soft(1)/stretched_shear(stretch)
     end function determinant_of
 
     !> The transverse force T = V + N w', which loads and reactions balance
@@ -253,9 +286,8 @@ contains
         type(stretch_type), intent(in) :: stretch
         type(stretch_type) :: other
 
-        other = stretch
-        other%modulus_a = stretch%modulus_b
-        other%modulus_b = stretch%modulus_a
+        other = part_of_stretch(stretch, [1.0_wp, 0.0_wp])
+        other%length = stretch%length
     end function mirrored
 
     !> Its load seen from there
@@ -268,12 +300,12 @@ contains
         other%qb = load%qa
     end function turned
 
-    !> Does the modulus change along the stretch
+    !> Does the modulus, or a stiffness of the beam, change along the stretch
     pure function is_sloped(stretch) result(sloped)
         type(stretch_type), intent(in) :: stretch
         logical :: sloped
 
-        sloped = abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp
+        sloped = abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp .or. .not. is_of_one_stiffness(stretch)
     end function is_sloped
 
 end module gapbeam_foundation_taylor

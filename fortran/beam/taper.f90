@@ -7,12 +7,13 @@
 !> the stretch is soft: there they have all their digits.
 module gapbeam_taper
     use gapbeam_kinds, only: wp
+    use gapbeam_tolerances, only: most_deepening
     use gapbeam_piece, only: piece_type, piece_load_type, is_tapered
     use gapbeam_element, only: field_type, fields_at
     implicit none
     private
-    public :: depth_ratio, softness_at, mean_softness, find_softness, turn_ends, fields_in_piece
-    public :: intervals_in, points_in, number_of_points
+    public :: depth_ratio, depth_ratios, softness_at, part_of_piece, mean_softness, find_softness, turn_ends, fields_in_piece
+    public :: intervals_in, points_in, number_of_points, steps_of_taper, share_of_taper
 
     !> Left half of the points of Gauss's formula with 28 points from 0 to 1, and their weights: 3e-43 is left of a function whose
     !> pole is as near as it gets. Doubles could do with 16 (6e-25)
@@ -56,13 +57,37 @@ contains
         real(wp), intent(in) :: distance
         real(wp) :: softness(2)
 
-        associate (p => piece)
-            softness(1) = softness_of(p%flexibility, depth_ratio(p%flexibility, p%flexibility_to, p%power), p%power, &
-                                      distance/p%length)
-            softness(2) = softness_of(p%shear_flexibility, depth_ratio(p%shear_flexibility, p%shear_flexibility_to, &
-                                      p%shear_power), p%shear_power, distance/p%length)
-        end associate
+        softness(:) = softness_of([piece%flexibility, piece%shear_flexibility], depth_ratios(piece), &
+                                  [piece%power, piece%shear_power], distance/piece%length)
     end function softness_at
+
+    !> Depths at the right end relative to those at the left: of EI, of GA
+    pure function depth_ratios(piece) result(ratios)
+        type(piece_type), intent(in) :: piece
+        real(wp) :: ratios(2)
+
+        ratios(:) = depth_ratio([piece%flexibility, piece%shear_flexibility], &
+                                [piece%flexibility_to, piece%shear_flexibility_to], [piece%power, piece%shear_power])
+    end function depth_ratios
+
+    !> What of a piece lies between two places
+    pure function part_of_piece(piece, from, to) result(part)
+        type(piece_type), intent(in) :: piece
+        !> From its left end
+        real(wp), intent(in) :: from, to
+        type(piece_type) :: part
+        real(wp) :: softness(2)
+
+        part = piece
+        part%length = to - from
+        if (.not. is_tapered(piece)) return
+        softness(:) = softness_at(piece, from)
+        part%flexibility = softness(1)
+        part%shear_flexibility = softness(2)
+        softness(:) = softness_at(piece, to)
+        part%flexibility_to = softness(1)
+        part%shear_flexibility_to = softness(2)
+    end function part_of_piece
 
     !> The reciprocal of a stiffness at a share t of the length
     elemental function softness_of(flexibility, ratio, power, t) result(softness)
@@ -248,12 +273,43 @@ contains
     pure function steeper_ratio(piece) result(ratio)
         type(piece_type), intent(in) :: piece
         real(wp) :: ratio
-        real(wp) :: other
+        real(wp) :: ratios(2)
 
-        ratio = depth_ratio(piece%flexibility, piece%flexibility_to, piece%power)
-        other = depth_ratio(piece%shear_flexibility, piece%shear_flexibility_to, piece%shear_power)
-        if (abs(log(other)) > abs(log(ratio))) ratio = other
+        ratios(:) = depth_ratios(piece)
+        ratio = ratios(merge(2, 1, abs(log(ratios(2))) > abs(log(ratios(1)))))
     end function steeper_ratio
+
+    !> Into how many steps a piece is cut so that its depths change little on each
+    pure function steps_of_taper(piece) result(steps)
+        type(piece_type), intent(in) :: piece
+        integer :: steps
+
+        steps = max(1, ceiling(sum(abs(log(grown_and_fallen(piece))))/log(most_deepening)))
+    end function steps_of_taper
+
+    !> Share of the length at which the depths have changed by a part of their whole change: by equal factors on equal parts
+    pure function share_of_taper(piece, part) result(t)
+        !> Of more than one step
+        type(piece_type), intent(in) :: piece
+        !> 0..1
+        real(wp), intent(in) :: part
+        real(wp) :: t
+        real(wp) :: ratio(2), factor
+
+        ! Where one depth grows and the other falls, their quotient is what changes
+        ratio(:) = grown_and_fallen(piece)
+        factor = (ratio(1)/ratio(2))**part
+        t = (factor - 1)/((ratio(1) - 1) + factor*(1 - ratio(2)))
+    end function share_of_taper
+
+    !> Ratio of the depth that grows more, 1 or more, and of the one that falls more, 1 or less
+    pure function grown_and_fallen(piece) result(ratio)
+        type(piece_type), intent(in) :: piece
+        real(wp) :: ratio(2), ratios(2)
+
+        ratios(:) = depth_ratios(piece)
+        ratio(:) = [max(1.0_wp, maxval(ratios)), min(1.0_wp, minval(ratios))]
+    end function grown_and_fallen
 
     !> Intervals in each of which the depth at most doubles or halves
     pure function intervals_of(ratio, share) result(number)

@@ -4,6 +4,7 @@
 !> of the depths the derivatives are polynomials, but for that of the deflection: it is monotone between the roots of its own.
 module gapbeam_taper_extremes
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: most_power
     use gapbeam_polynomial, only: roots_between
     use gapbeam_piece, only: piece_type, piece_load_type
     use gapbeam_element, only: field_type
@@ -11,10 +12,8 @@ module gapbeam_taper_extremes
     use gapbeam_quantities, only: of_rotation, of_moment, of_shear, of_curvature
     implicit none
     private
-    public :: find_turning_places, most_places, most_power
+    public :: find_turning_places, most_places
 
-    !> Power of a depth that a stiffness may be
-    integer, parameter :: most_power = 4
     !> Degree of what the roots of the second derivative of the deflection are those of, and places in a piece
     integer, parameter :: most_degree = 2*most_power + 1, most_places = most_degree + 1
 

@@ -10,10 +10,12 @@ module gapbeam_find_zones
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points
-    use gapbeam_ground_laws, only: between, contact_line, line_of_breakpoint, distance_to_breakpoint, &
+    use gapbeam_ground_laws, only: contact_line, line_of_breakpoint, distance_to_breakpoint, &
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
+    use gapbeam_foundation_stretch, only: without_slip
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
+    use gapbeam_ground_steps, only: border_of_step
     use gapbeam_zone_fields, only: ends_of, take_curved
     implicit none
     private
@@ -86,7 +88,7 @@ contains
                     end if
                 end if
                 call find_fields(of, share, w, psi, moment, shear)
-                found%start(:, k) = [w - grounded%stretches(i)%shear_flexibility*moment, psi, moment, shear]
+                found%start(:, k) = [without_slip(grounded%stretches(of), share, w, moment), psi, moment, shear]
             end do
         end subroutine carry_fields
 
@@ -141,7 +143,7 @@ contains
                 allocate (cuts(old + merge(next%steps(piece), 0, other)))
                 cuts(:old) = zones%to(first:last)
                 do i = 1, size(cuts) - old
-                    cuts(old + i) = between(0.0_wp, length, i, next%steps(piece))
+                    cuts(old + i) = border_of_step(ground%pieces(piece), i, next%steps(piece))
                 end do
             end associate
             do i = first, last
@@ -213,7 +215,7 @@ contains
                 if (from > 0.0_wp) joins = all(acts == next%acts(:, m))
                 do while (step < steps)
                     ! Steps of ground that varies stay
-                    if (from < between(0.0_wp, ground%pieces(piece)%length, step, steps)) exit
+                    if (from < border_of_step(ground%pieces(piece), step, steps)) exit
                     joins = .false.
                     step = step + 1
                 end do

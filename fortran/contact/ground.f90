@@ -5,12 +5,13 @@
 module gapbeam_ground
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type, link_type, condense_link
+    use gapbeam_foundation_stretch, only: stretch_between
     use gapbeam_band, only: plain
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded, decay_lengths
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded
     use gapbeam_curved, only: curved_type, condense_curved
-    use gapbeam_laws, only: law_hardening
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
-    use gapbeam_ground_laws, only: between, along, contact_line, slope_of_layer, offset_of_layer, take_curves
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve
+    use gapbeam_ground_steps, only: steps_on, border_of_step
+    use gapbeam_ground_laws, only: along, contact_line, slope_of_layer, offset_of_layer, take_curves
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none
     private
@@ -57,7 +58,7 @@ module gapbeam_ground
         integer, allocatable :: acts(:, :)
         !> Fields (v = w - M/GA, psi, M, V) at the left ends, near which curves are taken for straight, shape (4, m); else unused
         real(wp), allocatable :: start(:, :)
-        !> Into how many equal steps every piece is cut in any case, so that series hold, shape (n)
+        !> Into how many steps (border_of_step) every piece is cut in any case, so that series hold, shape (n)
         integer, allocatable :: steps(:)
     end type zones_type
 
@@ -133,8 +134,8 @@ contains
             do k = 1, zones%steps(j)
                 m = m + 1
                 zones%piece(m) = j
-                zones%from(m) = between(0.0_wp, ground%pieces(j)%length, k - 1, zones%steps(j))
-                zones%to(m) = between(0.0_wp, ground%pieces(j)%length, k, zones%steps(j))
+                zones%from(m) = border_of_step(ground%pieces(j), k - 1, zones%steps(j))
+                zones%to(m) = border_of_step(ground%pieces(j), k, zones%steps(j))
                 zones%acts(:, m) = 0
                 zones%acts(1:ground%first(j + 1) - ground%first(j), m) = 1
                 if (ground%first(j) < ground%first(j + 1)) zones%start(:2, m) = line_of_contact(ground%layers(ground%first(j)))
@@ -176,56 +177,16 @@ contains
         end do
     end function steps_of
 
-    !> Into how many equal steps a piece is cut in any case: where the modulus varies, and under compression, series hold for
-    !> beta*length <= 1. Laws that stiffen may need more (gapbeam_zones)
+    !> Into how many steps a piece is cut in any case
     pure function steps_of_piece(ground, piece, stiffer) result(steps)
         type(ground_type), intent(in) :: ground
         integer, intent(in) :: piece
-        !> Modulus of those that do beside that at first; default 0
+        !> As for steps_on
         real(wp), intent(in), optional :: stiffer
-        integer :: steps, k
-        real(wp) :: modulus
-        logical :: varies
+        integer :: steps
 
-        modulus = 0.0_wp
-        if (present(stiffer)) modulus = stiffer
-        varies = modulus > 0.0_wp .or. ground%pieces(piece)%compression > 0.0_wp
-        do k = ground%first(piece), ground%first(piece + 1) - 1
-            associate (layer => ground%layers(k))
-                if (.not. has_points(layer)) then
-                    ! Also where a law is curved
-                    modulus = modulus + stiffest(layer)
-                    varies = varies .or. stiffest(layer) > 0.0_wp
-                    cycle
-                end if
-                if (layer%law_last >= layer%law_first) then
-                    associate (laws => ground%laws(layer%law_first:layer%law_last))
-                        if (.not. any(abs(laws%slope_a - laws%slope_b) > 0.0_wp)) cycle
-                        modulus = modulus + max(maxval(laws%slope_a), maxval(laws%slope_b))
-                        varies = .true.
-                    end associate
-                    cycle
-                end if
-                modulus = modulus + max(layer%modulus_a, layer%modulus_b)
-                varies = varies .or. abs(layer%modulus_a - layer%modulus_b) > 0.0_wp
-            end associate
-        end do
-        steps = 1
-        if (.not. varies) return
-        associate (p => ground%pieces(piece))
-            steps = max(1, ceiling(decay_lengths(stretch_type(p%length, p%flexibility, p%shear_flexibility, modulus, modulus, &
-                                                              merge(p%tension, -p%compression, .not. p%compression > 0.0_wp)))))
-        end associate
+        steps = steps_on(ground%layers(ground%first(piece):ground%first(piece + 1) - 1), ground%laws, ground%pieces(piece), stiffer)
     end function steps_of_piece
-
-    !> Greatest stiffness of a law with parameters, of one that stiffens that at first
-    elemental function stiffest(layer) result(modulus)
-        type(layer_type), intent(in) :: layer
-        real(wp) :: modulus
-
-        modulus = max(layer%parameter_a(1), layer%parameter_b(1))
-        if (layer%law == law_hardening) modulus = max(modulus, layer%parameter_a(3), layer%parameter_b(3))
-    end function stiffest
 
     !> The beam as it is on its zones
     pure subroutine place_stretches(ground, zones, factor, grounded)
@@ -312,7 +273,7 @@ contains
         integer :: k
 
         associate (j => zones%piece(i), s => stretch, from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
-            s = stretch_type(length=to - from, flexibility=p%flexibility, shear_flexibility=p%shear_flexibility, tension=p%tension)
+            s = stretch_between(p, from, to)
             s%modulus_a = 0.0_wp - ground%frequency_squared*p%mass
             s%modulus_b = s%modulus_a
             dead = load_between(ground%dead(j), from, to, p%length)

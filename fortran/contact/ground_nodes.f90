@@ -5,10 +5,11 @@ module gapbeam_ground_nodes
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: no_node_slope
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
+    use gapbeam_taper, only: part_of_piece
     use gapbeam_band, only: plain
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
-    use gapbeam_foundation, only: stretch_type
+    use gapbeam_foundation_stretch, only: stretch_between
     use gapbeam_ground, only: ground_type, condense_both, load_between
     use gapbeam_ground_mesh, only: mesh_type
     implicit none
@@ -124,8 +125,7 @@ contains
         supports(:)%node = mesh%node(supports(:)%node)
         call order_supports(supports, beam)
         do i = 1, n
-            p = ground%pieces(mesh%piece(i))
-            p%length = mesh%to(i) - mesh%from(i)
+            p = part_of_piece(ground%pieces(mesh%piece(i)), mesh%from(i), mesh%to(i))
             call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
         end do
         if (any(abs(ground%pieces%tension) > 0.0_wp)) call feel_tension(ground, mesh, beam)
@@ -156,8 +156,7 @@ contains
         allocate (beam%ground(size(mesh%piece)))
         do i = 1, size(mesh%piece)
             associate (j => mesh%piece(i), from => mesh%from(i), to => mesh%to(i), piece => ground%pieces(mesh%piece(i)))
-                call condense_both(stretch_type(length=to - from, flexibility=piece%flexibility, &
-                                                shear_flexibility=piece%shear_flexibility, tension=piece%tension), &
+                call condense_both(stretch_between(piece, from, to), &
                                    load_between(ground%dead(j), from, to, piece%length), &
                                    load_between(ground%live(j), from, to, piece%length), beam%links(i), beam%ground(i))
             end associate

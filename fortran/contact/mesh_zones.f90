@@ -4,8 +4,10 @@ module gapbeam_mesh_zones
     use gapbeam_tolerances, only: one_place_on_curves, lone_node_zone
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: pieces_of_law
-    use gapbeam_ground_laws, only: between, distance_to_breakpoint, parameters_at, slope_at
+    use gapbeam_taper, only: softness_at
+    use gapbeam_ground_laws, only: distance_to_breakpoint, parameters_at, slope_at
     use gapbeam_ground, only: ground_type, zones_type, new_zones, resize, steps_of, steps_of_piece
+    use gapbeam_ground_steps, only: border_of_step
     use gapbeam_ground_mesh, only: mesh_type, acts_at
     implicit none
     private
@@ -146,7 +148,7 @@ contains
         subroutine make_zones(piece)
             integer, intent(in) :: piece
             integer :: acts(size(zones%acts, 1)), k, c, step, part
-            real(wp) :: from, next, length
+            real(wp) :: from, next, length, border
 
             length = ground%pieces(piece)%length
             acts(:) = 0
@@ -164,10 +166,11 @@ contains
                     acts(layer(c)) = to(c)
                     c = c + 1
                 end do
-                next = between(0.0_wp, length, step, steps(piece))
+                border = border_of_step(ground%pieces(piece), step, steps(piece))
+                next = border
                 if (c <= number) next = min(next, cuts(c))
-                if (next >= between(0.0_wp, length, step, steps(piece)) - one_place_on_curves*length) then
-                    next = between(0.0_wp, length, step, steps(piece))
+                if (next >= border - one_place_on_curves*length) then
+                    next = border
                     step = step + 1
                 end if
                 if (m == size(zones%piece)) call resize(zones, 2*m, m)
@@ -189,10 +192,11 @@ contains
         pure function fields_in(part, share) result(fields)
             integer, intent(in) :: part
             real(wp), intent(in) :: share
-            real(wp) :: fields(4), length, shears(2), a, b
+            real(wp) :: fields(4), length, shears(2), a, b, soft(2)
 
-            associate (p => ground%pieces(mesh%piece(part)))
+            associate (p => ground%pieces(mesh%piece(part)), f => soft(1), g => soft(2))
                 length = mesh%to(part) - mesh%from(part)
+                soft(:) = softness_at(p, mesh%from(part) + share*length)
                 a = mesh%moment_right(part - 1)
                 b = mesh%moment_left(part)
                 shears = [shear_at(part, max(part - 1, mesh%node(mesh%piece(part) - 1) + 1)), &
@@ -200,10 +204,10 @@ contains
                 fields(3) = a + share*(b - a)
                 fields(4) = shears(1) + share*(shears(2) - shears(1))
                 fields(2) = (mesh%deflection(part) - mesh%deflection(part - 1))/length &
-                    + p%flexibility*length*(a*(1.0_wp/3 - share + share**2/2) + b*(1.0_wp/6 - share**2/2)) &
-                    - p%shear_flexibility*(b - a)/length
+                    + f*length*(a*(1.0_wp/3 - share + share**2/2) + b*(1.0_wp/6 - share**2/2)) &
+                    - g*(b - a)/length
                 fields(1) = mesh%deflection(part - 1) + share*(mesh%deflection(part) - mesh%deflection(part - 1)) &
-                    + p%flexibility*length**2*share*(1 - share)*(a*(2 - share) + b*(1 + share))/6 - p%shear_flexibility*fields(3)
+                    + f*length**2*share*(1 - share)*(a*(2 - share) + b*(1 + share))/6 - g*fields(3)
             end associate
         end function fields_in
 

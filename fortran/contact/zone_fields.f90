@@ -2,6 +2,7 @@
 module gapbeam_zone_fields
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: straight_field
+    use gapbeam_foundation_stretch, only: without_slip
     use gapbeam_foundation_taylor, only: shear_of
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_curved, only: curved_type
@@ -73,9 +74,9 @@ contains
             call fields_at_ends(grounded, factor, work, i, rotation, shear)
             curved%stretch = s
             curved%load = combined_load(grounded%dead(i), grounded%live(i), factor)
-            associate (a => work%answers(i - 1), b => work%answers(i), g => s%shear_flexibility)
-                curved%left = [a%deflection - g*a%moment_right, rotation(1), a%moment_right, shear(1)]
-                curved%right = [b%deflection - g*b%moment_left, rotation(2), b%moment_left, shear(2)]
+            associate (a => work%answers(i - 1), b => work%answers(i))
+                curved%left = [without_slip(s, 0.0_wp, a%deflection, a%moment_right), rotation(1), a%moment_right, shear(1)]
+                curved%right = [without_slip(s, 1.0_wp, b%deflection, b%moment_left), rotation(2), b%moment_left, shear(2)]
             end associate
         end associate
     end subroutine take_curved
@@ -98,7 +99,7 @@ contains
                 .and. grounded%stretches(i - 1)%length > grounded%stretches(i)%length
             call fields_at_ends(grounded, factor, work, merge(i - 1, i, from_right), rotation, shear)
             associate (a => work%answers(i - 1), s => grounded%stretches(i), end => merge(2, 1, from_right))
-                fields(:, i) = [a%deflection - s%shear_flexibility*a%moment_right, rotation(end), a%moment_right, shear(end)]
+                fields(:, i) = [without_slip(s, 0.0_wp, a%deflection, a%moment_right), rotation(end), a%moment_right, shear(end)]
             end associate
         end do
     end subroutine take_fields

@@ -9,6 +9,7 @@ module gapbeam_zone_margin
     use gapbeam_limits, only: parts_of_stretch, most_root_steps
     use gapbeam_tolerances, only: stationary_place
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
+    use gapbeam_foundation_stretch, only: softness_in
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_law_margins, only: margin_in_scheme
@@ -128,7 +129,7 @@ contains
             real(wp), intent(in) :: share
             !> Of the way
             real(wp), intent(out) :: slope
-            real(wp) :: w, psi, moment, shear, way
+            real(wp) :: w, psi, moment, shear, way, soft(2)
 
             associate (s => grounded%stretches(i))
                 if (allocated(curved)) then
@@ -136,7 +137,8 @@ contains
                 else
                     call fields_at(s, load, ends, share, w, psi, moment, shear)
                 end if
-                call distance_to_breakpoint(ground%laws, ground%layers(k), change%branch, w, psi + s%shear_flexibility*shear, &
+                soft(:) = softness_in(s, share)
+                call distance_to_breakpoint(ground%laws, ground%layers(k), change%branch, w, psi + soft(2)*shear, &
                                             (left - begin) + share*s%length, ground%pieces(j)%length, way, slope)
                 if (merge(way > margin, way < margin, change%greatest)) then
                     margin = way

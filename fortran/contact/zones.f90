@@ -11,6 +11,7 @@ module gapbeam_zones
     use gapbeam_tolerances, only: moving_noise, far_from_solution, largest_ratio, most_ahead, same_ends, unmoved_share
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_foundation_stretch, only: softness_in
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_ground_laws, only: distance_to_breakpoint
@@ -156,7 +157,7 @@ contains
         type(zones_type), intent(out) :: found
         !> Is there an end that would have to go farther than the stretches beside it are long: there are other zones
         logical, intent(out) :: others
-        real(wp) :: rotation(2), shear(2), slope, away
+        real(wp) :: rotation(2), shear(2), soft(2), slope, away
         integer :: i, k, law
 
         found = zones
@@ -169,8 +170,9 @@ contains
             associate (layer => ground%layers(ground%first(zones%piece(i)) + k - 1), at => zones%to(i), &
                        length => ground%pieces(zones%piece(i))%length, s => grounded%stretches(i))
                 call fields_at_ends(grounded, factor, work, i, rotation, shear)
-                call distance_to_breakpoint(ground%laws, layer, law, work%answers(i)%deflection, &
-                                            rotation(2) + s%shear_flexibility*shear(2), at, length, away, slope)
+                soft(:) = softness_in(s, 1.0_wp)
+                call distance_to_breakpoint(ground%laws, layer, law, work%answers(i)%deflection, rotation(2) + soft(2)*shear(2), &
+                                            at, length, away, slope)
                 if (.not. abs(away) < abs(slope)*min(s%length, grounded%stretches(i + 1)%length)) then
                     others = others .or. abs(away) > 0.0_wp
                     cycle

@@ -9,15 +9,16 @@ module gapbeam_ground_audit
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
+    use gapbeam_taper, only: softness_at
     use gapbeam_law, only: force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_ground_laws, only: contact_line, distance_to_breakpoint, push_of_layer
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
-    use gapbeam_ground_fields, only: field_at_end, force_at_end, find_sizes
+    use gapbeam_ground_fields, only: field_at_end, force_at_end, find_sizes, breakpoint_terms, pressure_terms
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_contact, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
-    use gapbeam_stretch_audit, only: sums_type, audit_stretch, breakpoint_terms, pressure_terms
+    use gapbeam_stretch_audit, only: sums_type, audit_stretch
     implicit none
     private
     public :: audit_ground
@@ -227,7 +228,7 @@ contains
             !> The stretch left of it
             integer, intent(in) :: i
             type(field_type) :: a, b
-            real(wp) :: past, change, push(2), length, terms, steepness, incline
+            real(wp) :: past, change, push(2), length, terms, steepness, incline, soft(2)
             integer :: k, breakpoint
 
             a = field_at_end(solution, i, 2)
@@ -242,7 +243,8 @@ contains
                 call note(ledger, of_equilibrium, forces, (force_at_end(solution, i + 1, 1) - force_at_end(solution, i, 2)) &
                           - push_at(i), sizes%shear, piece, at)
                 call audit_push(i, piece, at, a%deflection)
-                incline = a%rotation + ground%pieces(piece)%shear_flexibility*a%shear
+                soft(:) = softness_at(ground%pieces(piece), at)
+                incline = a%rotation + soft(2)*a%shear
                 do k = 1, ground%first(piece + 1) - ground%first(piece)
                     if (before(k) == after(k) .or. ground%layers(ground%first(piece) + k - 1)%rigid) cycle
                     associate (layer => ground%layers(ground%first(piece) + k - 1))

@@ -4,16 +4,18 @@ module gapbeam_ground_fields
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
+    use gapbeam_foundation_stretch, only: softest, without_slip
     use gapbeam_foundation_taylor, only: is_sloped, transverse_of
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
-    use gapbeam_layers, only: layer_type, law_piece_type, is_curve
+    use gapbeam_laws, only: law_cubic, parameters_of_law
+    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_ground_laws, only: along, take_curves
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
     public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch
-    public :: deflection_size, find_sizes
+    public :: deflection_size, find_sizes, breakpoint_terms, pressure_terms
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type
@@ -24,7 +26,7 @@ module gapbeam_ground_fields
         type(stretch_ends_type) :: ends
         !> Deflections at its ends, slope of the chord between
         real(wp) :: chord(2) = 0.0_wp, slope = 0.0_wp
-        !> Fields at both ends where the modulus changes along the stretch (sloped_start)
+        !> Fields at both ends where modulus or stiffness change along the stretch (sloped_start)
         logical :: sloped = .false.
         real(wp) :: start(4, 2) = 0.0_wp
         !> What rotation and shear at its ends lack when they are made of load and moments, shape (2, 2)
@@ -183,9 +185,9 @@ contains
             call take_curves(layers, laws, solution%acts(:, i), solution%from(i), solution%to(i), length, curved%curves)
             curved%stretch = s
             curved%load = solution%loads(i)
-            curved%left = [ends%w_a - s%shear_flexibility*ends%moment_a, solution%rotation(1, i), ends%moment_a, &
+            curved%left = [without_slip(s, 0.0_wp, ends%w_a, ends%moment_a), solution%rotation(1, i), ends%moment_a, &
                            solution%shear(1, i)]
-            curved%right = [ends%w_b - s%shear_flexibility*ends%moment_b, solution%rotation(2, i), ends%moment_b, &
+            curved%right = [without_slip(s, 1.0_wp, ends%w_b, ends%moment_b), solution%rotation(2, i), ends%moment_b, &
                             solution%shear(2, i)]
         end associate
     end subroutine curved_stretch
@@ -209,31 +211,82 @@ contains
         !> Stretch
         integer, intent(in) :: i
         type(field_type), intent(out) :: sizes, least
-        real(wp) :: moment, bent, q, modulus, square
+        real(wp) :: moment, bent, q, modulus, square, soft(2)
 
-        associate (s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
+        soft(:) = softest(solution%stretches(i))
+        associate (s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i), f => soft(1), g => soft(2))
             moment = max(abs(ends%moment_a), abs(ends%moment_b))
             q = max(abs(load%qa), abs(load%qb))
             modulus = max(s%modulus_a, s%modulus_b)
             ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
             square = s%length**2/8
-            if (s%modulus_a > 0.0_wp .and. s%flexibility > 0.0_wp) then
-                square = min(square, 1/sqrt(s%modulus_a)/sqrt(s%flexibility))
+            if (s%modulus_a > 0.0_wp .and. f > 0.0_wp) then
+                square = min(square, 1/sqrt(s%modulus_a)/sqrt(f))
             end if
             sizes%deflection = max(abs(ends%w_a), abs(ends%w_b)) &
-                + square*(s%flexibility*(moment + square*q) + abs(load%kappa)) + s%shear_flexibility*(moment + square*q)
+                + square*(f*(moment + square*q) + abs(load%kappa)) + g*(moment + square*q)
             sizes%rotation = maxval(abs(solution%rotation(:, i)))
             sizes%moment = moment + square*(q + modulus*sizes%deflection)
             sizes%shear = maxval(abs(solution%shear(:, i))) + abs(s%tension)*(sizes%rotation + sizes%deflection/s%length)
             bent = sizes%moment
-            if (s%flexibility > 0.0_wp) then
-                bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/s%flexibility
+            if (f > 0.0_wp) then
+                bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/f
             end if
             least%deflection = lost_digits*s%length*sizes%rotation
-            least%rotation = lost_digits*(sizes%deflection/s%length + s%shear_flexibility*sizes%shear)
+            least%rotation = lost_digits*(sizes%deflection/s%length + g*sizes%shear)
             least%moment = lost_digits*bent
             least%shear = lost_digits*(bent/s%length + s%length*modulus*sizes%deflection)
         end associate
     end subroutine find_sizes
+
+    !> How a line at which a law goes on to another piece is approached (distance_to_breakpoint): the change of the measure with the
+    !> deflection, and the sizes of its terms
+    pure subroutine breakpoint_terms(layer, laws, breakpoint, deflection, steepness, sizes)
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        !> The piece that begins there
+        integer, intent(in) :: breakpoint
+        !> Size of the deflection
+        real(wp), intent(in) :: deflection
+        real(wp), intent(out) :: steepness, sizes
+        type(law_piece_type) :: piece
+
+        piece = law_piece(layer, laws, breakpoint)
+        steepness = 1.0_wp
+        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
+            + max(abs(piece%displacement_a), abs(piece%displacement_b))
+        if (breakpoint == 1 .or. has_points(layer)) return
+        steepness = max(layer%parameter_a(1), layer%parameter_b(1))
+        sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
+    end subroutine breakpoint_terms
+
+    !> Size of the terms of a layer's pressure
+    pure function pressure_terms(layer, laws, acts, deflection) result(sizes)
+        type(layer_type), intent(in) :: layer
+        type(law_piece_type), intent(in) :: laws(:)
+        !> On which piece of its law it acts, 0: none
+        integer, intent(in) :: acts
+        !> Size of the deflection
+        real(wp), intent(in) :: deflection
+        real(wp) :: sizes
+        type(law_piece_type) :: piece
+        real(wp) :: p(parameters_of_law), u
+
+        sizes = 0.0_wp
+        if (acts == 0) return
+        u = deflection + abs(layer%contact_a) + abs(layer%contact_b)
+        if (has_points(layer)) then
+            piece = law_piece(layer, laws, acts)
+            sizes = max(layer%modulus_a, layer%modulus_b, piece%slope_a, piece%slope_b) &
+                *(u + max(abs(piece%displacement_a), abs(piece%displacement_b))) + max(abs(piece%force_a), abs(piece%force_b))
+            return
+        end if
+        p = max(abs(layer%parameter_a), abs(layer%parameter_b))
+        if (layer%law == law_cubic) then
+            sizes = u*(p(1) + u*(2*p(2) + u*3*p(3)))
+        else
+            sizes = u*max(p(1), p(3)) + p(2)
+        end if
+    end function pressure_terms
 
 end module gapbeam_ground_fields

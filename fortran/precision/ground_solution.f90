@@ -7,7 +7,8 @@ module gapbeam_ground_solution
     use gapbeam_tolerances, only: sign_width, fine_rounding, ground_fine_width, same_ratio_of_slopes
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
-    use gapbeam_foundation_taylor_quad, only: expand, terms_of, stretched_shear, transverse_of
+    use gapbeam_foundation_stretch_quad, only: softness_in, without_slip, part_of_stretch
+    use gapbeam_foundation_taylor_quad, only: expand, terms_of, stretched_shear, transverse_of, deflection_series
     use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
@@ -15,6 +16,7 @@ module gapbeam_ground_solution
     use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_laws_quad, only: law_force
+    use gapbeam_refined_ground, only: rounded_stretch, rounded_load, rounded_ends
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_law_margins_quad, only: find_margins, is_watched_in
     implicit none
@@ -109,17 +111,13 @@ contains
             end if
             call take_curved(fine, grounded, zones, factor, work, i, curved)
             call go_with_ends(zones%from(i) - from, zones%to(i) - zones%from(i), stretch, load, ends, field, curved)
-            solution%stretches(i) = stretch_type(real(stretch%length, wp), real(stretch%flexibility, wp), &
-                                                 real(stretch%shear_flexibility, wp), real(stretch%modulus_a, wp), &
-                                                 real(stretch%modulus_b, wp), real(stretch%tension, wp))
+            solution%stretches(i) = rounded_stretch(stretch)
             solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
-            solution%ends(i) = stretch_ends_type(real(ends%w_a, wp), real(ends%w_b, wp), real(ends%moment_a, wp), &
-                                                 real(ends%moment_b, wp))
+            solution%ends(i) = rounded_ends(ends)
             call sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
             relative = beside_line(stretch, load, [ends%w_a, ends%w_b])
             if (allocated(curved)) relative = load
-            solution%loads(i) = stretch_load_type(real(relative%qa, wp), real(relative%qb, wp), real(relative%qc, wp), &
-                                                  real(relative%kappa, wp))
+            solution%loads(i) = rounded_load(relative)
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
@@ -163,22 +161,19 @@ contains
         ways = [way, way + (length - s%length)]
         where (abs(ways) <= fine_rounding*length) ways = 0.0_qp
         if (.not. any(abs(ways) > 0.0_qp)) return
-        call go(ways(1), s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
-        call go(ways(2), s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
+        call go(ways(1), softness_in(s, 0.0_qp), s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
+        call go(ways(2), softness_in(s, 1.0_qp), s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
         share = [ways(1), s%length + ways(2)]/s%length
+        stretch = part_of_stretch(s, share)
         stretch%length = length
-        stretch%modulus_a = s%modulus_a + share(1)*(s%modulus_b - s%modulus_a)
-        stretch%modulus_b = s%modulus_a + share(2)*(s%modulus_b - s%modulus_a)
         load%qa = q%qa + share(1)*(q%qb - q%qa + q%qc*(1 - share(1)))
         load%qb = q%qa + share(2)*(q%qb - q%qa + q%qc*(1 - share(2)))
         load%qc = q%qc*(length/s%length)**2
         if (.not. allocated(curved)) return
         curved%stretch = stretch
         curved%load = load
-        associate (g => s%shear_flexibility)
-            curved%left = [ends%w_a - g*ends%moment_a, field(1, 1), ends%moment_a, field(1, 2)]
-            curved%right = [ends%w_b - g*ends%moment_b, field(2, 1), ends%moment_b, field(2, 2)]
-        end associate
+        curved%left = [without_slip(stretch, 0.0_qp, ends%w_a, ends%moment_a), field(1, 1), ends%moment_a, field(1, 2)]
+        curved%right = [without_slip(stretch, 1.0_qp, ends%w_b, ends%moment_b), field(2, 1), ends%moment_b, field(2, 2)]
 
     contains
 
@@ -202,14 +197,15 @@ contains
         end function by_curves
 
         !> The fields a little farther on
-        pure subroutine go(way, modulus, pressure, w, moment, turn_and_shear)
-            real(qp), intent(in) :: way, modulus, pressure
+        pure subroutine go(way, softness, modulus, pressure, w, moment, turn_and_shear)
+            !> 1/EI and 1/GA there
+            real(qp), intent(in) :: way, softness(2), modulus, pressure
             real(qp), intent(inout) :: w, moment, turn_and_shear(2)
             real(qp) :: gain(4)
 
             associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
-                gain = way*[psi + s%shear_flexibility*shear, q%kappa - s%flexibility*moment, shear, &
-                            (modulus*w - pressure - s%tension*(q%kappa - s%flexibility*moment))/stretched_shear(s)]
+                gain = way*[psi + softness(2)*shear, q%kappa - softness(1)*moment, shear, &
+                            (modulus*w - pressure - s%tension*(q%kappa - softness(1)*moment))/stretched_shear(s)]
                 w = w + gain(1)
                 psi = psi + gain(2)
                 moment = moment + gain(3)
@@ -339,7 +335,7 @@ contains
         function integral(slope) result(total)
             real(qp), intent(in) :: slope(2)
             real(qp) :: total
-            real(qp) :: c(1, 4, 0:most_taylor_terms), start(1, 4)
+            real(qp) :: c(1, 4, 0:most_taylor_terms), start(1, 4), w(0:most_taylor_terms)
             integer :: n, i
 
             if (allocated(curved)) then
@@ -349,12 +345,8 @@ contains
             n = terms_of(stretch, 1.0_qp)
             start(1, :) = [ends%w_a - stretch%shear_flexibility*ends%moment_a, field(1, 1), ends%moment_a, field(1, 2)]
             call expand(stretch, [load], 0.0_qp, start, 1.0_qp, n, c)
-            total = 0.0_qp
-            do i = n, 0, -1
-                total = total + (c(1, 1, i) + stretch%shear_flexibility*c(1, 3, i)) &
-                    *(slope(1)/(i + 1) + (slope(2) - slope(1))/(i + 2))
-            end do
-            total = total*stretch%length
+            w(0:n) = deflection_series(stretch, 0.0_qp, 1.0_qp, c(1, :, 0:n))
+            total = stretch%length*sum([(w(i)*(slope(1)/(i + 1) + (slope(2) - slope(1))/(i + 2)), i=n, 0, -1)])
         end function integral
 
     end subroutine sum_layers

@@ -2,6 +2,7 @@
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
     use gapbeam_tolerances, only: min_tied_zone, least_tied_share, no_tied_force
+    use gapbeam_piece_quad, only: greatest_softness
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
@@ -88,7 +89,7 @@ contains
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
         real(qp), intent(out) :: force, way
-        real(qp) :: length, kappa, bent, modulus
+        real(qp) :: length, kappa, bent, modulus, soft(2, size(ground%pieces))
         integer :: j
 
         length = sum(ground%pieces%length)
@@ -100,9 +101,8 @@ contains
             associate (dead => ground%dead(j), live => ground%live(j))
                 force = force + ground%pieces(j)%length*max(abs(dead%qa + factor*live%qa), abs(dead%qb + factor*live%qb))
                 kappa = max(kappa, abs(dead%kappa + factor*live%kappa))
-                if (ground%pieces(j)%flexibility > 0.0_qp) then
-                    bent = max(bent, abs(dead%kappa + factor*live%kappa)/(ground%pieces(j)%flexibility*length))
-                end if
+                soft(:, j) = greatest_softness(ground%pieces(j))
+                if (soft(1, j) > 0.0_qp) bent = max(bent, abs(dead%kappa + factor*live%kappa)/(soft(1, j)*length))
             end associate
         end do
         ! The first parameter of a law that is not by points is its stiffness
@@ -110,7 +110,7 @@ contains
                           ground%layers%parameter_a(1), &
                           ground%layers%parameter_b(1)])
         way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
-            + force*length*(maxval(ground%pieces%flexibility)*length**2 + maxval(ground%pieces%shear_flexibility)) &
+            + force*length*(maxval(soft(1, :))*length**2 + maxval(soft(2, :))) &
             + force/(length*modulus)
         force = force + bent
     end subroutine size_of_loads

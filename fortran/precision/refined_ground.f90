@@ -1,6 +1,9 @@
 !> The ground under a beam and its zones in quadruple precision
 module gapbeam_refined_ground
-    use gapbeam_kinds, only: qp
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type
+    use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
+        fine_ends_type => stretch_ends_type
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type
     use gapbeam_ground, only: ground_type, zones_type
@@ -8,7 +11,7 @@ module gapbeam_refined_ground
     use gapbeam_refined, only: detail_type, refine_beam, fine_piece, fine_load
     implicit none
     private
-    public :: refine_ground, refine_zones
+    public :: refine_ground, refine_zones, rounded_stretch, rounded_load, rounded_ends
 
 contains
 
@@ -69,6 +72,33 @@ contains
         refined%acts(:, :) = zones%acts
         refined%start(:, :) = zones%start
     end subroutine refine_zones
+
+    !> A stretch in double precision
+    elemental function rounded_stretch(fine) result(stretch)
+        type(fine_stretch_type), intent(in) :: fine
+        type(stretch_type) :: stretch
+
+        stretch = stretch_type(length=real(fine%length, wp), flexibility=real(fine%flexibility, wp), &
+                               shear_flexibility=real(fine%shear_flexibility, wp), modulus_a=real(fine%modulus_a, wp), &
+                               modulus_b=real(fine%modulus_b, wp), tension=real(fine%tension, wp), taper=real(fine%taper, wp), &
+                               power=fine%power)
+    end function rounded_stretch
+
+    !> Its load
+    elemental function rounded_load(fine) result(load)
+        type(fine_stretch_load_type), intent(in) :: fine
+        type(stretch_load_type) :: load
+
+        load = stretch_load_type(real(fine%qa, wp), real(fine%qb, wp), real(fine%qc, wp), real(fine%kappa, wp))
+    end function rounded_load
+
+    !> What is at its ends
+    elemental function rounded_ends(fine) result(ends)
+        type(fine_ends_type), intent(in) :: fine
+        type(stretch_ends_type) :: ends
+
+        ends = stretch_ends_type(real(fine%w_a, wp), real(fine%w_b, wp), real(fine%moment_a, wp), real(fine%moment_b, wp))
+    end function rounded_ends
 
     !> Right ends of the stretches: the last one of a piece ends where the piece does
     pure function exact_ends(zones, fine) result(ends)

@@ -5,24 +5,29 @@
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_laws, only: law_cubic, parameters_of_law
-    use gapbeam_layers, only: layer_type, law_piece_type, law_piece, pieces_of_law, is_curve, has_points
+    use gapbeam_piece, only: is_tapered, greatest_softness
+    use gapbeam_taper, only: part_of_piece, softness_at
+    use gapbeam_layers, only: pieces_of_law, is_curve
     use gapbeam_ground_laws, only: along, distance_to_breakpoint, push_of_layer
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_foundation_taylor, only: trace_of, determinant_of
-    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch
+    use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch, &
+        breakpoint_terms, pressure_terms
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_resultants, of_contact, deflections, rotations, &
         moments, forces, beyond, pulls
     implicit none
     private
-    public :: sums_type, audit_stretch, breakpoint_terms, pressure_terms
+    public :: sums_type, audit_stretch
 
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3
+
+    !> Rate at which a tapered stretch is integrated at least
+    real(wp), parameter :: least_rate = 4.0_wp
 
     !> Forces on a stretch, ground and loads, in sum
     type :: sums_type
@@ -56,13 +61,15 @@ contains
         type(piece_load_type) :: load
         type(field_type) :: left, right
         real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize, &
-            push(2), pull
+            push(2), pull, soft(2)
+        !> int V/GA over the length where GA changes
+        real(wp) :: slid
         integer :: n
         logical :: curves
 
         associate (j => solution%piece(i), s => solution%stretches(i))
-            associate (layers => ground%layers(ground%first(j):ground%first(j + 1) - 1), l => s%length, f => s%flexibility, &
-                       g => s%shear_flexibility)
+            soft(:) = greatest_softness(part_of_piece(ground%pieces(j), solution%from(i), solution%to(i)))
+            associate (layers => ground%layers(ground%first(j):ground%first(j + 1) - 1), l => s%length, f => soft(1), g => soft(2))
                 n = size(layers)
                 force(:) = 0.0_wp
                 load = combine_loads(ground%dead(j), ground%live(j), factor)
@@ -83,7 +90,8 @@ contains
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
                               abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
                     call fits(of_bending, deflections, (right%deflection - left%deflection) - l*(left%rotation + l*bent(2)) &
-                              - g*(right%moment - left%moment), wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa))) &
+                              - merge(l*slid, g*(right%moment - left%moment), ground%pieces(j)%shear_power > 0), &
+                              wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa))) &
                               + g*(abs(right%moment) + abs(left%moment)))
                     call fits(of_equilibrium, forces, (push(2) - push(1)) - l*pressed(1), sum(abs(push)) + sizes%shear &
                               + l*(sum(terms(:n)) + qsize))
@@ -139,13 +147,17 @@ contains
         subroutine integrate()
             type(panels_type) :: panels
             type(field_type) :: field
-            real(wp) :: points(most_points), weights(most_points), rate(2), fade(2), q, place, push, total, curvature
+            real(wp) :: points(most_points), weights(most_points), rate(2), fade(2), q, place, push, total, curvature, here(2)
             integer :: p, k, t, number
 
             call rates_of(solution, i, rate, fade)
+            ! On a step of a taper the depth would vanish four steps away: ten points leave less than rounding of that
+            if (is_tapered(ground%pieces(solution%piece(i)))) rate = max(rate, least_rate)
             call cut_into_panels(rate, fade, panels)
             bent = 0.0_wp
+            slid = 0.0_wp
             pressed = 0.0_wp
+            here(:) = soft
             associate (j => solution%piece(i))
                 do p = 1, panels%number
                     call points_of(panels, p, number, points, weights)
@@ -167,7 +179,9 @@ contains
                             force(k) = force(k) + weights(t)*push
                             total = total + push
                         end do
-                        curvature = load%kappa - solution%stretches(i)%flexibility*field%moment
+                        if (is_tapered(ground%pieces(j))) here(:) = softness_at(ground%pieces(j), place)
+                        curvature = load%kappa - here(1)*field%moment
+                        slid = slid + weights(t)*here(2)*field%shear
                         bent = bent + weights(t)*curvature*[1.0_wp, 1 - points(t)]
                         pressed = pressed + weights(t)*total*[1.0_wp, 1 - points(t)]
                     end do
@@ -180,7 +194,7 @@ contains
         subroutine go_along_curves()
             type(curved_type), allocatable :: curved
             type(field_type) :: field
-            real(wp) :: y(4), slope
+            real(wp) :: y(4), slope, here(2)
             real(wp), allocatable :: by_curves(:)
             logical :: lost
             integer :: k, t, c
@@ -194,12 +208,13 @@ contains
                         call fits(of_equilibrium, 0, huge(1.0_wp), 0.0_wp)
                         return
                     end if
-                    y(1) = y(1) + s%shear_flexibility*y(3)
-                    slope = abs(left%rotation) + abs(s%shear_flexibility*left%shear)
-                    call fits(of_bending, deflections, right%deflection - y(1), wsize + l*(slope + l*(s%flexibility*msize &
+                    here(:) = softness_at(ground%pieces(j), solution%to(i))
+                    y(1) = y(1) + here(2)*y(3)
+                    slope = abs(left%rotation) + abs(soft(2)*left%shear)
+                    call fits(of_bending, deflections, right%deflection - y(1), wsize + l*(slope + l*(soft(1)*msize &
                                                                                                      + abs(load%kappa))))
                     call fits(of_bending, rotations, right%rotation - y(2), abs(right%rotation) + slope &
-                              + l*(s%flexibility*msize + abs(load%kappa)))
+                              + l*(soft(1)*msize + abs(load%kappa)))
                     call fits(of_equilibrium, moments, right%moment - y(3), msize + l*(abs(left%shear) + l*(sum(terms) + qsize)))
                     call fits(of_equilibrium, forces, right%shear - y(4), abs(left%shear) + abs(right%shear) &
                               + l*(sum(terms) + qsize))
@@ -276,14 +291,15 @@ contains
             type(field_type), intent(in) :: field
             logical, intent(in) :: at_end
             type(link_bounds_type), intent(out), optional :: found
-            real(wp) :: place, steepness, terms_of_it, incline, past, change
+            real(wp) :: place, steepness, terms_of_it, incline, past, change, here(2)
             type(link_bounds_type) :: now
             integer :: side, breakpoint
 
             now%xi = xi
             associate (j => solution%piece(i), s => solution%stretches(i))
                 place = along(solution%from(i), solution%to(i), xi, 1.0_wp)
-                incline = field%rotation + s%shear_flexibility*field%shear
+                here(:) = softness_at(ground%pieces(j), place)
+                incline = field%rotation + here(2)*field%shear
                 associate (layer => ground%layers(ground%first(j) + k - 1))
                     do side = 1, 2
                         breakpoint = solution%acts(k, i) + side - 1
@@ -343,55 +359,5 @@ contains
         root = sqrt(max(0.0_wp, z**2 - slope_a*slope_b))
         t = min(1.0_wp, max(0.0_wp, 1 - (slope_b + root - z)/max(slope_b - slope_a + 2*root, tiny(t))))
     end function lowest
-
-    !> How a line at which a law goes on to another piece is approached (distance_to_breakpoint): the change of the measure with the
-    !> deflection, and the sizes of its terms
-    pure subroutine breakpoint_terms(layer, laws, breakpoint, deflection, steepness, sizes)
-        type(layer_type), intent(in) :: layer
-        type(law_piece_type), intent(in) :: laws(:)
-        !> The piece that begins there
-        integer, intent(in) :: breakpoint
-        !> Size of the deflection
-        real(wp), intent(in) :: deflection
-        real(wp), intent(out) :: steepness, sizes
-        type(law_piece_type) :: piece
-
-        piece = law_piece(layer, laws, breakpoint)
-        steepness = 1.0_wp
-        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
-            + max(abs(piece%displacement_a), abs(piece%displacement_b))
-        if (breakpoint == 1 .or. has_points(layer)) return
-        steepness = max(layer%parameter_a(1), layer%parameter_b(1))
-        sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
-    end subroutine breakpoint_terms
-
-    !> Size of the terms of a layer's pressure
-    pure function pressure_terms(layer, laws, acts, deflection) result(sizes)
-        type(layer_type), intent(in) :: layer
-        type(law_piece_type), intent(in) :: laws(:)
-        !> On which piece of its law it acts, 0: none
-        integer, intent(in) :: acts
-        !> Size of the deflection
-        real(wp), intent(in) :: deflection
-        real(wp) :: sizes
-        type(law_piece_type) :: piece
-        real(wp) :: p(parameters_of_law), u
-
-        sizes = 0.0_wp
-        if (acts == 0) return
-        u = deflection + abs(layer%contact_a) + abs(layer%contact_b)
-        if (has_points(layer)) then
-            piece = law_piece(layer, laws, acts)
-            sizes = max(layer%modulus_a, layer%modulus_b, piece%slope_a, piece%slope_b) &
-                *(u + max(abs(piece%displacement_a), abs(piece%displacement_b))) + max(abs(piece%force_a), abs(piece%force_b))
-            return
-        end if
-        p = max(abs(layer%parameter_a), abs(layer%parameter_b))
-        if (layer%law == law_cubic) then
-            sizes = u*(p(1) + u*(2*p(2) + u*3*p(3)))
-        else
-            sizes = u*max(p(1), p(3)) + p(2)
-        end if
-    end function pressure_terms
 
 end module gapbeam_stretch_audit

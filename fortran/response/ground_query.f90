@@ -4,9 +4,11 @@ module gapbeam_ground_query
     use gapbeam_tolerances, only: same_extreme
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
+    use gapbeam_piece, only: is_tapered
     use gapbeam_fields, only: bending_values
     use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived
     use gapbeam_foundation, only: stretch_ends_type
+    use gapbeam_foundation_pieces, only: slope_of_curvature
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: layer_type
@@ -122,7 +124,8 @@ contains
     end subroutine curved_in
 
     !> Largest and smallest quantities of bending (gapbeam_quantities), and where they are. Those of derived ones are sought where
-    !> those of what they are made of are: one of deflection, rotation, moment, shear, for shares do not change inside a piece
+    !> those of what they are made of are: one of deflection, rotation, moment, shear, for shares do not change inside a piece that
+    !> is prismatic
     subroutine ground_extremes(assembled, solution, factor, values, piece, distance)
         !> As for ground_values, and the factor of the live loads
         type(assembled_type), intent(in) :: assembled
@@ -164,6 +167,15 @@ contains
                     end do
                 end do
             end do
+            if (.not. is_tapered(assembled%pieces(solution%piece(i)))) cycle
+            ! There the curvature is not a multiple of the moment
+            call peaks_in(solution, i, slope_of_curvature, 0.0_wp, curved, xi, number)
+            do j = 1, number
+                call values_in(assembled, solution, i, xi(j), field)
+                do d = 1, derived_count
+                    call consider(state_count + d, xi(j))
+                end do
+            end do
         end do
 
     contains
@@ -174,9 +186,9 @@ contains
             real(wp), intent(in) :: at
             real(wp) :: all_of_them(bending_count), value, place
 
-            all_of_them(:) = bending_values(field, assembled%pieces(solution%piece(i)), load%kappa)
-            value = all_of_them(k)
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
+            all_of_them(:) = bending_values(field, assembled%pieces(solution%piece(i)), load%kappa, place)
+            value = all_of_them(k)
             if (value > values(1, k) + same_extreme*abs(values(1, k))) then
                 values(1, k) = value
                 piece(1, k) = solution%piece(i)

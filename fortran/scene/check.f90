@@ -13,7 +13,7 @@ module gapbeam_check
     use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns
     use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
-    use gapbeam_taper_extremes, only: most_power
+    use gapbeam_limits, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
         not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
         bad_law, bad_load

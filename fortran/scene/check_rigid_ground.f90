@@ -4,10 +4,10 @@ module gapbeam_check_rigid_ground
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_scene, only: gapbeam_normal
+    use gapbeam_scene, only: gapbeam_normal, gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of
-    use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
+    use gapbeam_input_error, only: refuse, of_sections, of_supports, of_foundations, bad_law
     implicit none
     private
     public :: check_rigid_ground, is_on_rigid_ground
@@ -38,6 +38,10 @@ contains
                                "available in this version; give all of it a stiffness, or none", error)
             return
         end if
+        do s = 1, size(assembled%model%sections)
+            call check_section(assembled, s, error)
+            if (allocated(error)) return
+        end do
         do j = 1, size(assembled%pieces)
             if (assembled%layer_first(j + 1) > assembled%layer_first(j)) call check_piece(assembled, j, error)
             if (allocated(error)) return
@@ -48,6 +52,20 @@ contains
             if (allocated(error)) return
         end do
     end subroutine check_rigid_ground
+
+    !> A section beside it: what tapers is cut to steps, which rigid ground does not know
+    subroutine check_section(assembled, number, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: number
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (s => assembled%model%sections(number))
+            if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) return
+            call refuse(error, of_sections, number, size(assembled%model%sections), bad_law, &
+                        merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside rigid ground is not "// &
+                        "available in this version; give short sections, each of one stiffness, or the ground a stiffness")
+        end associate
+    end subroutine check_section
 
     !> A piece of the beam over rigid ground
     subroutine check_piece(assembled, piece, error)

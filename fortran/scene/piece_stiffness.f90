@@ -4,7 +4,6 @@ module gapbeam_piece_stiffness
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear, along_axis, axial_force_in, kinds
-    use gapbeam_input_error, only: refuse, of_sections, bad_law
     implicit none
     private
     public :: assign_sections, stiffness_of, stiffness_along, least_stiffness_of
@@ -26,12 +25,6 @@ contains
         assembled%section_of(:, :) = 0
         do i = 1, size(assembled%model%sections)
             associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
-                if (max(s%EI_to, s%GA_to) > gapbeam_unchanged .and. size(assembled%model%foundations) > 0) then
-                    call refuse(error, of_sections, i, size(assembled%model%sections), bad_law, &
-                                merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside a foundation is "// &
-                                "not available in this version; give short sections, each of one stiffness")
-                    return
-                end if
                 if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i
                 if (s%GA > gapbeam_unchanged) assembled%section_of(in_shear, first:last) = i
                 if (s%EA > gapbeam_unchanged) assembled%section_of(along_axis, first:last) = i

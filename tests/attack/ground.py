@@ -11,6 +11,7 @@ from scenes import nodes_of, place
 from scenes.curved import random_curved_scene
 from scenes.foundation import random_scene
 from scenes.tabled import tables_of, with_tables
+from scenes.tapered import stiffness_along, with_tapers
 from scenes.touching import touching_scene
 
 from .family import Family, Verdict
@@ -37,6 +38,8 @@ def draw_scene(seed):
         made = (random_scene if kind == "straight" else random_curved_scene)(rng.randrange(10**9))
         if seed % 8 == 5:
             kind, made = "tables", with_tables(rng, made)
+        if seed % 8 in (1, 6):
+            kind, made = "tapers", with_tapers(rng, made)
         try:
             gapbeam.read_scene(made)
         except gapbeam.SceneError:
@@ -103,7 +106,8 @@ def beam_of(made, x):
     EI, GA = (np.broadcast_to(np.array(made["beam"].get(key, math.inf), dtype=float), len(nodes) - 1)[span] for key in ("EI", "GA"))
     for item in made.get("sections", ()):
         inside = (x > item["from"]) & (x < item["to"])
-        EI, GA = np.where(inside, item.get("EI", EI), EI), np.where(inside, item.get("GA", GA), GA)
+        EI = np.where(inside, stiffness_along(item.get("EI", EI), item, x), EI)
+        GA = np.where(inside, stiffness_along(item.get("GA", GA), item, x), GA)
     kappa, q = np.zeros_like(x), np.zeros_like(x)
     for item in made["loads"]:
         inside = (x > item.get("from", 0.0)) & (x < item.get("to", length))

@@ -6,6 +6,7 @@ Series are in tau = t/h, 0 <= tau <= 1 over the stretch, lowest power first.
 import functools
 import itertools
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from mpmath import mp, mpf
@@ -25,28 +26,65 @@ def growth(k, EI, GA, h):
     return h * (mp.sqrt(shear / 2 + mp.sqrt(rest)) if rest > 0 else mp.sqrt((bending + shear / 2) / 2))
 
 
+@dataclass(frozen=True)
+class Taper:
+    """A stiffness that is a power of a depth which is linear from start to end, values its own there."""
+
+    start: mpf
+    end: mpf
+    at_start: mpf
+    at_end: mpf
+    power: int
+
+    def depth(self, x):
+        """Depth, and its slope."""
+        first, last = (v ** (mpf(1) / self.power) for v in (self.at_start, self.at_end))
+        slope_of_it = (last - first) / (self.end - self.start)
+        return first + slope_of_it * (x - self.start), slope_of_it
+
+    def at(self, x):
+        """The stiffness."""
+        return self.depth(x)[0] ** self.power
+
+    def polynomial(self, a, h):
+        """From a on in steps of h."""
+        depth, rise = self.depth(a)
+        return [math.comb(self.power, n) * depth ** (self.power - n) * (rise * h) ** n for n in range(self.power + 1)]
+
+
 class Stretch:
     """A stretch a..b with w' = psi + V/GA, psi' = -M/EI + kappa, M' = V, V' = K w + source.
 
-    K = K[0] + K[1] t and source = sum source[m] t**m, t from a.
+    K = K[0] + K[1] t and source = sum source[m] t**m, t from a. `tapers`: those of EI and GA, None where they are constant.
     """
 
-    def __init__(self, a, b, EI, GA, kappa, K, source):
+    def __init__(self, a, b, EI, GA, kappa, K, source, tapers=(None, None)):
         self.a, self.b, self.h = a, b, b - a
         self.EI, self.GA, self.kappa, self.K = EI, GA, kappa, K
         self.source = [c * self.h**m for m, c in enumerate(source)]
         stiffest = max(K[0], K[0] + K[1] * self.h, 0)
         self.terms = 6 if not any(K) else terms_for(float(reach(stiffest, EI, GA, self.h)), mp.dps)
+        growing = [abs(t.depth(a)[1] * self.h / t.depth(a)[0]) for t in tapers if t]
+        if growing:
+            self.terms += int((mp.dps + 8) * mp.ln(10) / -mp.ln(max(growing))) + 12
+        self.stiff = [t.polynomial(a, self.h) if t else None for t in tapers]
 
     def series(self, y, loaded=True):
         """Series of w, psi, M and V that begin with y at a."""
         h, K0, K1 = self.h, self.K[0], self.K[1] * self.h
         shear, flex = h / self.GA, -h / self.EI
         W, P, M, V = ([v] for v in y)
+        bent, slid = [], []  # psi' and V/GA, in parts of h, where EI and GA change: EI psi' = -M
         for m in range(self.terms):
             n = m + 1
             w, p = h * P[m], flex * M[m] if M[m] else mpf(0)
-            if shear:
+            if self.stiff[0]:
+                bent.append(divided(-M[m], self.stiff[0], bent))
+                p = h * bent[m]
+            if self.stiff[1]:
+                slid.append(divided(V[m], self.stiff[1], slid))
+                w += h * slid[m]
+            elif shear:
                 w += shear * V[m]
             if not m and loaded and self.kappa:
                 p += h * self.kappa
@@ -66,6 +104,11 @@ class Stretch:
         columns = [[mp.fsum(s) for s in self.series(y, loaded=False)] for y in unit]
         rest = [mp.fsum(s) for s in self.series([mpf(0)] * 4)]
         return list(zip(*columns, strict=True)), rest
+
+
+def divided(term, polynomial, before):
+    """The next term of a quotient by a polynomial, from those before."""
+    return (term - mp.fsum(c * before[-n] for n, c in enumerate(polynomial[1 : len(before) + 1], 1))) / polynomial[0]
 
 
 @functools.cache

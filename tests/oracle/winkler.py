@@ -7,9 +7,10 @@ from fractions import Fraction
 
 from mpmath import mp, mpf
 
-from .series import REACH, Stretch, growth, reach, value
+from .series import REACH, Stretch, Taper, growth, reach, value
 
 SIDES = {"below": 1, "above": -1, "both": 0}
+GENTLE = 4  # a tapered part is so many times shorter than the way to where its depth would vanish
 
 
 @dataclass
@@ -40,12 +41,13 @@ class Term:
 
 @dataclass
 class Atom:
-    """A part of the beam within which nothing but the contact changes."""
+    """A part of the beam within which nothing but the contact changes; EI and GA are the least there."""
 
     a: mpf
     b: mpf
     EI: mpf
     GA: mpf
+    tapers: tuple
     kappa: mpf
     q: tuple
     terms: list
@@ -70,6 +72,17 @@ def number(v):
 def pair(v):
     """Values at the two ends of a number or a pair."""
     return tuple(map(number, v)) if isinstance(v, (list, tuple)) else (number(v), number(v))
+
+
+def taper(v, start, end):
+    """How a stiffness changes along its section, None where it does not."""
+    if isinstance(v, dict):
+        at_start, at_end, power = number(v["from"]), number(v["to"]), v.get("power", 1)
+    elif isinstance(v, (list, tuple)):
+        at_start, at_end, power = *map(number, v), 1
+    else:
+        return None
+    return Taper(start, end, at_start, at_end, power) if at_start != at_end else None
 
 
 class Problem:
@@ -124,24 +137,30 @@ class Problem:
             marks |= {number(x) for x, _ in item.get("profile", [])}
         self.atoms = []
         for a, b in itertools.pairwise(sorted(x for x in marks if 0 <= x <= self.length)):
-            middle, stiffness = (a + b) / 2, {}
+            middle, stiffness, tapers = (a + b) / 2, {}, {}
             for name in ("EI", "GA"):
                 v = beam.get(name, mp.inf)
                 if isinstance(v, (list, tuple)):
                     v = v[bisect.bisect(self.nodes, middle) - 1]
-                stiffness[name] = number(([v] + [s[name] for p, q, s in sections if p < middle < q and name in s])[-1])
+                v, p, q = ([(v, a, b)] + [(s[name], p, q) for p, q, s in sections if p < middle < q and name in s])[-1]
+                tapers[name] = taper(v, p, q)
+                stiffness[name] = min(tapers[name].at(a), tapers[name].at(b)) if tapers[name] else number(v)
             acting = [load for load in self.spread if load[0] < middle < load[1]]
             q0, q1 = (mp.fsum(line(p, q, *ends, x)[0] for p, q, ends, _ in acting) for x in (a, b))
             kappa = mp.fsum(load[3] for load in acting)
             terms = [t for i in range(len(self.foundation)) for t in self.terms(i, a, b)]
             n = max(1, int(mp.ceil(reach(stiffest(terms, b - a), stiffness["EI"], stiffness["GA"], b - a) / REACH)))
+            for t in filter(None, tapers.values()):
+                n = max(n, int(mp.ceil(GENTLE * abs(t.depth(a)[1]) * (b - a) / min(t.depth(a)[0], t.depth(b)[0]))))
             for i in range(n):
                 p, q = a + (b - a) * i / n, b if i == n - 1 else a + (b - a) * (i + 1) / n
                 moved = [
                     Term(t.foundation, t.first, t.side, moved_line(t.k, p - a), moved_line(t.gap, p - a)) for t in terms
                 ]
                 slope_q = (q1 - q0) / (b - a)
-                self.atoms.append(Atom(p, q, **stiffness, kappa=kappa, q=(q0 + slope_q * (p - a), slope_q), terms=moved))
+                made = {k: min(t.at(p), t.at(q)) if t else stiffness[k] for k, t in tapers.items()}
+                of_atom = (q0 + slope_q * (p - a), slope_q)
+                self.atoms.append(Atom(p, q, **made, tapers=tuple(tapers.values()), kappa=kappa, q=of_atom, terms=moved))
         self.growth = mp.fsum(growth(stiffest(c.terms, c.b - c.a), c.EI, c.GA, c.b - c.a) for c in self.atoms)
         self.stretches = {}
 
@@ -177,7 +196,7 @@ class Problem:
                 k, g = moved_line(term.k, a - atom.a), moved_line(term.gap, a - atom.a)
                 K = [p + q for p, q in zip(K, k, strict=True)]
                 source = [c - term.side * d for c, d in zip(source, product(k, g), strict=True)]
-            made = Stretch(a, b, atom.EI, atom.GA, atom.kappa, K, source)
+            made = Stretch(a, b, atom.EI, atom.GA, atom.kappa, K, source, atom.tapers)
             made.atom, made.acting = atom, acting
             self.stretches[key] = made
         return self.stretches[key]

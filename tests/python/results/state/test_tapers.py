@@ -253,7 +253,6 @@ def test_what_no_taper_can_be(changes, words):
 
 
 @pytest.mark.parametrize("beside", [
-    {"foundation": [{"k": 100.0}]},
     {"trains": [{"axles": [[0.0, 10.0]]}]},
     {"beam": {"spans": [20.0, 25.0, 20.0], "EI": [1.0, 2.0, {"from": 1.0, "to": 2.0}]}},
 ])  # fmt: skip
