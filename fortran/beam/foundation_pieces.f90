@@ -3,8 +3,9 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_stretch, only: is_sloped, is_of_one_stiffness, softest, softness_in, without_slip
-    use gapbeam_foundation_taylor, only: expand, terms_of, stretched_shear, trace_of, determinant_of, deflection_series
+    use gapbeam_foundation_stretch, only: is_of_one_stiffness, softest, softness_in, without_slip
+    use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, determinant_of, &
+        deflection_series
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
