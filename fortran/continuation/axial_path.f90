@@ -4,7 +4,7 @@ module gapbeam_axial_path
     use gapbeam_kinds, only: wp, qp
     use gapbeam_limits, only: most_idle_segments
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_indeterminate, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged, gapbeam_indeterminate, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type, point_x
@@ -12,7 +12,8 @@ module gapbeam_axial_path
     use gapbeam_axial_chain, only: chain_type, next_change, find_reach
     use gapbeam_axial_progress, only: advance, change_pieces, settle, note_rates, values_of
     use gapbeam_axial_rates, only: find_rates, moves_at_once, not_told
-    use gapbeam_history_record, only: history_type, stretch_type, limit_type, new_history, add_stretch, along_type, &
+    use gapbeam_history_stretch, only: stretch_type, nothing_changes
+    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, along_type, &
         mechanism, no_limit, cut_off
     implicit none
     private
@@ -37,8 +38,8 @@ module gapbeam_axial_path
         real(wp), allocatable :: start(:)
         !> Contacts of the laws there, if some keep a set, shape (size(chain%laws))
         real(wp), allocatable :: contact(:)
-        !> Does the chain move without end
-        logical :: lost = .false.
+        !> Is a part of the stretch of bending at hand kept; does the chain move without end
+        logical :: begun = .false., lost = .false.
     end type walk_type
 
 contains
@@ -61,14 +62,13 @@ contains
         call make_chain(assembled, walk%chain, walk%support)
         call new_history(history%at_limit, walk%path)
         allocate (walk%path%along)
-        associate (n => size(assembled%axial%flexibility), l => size(walk%support))
-            allocate (walk%path%along%support, source=walk%support)
-            allocate (walk%path%along%values(2*n + 1 + l, 16))
-        end associate
+        allocate (walk%path%along%support, source=walk%support)
+        allocate (walk%path%along%columns(16))
         first(:) = 1
         last(:) = 0
         do k = 1, history%number
             first(k) = walk%path%number + 1
+            walk%begun = .false.
             call pass_stretch(walk, merge_beams(k), history, k, error)
             if (allocated(error)) return
             last(k) = walk%path%number
@@ -287,6 +287,8 @@ contains
             return
         end if
         kept = s
+        if (walk%begun) call nothing_changes(kept)
+        walk%begun = .true.
         kept%from = from + 0.0_wp
         kept%to = to + 0.0_wp
         allocate (kept%along, source=walk%chain%closed)
@@ -295,10 +297,10 @@ contains
         associate (along => walk%path%along)
             ends(1) = along%number
             if (ends(1) > 0) then
-                if (any(abs(along%values(:, ends(1)) - walk%start) > 0.0_wp)) ends(1) = 0
+                if (.not. go_on_from(along%columns(ends(1))%x, walk%start)) ends(1) = 0
             end if
-            if (ends(1) == 0) call add(walk%start, ends(1))
-            if (.not. allocated(error)) call add(values_of(walk%chain), ends(2))
+            if (ends(1) == 0) call add_column(walk%start, along, ends(1), error)
+            if (.not. allocated(error)) call add_column(values_of(walk%chain), along, ends(2), error)
         end associate
         if (allocated(error)) return
         kept%ends = ends
@@ -307,29 +309,24 @@ contains
 
     contains
 
-        !> Add a column of numbers
-        subroutine add(values, column)
-            real(wp), intent(in) :: values(:)
-            integer, intent(out) :: column
-            real(wp), allocatable :: longer(:, :)
-            integer :: stat
+        !> Does the chain go on from where a stretch has ended, but for rounding
+        pure function go_on_from(end, start)
+            real(wp), intent(in) :: end(:), start(:)
+            logical :: go_on_from
 
-            column = 0
-            associate (along => walk%path%along)
-                if (along%number == size(along%values, 2)) then
-                    allocate (longer(size(values), 2*along%number), stat=stat)
-                    if (stat /= 0) then
-                        call no_memory(error)
-                        return
-                    end if
-                    longer(:, :along%number) = along%values
-                    call move_alloc(longer, along%values)
-                end if
-                along%number = along%number + 1
-                column = along%number
-                along%values(:, column) = values
+            ! First displacements, then forces
+            associate (n => size(walk%chain%flexibility) + 1)
+                go_on_from = is_near(end(:n), start(:n)) .and. is_near(end(n + 1:), start(n + 1:))
             end associate
-        end subroutine add
+        end function go_on_from
+
+        !> Do numbers differ by rounding only
+        pure function is_near(end, start)
+            real(wp), intent(in) :: end(:), start(:)
+            logical :: is_near
+
+            is_near = all(abs(end - start) <= 4*epsilon(end)*maxval(abs(end)))
+        end function is_near
 
     end subroutine keep
 

@@ -11,7 +11,7 @@ module gapbeam_branch
     use gapbeam_kinds, only: wp => qp, dp => wp
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_error, only: error_type
-    use gapbeam_polyline_quad, only: break_law
+    use gapbeam_polyline_quad, only: break_law, last_breakpoint
     use gapbeam_unloading_quad, only: unload, rewrite_laws
     use gapbeam_law_margins_quad, only: margin_in_scheme, is_watched_in
     use gapbeam_model, only: coarse_beam_type => beam_type
@@ -92,6 +92,7 @@ contains
         logical :: done
 
         direction = branch%way%direction
+        if (allocated(branch%touched)) deallocate (branch%touched)
         call step_locally(branch, target, leg, segment, outcome, done)
         if (done) return
         segment%from = branch%factor
@@ -172,45 +173,83 @@ contains
         !> If not, the branch is where it was
         logical, intent(out) :: done
         type(outgoing_type) :: way
-        integer :: direction, i, changed(2)
+        integer :: direction
         logical :: breaks
 
         done = .false.
-        associate (s => branch%beam%supports(k), local => branch%local)
-            breaks = branch%unloading(k) == stays_broken .and. .not. branch%way%closed(k) .and. s%before < -huge(1.0_wp)
+        associate (s => branch%beam%supports(k), local => branch%local, closed => branch%way%closed)
+            breaks = branch%unloading(k) == stays_broken .and. .not. closed(k) .and. s%before < -huge(1.0_wp)
             if (breaks .and. local%any_set) return
-            way%closed = branch%way%closed
-            call pass_breakpoint(local, k, breaks, factor, way%closed, direction)
-            if (.not. local%stretch%current .or. (direction == turn .and. .not. breaks)) return
-            way%index = local_index(local, way%closed)
-            if (breaks) then
-                ! What is gone leaves the same line, to go either way
-                way%direction = leg
-                if (way%index > 0 .and. branch%sense*sense_of(way) < 0) way%direction = -leg
-            else
+            call pass_breakpoint(local, k, breaks, factor, closed, direction)
+            if (local%stretch%current .and. (direction /= turn .or. breaks)) then
+                way%index = local_index(local, closed)
                 way%direction = direction
+                ! What is gone leaves the same line, to go either way
+                if (breaks) way%direction = leg
+                if (breaks .and. way%index > 0 .and. branch%sense*sense_of(way) < 0) way%direction = -leg
+                call take_direction(local, closed, factor, way%direction, breaks)
+                done = local%current
             end if
-            call take_direction(local, way%closed, factor, way%direction, breaks)
-            done = local%current
-            if (.not. done) return
-            if (breaks) call break_law(branch%beam%supports, k)
-            branch%rounded_places = branch%rounded_places .or. size(local%turned) > 0
-            do i = 1, size(local%turned)
-                associate (top => local%turned(i), laws => branch%beam%supports)
-                    call unload(laws, branch%way%closed, top - laws(top)%breakpoint + 1, &
-                                branch%first_slope(top - laws(top)%breakpoint + 1), real(local%turned_at(i), wp), &
-                                real(local%turned_with(i), wp), changed)
-                end associate
-            end do
+            if (.not. done) then
+                call switch(local%changed, closed)
+                return
+            end if
         end associate
+        call take_laws(branch, k, breaks)
         if (allocated(branch%outgoing)) deallocate (branch%outgoing)
         allocate (branch%outgoing(merge(2, 1, breaks)))
+        ! Its scheme is asked for where there are others
+        if (breaks) way%closed = branch%way%closed
         branch%outgoing(:) = way
         if (breaks) branch%outgoing%direction = [rise, fall]
         branch%taken = findloc(branch%outgoing%direction, way%direction, 1)
-        branch%way = way
+        branch%way%direction = way%direction
+        branch%way%index = way%index
+        if (allocated(branch%way%still)) deallocate (branch%way%still)
+        if (allocated(branch%way%motion)) deallocate (branch%way%motion)
         branch%sense = sense_of(way)
     end subroutine pass_locally
+
+    !> Open breakpoints that are closed, and close those that are open
+    pure subroutine switch(numbers, closed)
+        !> One that is there twice stays as it is
+        integer, intent(in) :: numbers(:)
+        logical, intent(inout) :: closed(:)
+        integer :: i
+
+        do i = 1, size(numbers)
+            closed(numbers(i)) = .not. closed(numbers(i))
+        end do
+    end subroutine switch
+
+    !> Take over the laws that a step in double precision has written anew, and note what it has touched
+    subroutine take_laws(branch, k, breaks)
+        type(branch_type), intent(inout) :: branch
+        !> The breakpoint that was passed, and whether its support has broken there
+        integer, intent(in) :: k
+        logical, intent(in) :: breaks
+        logical, allocatable :: before(:)
+        integer :: i, j, first, changed(2)
+
+        associate (local => branch%local, laws => branch%beam%supports, closed => branch%way%closed)
+            branch%touched = local%changed
+            if (breaks) then
+                call break_law(laws, k)
+                branch%touched = [branch%touched, (j, j=k - laws(k)%breakpoint + 1, k)]
+            end if
+            branch%rounded_places = branch%rounded_places .or. size(local%turned) > 0
+            do i = 1, size(local%turned)
+                first = local%turned(i) - laws(local%turned(i))%breakpoint + 1
+                associate (last => last_breakpoint(laws, first))
+                    before = closed(first:last)
+                    call switch(pack(local%changed - first + 1, local%changed >= first .and. local%changed <= last), before)
+                    call unload(laws(first:last), before, 1, branch%first_slope(first), real(local%turned_at(i), wp), &
+                                real(local%turned_with(i), wp), changed)
+                    branch%touched = [branch%touched, (j, j=first, last)]
+                end associate
+            end do
+        end associate
+    end subroutine take_laws
 
     !> Choose the way on: one that is stable under growing load if there is one, else the least unstable
     subroutine go_on(branch, leg, wanted, at_hand, outcome, error)

@@ -1,12 +1,12 @@
 !> A path on its way: the beam with its laws as they have become, the way at hand, and what was known on the way there.
 module gapbeam_branch_state
-    use gapbeam_kinds, only: wp => qp, dp => wp
+    use gapbeam_kinds, only: wp => qp
     use gapbeam_path_tolerances, only: same_breakpoint
     use gapbeam_polyline, only: coarse_support_type => node_support_type
     use gapbeam_polyline_quad, only: node_support_type, piece_that_acts, break_law
     use gapbeam_model_quad, only: beam_type
     use gapbeam_region_responses, only: responses_type, outgoing_type
-    use gapbeam_local_step, only: local_type, laws_here, rounded
+    use gapbeam_local_step, only: local_type, rounded, find_passed
     implicit none
     private
     public :: branch_type, note_place, break_supports, find_shared, sense_of, laws_of
@@ -35,6 +35,8 @@ module gapbeam_branch_state
         integer :: taken = 0
         !> Direction of the load times (-1)**index: it stays along the path (Eaves and Scarf 1976)
         integer :: sense = 0
+        !> Breakpoints that differ in their scheme or law from the stretch before, if no others do; not allocated: any may
+        integer, allocatable :: touched(:)
         !> The two supports, where nothing tells how they share what comes
         integer :: shared(2) = 0
     end type branch_type
@@ -127,17 +129,20 @@ contains
         sense = way%direction*merge(1, -1, modulo(way%index, 2) == 0)
     end function sense_of
 
-    !> The laws as they are on the stretch that begins, in double precision
-    pure function laws_of(branch, like) result(laws)
+    !> The laws as they have become at some breakpoints, in double precision; those that go on loading as they were
+    pure function laws_of(branch, like, places) result(laws)
         type(branch_type), intent(in) :: branch
-        !> What does not change of them
+        !> What does not change of them, at all breakpoints
         type(coarse_support_type), intent(in) :: like(:)
-        type(coarse_support_type), allocatable :: laws(:)
+        !> The breakpoints
+        integer, intent(in) :: places(:)
+        type(coarse_support_type) :: laws(size(places))
 
         if (branch%local%current .and. branch%local%steps > 0) then
-            laws = laws_here(branch%local, branch%way%closed, real(branch%factor, dp))
+            laws(:) = branch%local%beam%supports(places)
+            call find_passed(laws)
         else
-            laws = rounded(branch%beam%supports, like)
+            laws(:) = rounded(branch%beam%supports(places), like(places))
         end if
     end function laws_of
 

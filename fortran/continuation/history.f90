@@ -23,8 +23,9 @@ module gapbeam_history
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_state, only: detail_of
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
-    use gapbeam_history_record, only: history_type, stretch_type, limit_type, other_way_type, new_history, laws_at, &
-        add_stretch, add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
+    use gapbeam_history_stretch, only: stretch_type, pieces_type, keep_pieces, enter_stretch
+    use gapbeam_history_record, only: history_type, limit_type, other_way_type, new_history, laws_at, add_stretch, &
+        add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
         no_limit, limit_point, bifurcation, mechanism, ended, cut_off
     implicit none
     private
@@ -53,6 +54,8 @@ module gapbeam_history
         !> Scheme and direction with which it began, and stretches since the factor has changed
         logical, allocatable :: first(:)
         integer :: first_direction = rise, idle = 0
+        !> Pieces on the last stretch
+        type(pieces_type) :: last
     end type walk_type
 
 contains
@@ -228,11 +231,10 @@ contains
         integer :: taken
 
         associate (branch => walk%branch, way => walk%way, direction => stretch%direction)
-            allocate (ways, source=branch%outgoing)
+            if (size(branch%outgoing) > 1) allocate (ways, source=branch%outgoing)
             taken = branch%taken
-            stretch = stretch_type(walk%leg, 0.0_wp, 0.0_wp, branch%way%direction, branch%way%index, size(ways), .false., &
-                                   branch%way%closed)
-            if (walk%keeps) stretch%laws = laws_of(branch, walk%assembled%beam%supports)
+            stretch = stretch_type(walk%leg, 0.0_wp, 0.0_wp, branch%way%direction, branch%way%index, size(branch%outgoing), .false.)
+            call take_pieces(walk, stretch)
             stable = stretch%index == 0 .and. direction /= -way
             ! Not at an end while it falls, but where it may have landed
             target = walk%to
@@ -257,9 +259,10 @@ contains
                         history%ending = ended
                     end if
                 end if
+                call enter_stretch(stretch, walk%last)
                 call add_stretch(stretch, history, error)
                 if (allocated(error)) return
-                call add_others(ways, taken, history)
+                if (allocated(ways)) call add_others(ways, taken, history)
                 if (stable) call note_landings(way, history)
             end if
             if (outcome == goes_on) then
@@ -274,6 +277,25 @@ contains
         end associate
         if (history%at_limit == at_limit_stop .and. size(history%limits) > 0 .and. .not. is_jumping(history)) history%ending = ended
     end subroutine pass_stretch
+
+    !> Note the pieces of the supports on the stretch that begins
+    subroutine take_pieces(walk, stretch)
+        type(walk_type), intent(in) :: walk
+        type(stretch_type), intent(inout) :: stretch
+        integer, allocatable :: places(:)
+        type(node_support_type), allocatable :: laws(:)
+        integer :: k
+
+        associate (branch => walk%branch)
+            if (allocated(branch%touched) .and. allocated(walk%last%closed)) then
+                allocate (places, source=branch%touched)
+            else
+                allocate (places, source=[(k, k=1, size(branch%way%closed))])
+            end if
+            if (walk%keeps) laws = laws_of(branch, walk%assembled%beam%supports, places)
+            call keep_pieces(places, branch%way%closed(places), laws, walk%last, stretch)
+        end associate
+    end subroutine take_pieces
 
     !> Count stretches without length, and refuse to go on where there is no end to them
     subroutine refuse_idle(walk, moves, error)

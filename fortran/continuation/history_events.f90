@@ -6,7 +6,8 @@ module gapbeam_history_events
     use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
         gapbeam_closes, gapbeam_slips, gapbeam_sticks
     use gapbeam_events, only: event_type, add_event
-    use gapbeam_history, only: history_type
+    use gapbeam_history_stretch, only: pieces_type, enter_stretch
+    use gapbeam_history_record, only: history_type, find_pieces
     implicit none
     private
     public :: find_events
@@ -23,10 +24,13 @@ contains
         !> Not 0 where memory is at an end
         integer, intent(out) :: stat
         type(event_type), allocatable :: events(:)
-        integer :: k, j, number, pending
+        type(pieces_type) :: pieces
+        integer, allocatable :: which(:)
+        integer :: k, j, at, number, pending
         logical :: begins
 
         number = 0
+        at = 0
         allocate (events(16), stat=stat)
         ! Events from here on are passed in a jump and happen where it begins
         pending = 0
@@ -34,13 +38,17 @@ contains
             do k = 1, size(s)
                 if (stat /= 0) return
                 if (s(k)%skipped) then
-                    if (k > 1) call note_changes(k - 1, k)
+                    if (k > 1) call note_changes(k)
                     cycle
                 end if
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
-                    j = findloc(s(k + 1)%closed .and. .not. s(k)%closed, .true., 1)
-                    if (j > 0) call add_event(event_type(s(k)%from, assembled%normal(j), gapbeam_turns, gapbeam_turns, k), events, &
-                                               number, stat)
+                    call go_to(k)
+                    which = switching(k + 1)
+                    which = pack(which, .not. pieces%closed(which))
+                    if (size(which) > 0) then
+                        call add_event(event_type(s(k)%from, assembled%normal(minval(which)), gapbeam_turns, gapbeam_turns, k), &
+                                       events, number, stat)
+                    end if
                 end if
                 if (s(k)%leg == 0) cycle
                 begins = .false.
@@ -49,7 +57,7 @@ contains
                     ! What happens under the dead loads is no event
                     number = number - pending
                 else if (k > 1) then
-                    call note_changes(k - 1, k)
+                    call note_changes(k)
                     do j = number - pending + 1, number
                         events(j)%factor = s(k)%from
                         events(j)%stretch = k
@@ -64,38 +72,84 @@ contains
 
     contains
 
-        !> What happens to every support between two stretches
-        subroutine note_changes(one, other)
-            integer, intent(in) :: one, other
-            type(acting_type) :: before, after
-            integer :: i, first, change, added
+        !> Have the pieces of a stretch at hand
+        subroutine go_to(one)
+            integer, intent(in) :: one
+
+            if (at > 0 .and. at <= one) then
+                do at = at + 1, one
+                    call enter_stretch(path%stretches(at), pieces)
+                end do
+            else
+                call find_pieces(path, one, pieces)
+            end if
+            at = one
+        end subroutine go_to
+
+        !> What happens to every support where a stretch begins
+        subroutine note_changes(other)
+            integer, intent(in) :: other
+            type(acting_type), allocatable :: before(:)
+            type(acting_type) :: after
+            integer, allocatable :: which(:)
+            integer :: i, change, added
 
             if (stat /= 0) return
-            associate (a => path%stretches(one), b => path%stretches(other))
-                do i = 1, size(assembled%model%supports)
-                    first = assembled%beam_support(i)
-                    if (first == 0) cycle
-                    associate (last => last_breakpoint(assembled%beam%supports, first))
-                        if (all(a%closed(first:last) .eqv. b%closed(first:last))) cycle
-                    end associate
-                    before = acts_in(assembled, i, a%closed, a%laws)
-                    after = acts_in(assembled, i, b%closed, b%laws)
-                    change = no_change
+            call go_to(other - 1)
+            which = changing(other)
+            before = [(acts_in(assembled, which(i), pieces%closed, pieces%laws), i=1, size(which))]
+            call go_to(other)
+            do i = 1, size(which)
+                after = acts_in(assembled, which(i), pieces%closed, pieces%laws)
+                associate (first => assembled%beam_support(which(i)))
                     if (assembled%beam%supports(first)%breakpoint > 0) then
-                        change = what_happens(before, after)
+                        change = what_happens(before(i), after)
                     else
-                        change = merge(gapbeam_closes, gapbeam_opens, b%closed(first))
+                        change = merge(gapbeam_closes, gapbeam_opens, pieces%closed(first))
                     end if
-                    if (change == no_change) cycle
-                    pending = pending + 1
-                    call add_event(event_type(b%from, i, after%condition, change, other), events, number, stat)
-                    if (stat /= 0) return
-                end do
-            end associate
+                end associate
+                if (change == no_change) cycle
+                pending = pending + 1
+                call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number, &
+                               stat)
+                if (stat /= 0) return
+            end do
             if (.not. allocated(assembled%axial%laws)) return
-            call find_changes_along(assembled, path, one, other, events, number, added, stat)
+            call find_changes_along(assembled, path, other - 1, other, events, number, added, stat)
             pending = pending + added
         end subroutine note_changes
+
+        !> Breakpoints that open or close from the stretch at hand to the next one
+        function switching(next) result(breakpoints)
+            integer, intent(in) :: next
+            integer, allocatable :: breakpoints(:)
+            integer :: i
+
+            associate (s => path%stretches(next))
+                if (allocated(s%changed)) then
+                    breakpoints = pack(s%changed, s%closed .neqv. pieces%closed(s%changed))
+                else
+                    breakpoints = pack([(i, i=1, size(s%closed))], s%closed .neqv. pieces%closed)
+                end if
+            end associate
+        end function switching
+
+        !> Their supports, in the order of the model
+        function changing(next) result(supports)
+            integer, intent(in) :: next
+            integer, allocatable :: supports(:)
+            logical, allocatable :: changes(:)
+            integer :: i
+
+            supports = assembled%normal(switching(next))
+            if (size(supports) < 2) return
+            associate (first => minval(supports), last => maxval(supports))
+                allocate (changes(first:last))
+                changes(:) = .false.
+                changes(supports) = .true.
+                supports = pack([(i, i=first, last)], changes)
+            end associate
+        end function changing
 
         !> The path ends at a limit: what happens there is all that happens
         subroutine end_at_limit()
@@ -106,7 +160,7 @@ contains
             if (size(path%limits) == 0) return
             before = path%limits(size(path%limits))%stretch
             if (before < 1 .or. before >= path%number) return
-            call note_changes(before, before + 1)
+            call note_changes(before + 1)
             do j = number - pending + 1, number
                 events(j)%factor = path%limits(size(path%limits))%factor
             end do

@@ -7,13 +7,14 @@ module gapbeam_history_record
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_arc, only: arc_type
     use gapbeam_ground_along, only: ground_along_type
+    use gapbeam_history_stretch, only: stretch_type, pieces_type, hand_over, enter_stretch, same_laws
     implicit none
     private
     public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, on_ground_type, point_type
-    public :: new_history, laws_at
+    public :: new_history, find_pieces, scheme_at, laws_at, runs_of
+    ! Of gapbeam_history_stretch
     public :: same_laws
-    public :: runs_of
-    public :: add_stretch, add_others, note_limit, note_landings, is_jumping
+    public :: add_stretch, add_column, add_others, note_limit, note_landings, is_jumping
     public :: at_limit_stop, at_limit_jump, at_limit_follow
     public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off
 
@@ -23,35 +24,11 @@ module gapbeam_history_record
     !> many stretches
     integer, parameter :: no_limit = 0, limit_point = 1, bifurcation = 2, mechanism = 3, ended = 4, cut_off = 5
 
-    !> A stretch of the path on which all pieces of all laws stay the same
-    type :: stretch_type
-        !> Number of the factor that is gone to, from 1; 0 while the dead loads are put on
-        integer :: leg
-        !> Load factors
-        real(wp) :: from, to
-        !> Does the load rise (1), fall (-1), or does the beam turn at constant load (0); in how many ways the beam gives way by
-        !> itself; ways on there were at its beginning
-        integer :: direction, index, ways
-        !> Is it passed in a jump
-        logical :: skipped
-        !> The scheme, shape (size(supports))
-        logical, allocatable :: closed(:)
-        !> The laws as they have become, where they are not those of the beam
-        type(node_support_type), allocatable :: laws(:)
-        !> Of links along the beam: their scheme, and which numbers of the chain are at the ends
-        logical, allocatable :: along(:)
-        integer :: ends(2) = 0
-        !> Contacts of their laws as they are at its beginning, where some keep a set, shape (size(axial%laws))
-        real(wp), allocatable :: along_contact(:)
-        !> Is the chain free there, so that forces are unique and its position is not
-        logical :: loose = .false.
-    end type stretch_type
-
     !> Another way on from a tie
     type :: other_way_type
         !> The stretch that was taken instead
         integer :: stretch
-        !> As in stretch_type
+        !> As in stretch_type (gapbeam_history_stretch)
         integer :: direction, index
         logical, allocatable :: closed(:)
     end type other_way_type
@@ -68,7 +45,7 @@ module gapbeam_history_record
         integer :: landing = 0
     end type limit_type
 
-    !> Deflections at the smooth laws
+    !> Deflections at the smooth laws, or numbers along the beam
     type :: point_type
         real(wp), allocatable :: x(:)
     end type point_type
@@ -108,8 +85,8 @@ module gapbeam_history_record
         !> Support of the model of every link
         integer, allocatable :: support(:)
         !> Displacements of its points, forces of its bars, forces of the links on the beam to the right, in units of the axial
-        !> system: the first `number` columns
-        real(wp), allocatable :: values(:, :)
+        !> system: the first `number` of these
+        type(point_type), allocatable :: columns(:)
         integer :: number = 0
         !> Where ground holds the beam along its axis instead, the first `number` entries
         type(on_ground_type), allocatable :: on_ground(:)
@@ -171,28 +148,36 @@ contains
             end do
             call move_alloc(longer, history%stretches)
         end if
+        stretch%whole = history%number + 1
+        if (allocated(stretch%changed)) stretch%whole = history%stretches(history%number)%whole
         history%number = history%number + 1
         call hand_over(stretch, history%stretches(history%number))
     end subroutine add_stretch
 
-    !> Put a stretch to another place, with what it has allocated
-    pure subroutine hand_over(from, to)
-        type(stretch_type), intent(inout) :: from, to
+    !> Keep numbers along the beam
+    pure subroutine add_column(values, along, column, error)
+        real(wp), intent(in) :: values(:)
+        type(along_type), intent(inout) :: along
+        !> Where they are
+        integer, intent(out) :: column
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        type(point_type), allocatable :: longer(:)
+        integer :: stat, k
 
-        call move_alloc(from%closed, to%closed)
-        call move_alloc(from%laws, to%laws)
-        call move_alloc(from%along, to%along)
-        call move_alloc(from%along_contact, to%along_contact)
-        to%ends = from%ends
-        to%loose = from%loose
-        to%leg = from%leg
-        to%from = from%from
-        to%to = from%to
-        to%direction = from%direction
-        to%index = from%index
-        to%ways = from%ways
-        to%skipped = from%skipped
-    end subroutine hand_over
+        column = along%number + 1
+        stat = 0
+        if (along%number == size(along%columns)) then
+            allocate (longer(2*along%number), stat=stat)
+            do k = 1, merge(along%number, 0, stat == 0)
+                call move_alloc(along%columns(k)%x, longer(k)%x)
+            end do
+            if (stat == 0) call move_alloc(longer, along%columns)
+        end if
+        if (stat == 0) allocate (along%columns(column)%x, source=values, stat=stat)
+        if (stat == 0) along%number = column
+        if (stat /= 0) call no_memory(error)
+    end subroutine add_column
 
     !> Keep the ways that the last stretch is not
     subroutine add_others(ways, taken, history)
@@ -253,25 +238,44 @@ contains
         end associate
     end subroutine note_landings
 
-    !> The laws of a stretch
-    pure function laws_at(assembled, stretch) result(laws)
+    !> The pieces of all supports on a stretch
+    pure subroutine find_pieces(history, number, pieces)
+        type(history_type), intent(in) :: history
+        !> Of the stretch
+        integer, intent(in) :: number
+        type(pieces_type), intent(out) :: pieces
+        integer :: k
+
+        do k = history%stretches(number)%whole, number
+            call enter_stretch(history%stretches(k), pieces)
+        end do
+    end subroutine find_pieces
+
+    !> The scheme of a stretch
+    pure function scheme_at(history, number) result(closed)
+        !> As for find_pieces
+        type(history_type), intent(in) :: history
+        integer, intent(in) :: number
+        logical, allocatable :: closed(:)
+        type(pieces_type) :: pieces
+
+        call find_pieces(history, number, pieces)
+        call move_alloc(pieces%closed, closed)
+    end function scheme_at
+
+    !> The laws on a stretch
+    pure function laws_at(assembled, history, number) result(laws)
         type(assembled_type), intent(in) :: assembled
-        type(stretch_type), intent(in) :: stretch
+        !> As for find_pieces
+        type(history_type), intent(in) :: history
+        integer, intent(in) :: number
         type(node_support_type), allocatable :: laws(:)
+        type(pieces_type) :: pieces
 
+        call find_pieces(history, number, pieces)
         laws = assembled%beam%supports
-        if (allocated(stretch%laws)) laws = stretch%laws
+        if (allocated(pieces%laws)) call move_alloc(pieces%laws, laws)
     end function laws_at
-
-    !> Are the laws of all supports the same
-    pure function same_laws(a, b) result(they_are)
-        type(node_support_type), intent(in) :: a(:), b(:)
-        logical :: they_are
-
-        they_are = .not. any(a%contact < b%contact .or. a%contact > b%contact .or. a%force < b%force .or. a%force > b%force &
-                             .or. a%stiffness < b%stiffness .or. a%stiffness > b%stiffness &
-                             .or. a%before < b%before .or. a%before > b%before)
-    end function same_laws
 
     !> First and last stretch of every part of a path on which all supports stay on their piece, a smooth law being one, shape
     !> (2, number)

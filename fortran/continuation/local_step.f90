@@ -7,7 +7,7 @@ module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
     use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit, last_breakpoint
-    use gapbeam_unloading, only: unload, rewrite_laws
+    use gapbeam_unloading, only: unload
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
@@ -18,7 +18,8 @@ module gapbeam_local_step
         unloads_from_here
     implicit none
     private
-    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, laws_here, rounded
+    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, rounded, &
+        find_passed
     public :: clear_arrival, doubtful
 
     !> What find_next came to
@@ -316,27 +317,6 @@ contains
             if (acts .and. slope < -huge(slope)) index = index + 1
         end do
     end function local_index
-
-    !> The laws as they are at a load factor, as the scheme before the last step sees them
-    pure function laws_here(local, closed, factor) result(laws)
-        type(local_type), intent(in) :: local
-        logical, intent(in) :: closed(:)
-        real(wp), intent(in) :: factor
-        type(node_support_type), allocatable :: laws(:)
-        logical, allocatable :: before(:)
-
-        laws = local%beam%supports
-        if (local%any_set) then
-            before = closed
-            before(local%changed) = .not. before(local%changed)
-            associate (dead => local%stretch%dead, live => local%stretch%live)
-                call rewrite_laws(laws, before, local%stretch%keeps_set, local%first_slope, dead%answers(laws%node)%deflection &
-                                  + factor*(live%answers(laws%node)%deflection - local%settling), &
-                                  dead%reaction + factor*live%reaction)
-            end associate
-        end if
-        call find_passed(laws)
-    end function laws_here
 
     !> Laws in double precision
     pure function rounded(fine, like) result(laws)

@@ -17,7 +17,8 @@ module gapbeam_path_on_laws
     use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose, is_lost
     use gapbeam_arc_states, only: eigenvalues_at, wrongness_of
     use gapbeam_arc_roots, only: arc_test_type, of_factor, of_breakpoint, find_root
-    use gapbeam_history_record, only: history_type, on_laws_type, laws_at, same_laws, no_limit
+    use gapbeam_history_stretch, only: pieces_type
+    use gapbeam_history_record, only: history_type, on_laws_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
     implicit none
     private
     public :: view_type, begin_on_laws, join_after, beam_of, end_of, arc_about, is_near, keep_end, forget_end, check_on_laws, &
@@ -76,7 +77,7 @@ contains
                 known%unique = .true.
                 do k = 1, n
                     if (k > 1 .and. .not. allocated(s(k)%laws)) exit
-                    laws = laws_at(view%assembled, s(k))
+                    laws = laws_at(view%assembled, h, k)
                     known%unique = known%unique .and. all(laws%stiffness >= 0.0_wp .and. laws%before >= 0.0_wp)
                 end do
                 ! Where a jump has landed, a stretch begins at the load factor of the limit
@@ -116,13 +117,14 @@ contains
         integer :: join
         logical :: turns
 
-        associate (s => view%history%stretches(k), next => view%history%stretches(k + 1), beam => view%assembled)
+        associate (h => view%history, s => view%history%stretches(k), next => view%history%stretches(k + 1), &
+                   beam => view%assembled)
             turns = s%direction /= next%direction
             if (next%leg /= s%leg) then
                 join = given_factor
             else if (next%direction == 0) then
                 join = unknown
-            else if (turns .and. .not. same_laws(laws_at(beam, s), laws_at(beam, next))) then
+            else if (turns .and. .not. same_laws(laws_at(beam, h, k), laws_at(beam, h, k + 1))) then
                 join = unknown  ! laws written anew where the load turns round
             else if (size(passed_ends(view, k)) > 0) then
                 join = event
@@ -140,11 +142,14 @@ contains
         integer, intent(in) :: k
         type(arc_test_type), allocatable :: ends(:)
         type(acting_type) :: piece, after
+        type(pieces_type) :: a, b
         integer :: j
         logical :: by_force
 
         allocate (ends(0))
-        associate (a => view%history%stretches(k), b => view%history%stretches(k + 1), beam => view%assembled)
+        call find_pieces(view%history, k, a)
+        call find_pieces(view%history, k + 1, b)
+        associate (beam => view%assembled)
             do j = 1, size(a%closed)
                 if (a%closed(j) .eqv. b%closed(j)) cycle
                 by_force = a%closed(j)
@@ -210,8 +215,8 @@ contains
             beam => beam_of(view, k)
             call new_state(beam, state, error)
             if (allocated(error)) return
-            state%closed(:) = s%closed
-            allocate (state%laws, source=laws_at(beam, s))
+            state%closed(:) = scheme_at(view%history, k)
+            allocate (state%laws, source=laws_at(beam, view%history, k))
             call solve_state(beam, factor, rule_extended, state, error)
             if (.not. allocated(error) .and. state%status /= gapbeam_solved) call lose(error)
             if (.not. allocated(error)) point = [deflections_of(beam, smooth_supports(beam), state), factor]
@@ -254,9 +259,8 @@ contains
         ! What is not allocated is not present
         if (present(turn) .and. .not. allocated(error)) call end_of(view, turn, stop_of_stretch, turning, error)
         if (allocated(error)) return
-        associate (s => view%history%stretches(first))
-            call new_arc(beam_of(view, first), s%closed, laws_at(view%assembled, s), start, stop, arc, error, turning)
-        end associate
+        call new_arc(beam_of(view, first), scheme_at(view%history, first), laws_at(view%assembled, view%history, first), start, &
+                     stop, arc, error, turning)
     end subroutine arc_about
 
     !> May the error of the polylines be as large as the distance of two states

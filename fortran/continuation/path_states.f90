@@ -16,7 +16,7 @@ module gapbeam_path_states
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_smooth_arc, only: arc_type, springs_at, is_lost
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
-    use gapbeam_history_record, only: history_type, laws_at, same_laws
+    use gapbeam_history_record, only: history_type, scheme_at, laws_at, same_laws
     use gapbeam_ground_along_states, only: take_ground_along
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
@@ -53,10 +53,10 @@ contains
             call find_lines(beam, history, number, factor, laws, how, error)
             if (allocated(error)) return
         else
-            allocate (laws, source=laws_at(beam, history%stretches(stretch)))
+            allocate (laws, source=laws_at(beam, history, stretch))
         end if
         if (present(exact)) exact = how /= on_polylines
-        state%closed(:) = history%stretches(number)%closed
+        state%closed(:) = scheme_at(history, number)
         if (how == by_tangents) then
             if (same_laws(laws, beam%beam%supports)) then
                 call solve_on_laws(beam, factor, rule_given, state, error)
@@ -99,7 +99,7 @@ contains
         associate (s => history%stretches(stretch), along => history%along)
             share = 0.0_wp
             if (abs(s%to - s%from) > 0.0_wp) share = (factor - s%from)/(s%to - s%from)
-            values = (1 - share)*along%values(:, s%ends(1)) + share*along%values(:, s%ends(2))
+            values = (1 - share)*along%columns(s%ends(1))%x + share*along%columns(s%ends(2))%x
             n = size(state%tension)
             state%displacement(:) = values(:n + 1)
             state%tension(:) = values(n + 2:2*n + 1)
@@ -175,7 +175,7 @@ contains
                 end if
                 if (allocated(error)) return
             end if
-            laws = laws_at(beam, s(stretch))
+            laws = laws_at(beam, history, stretch)
             if (allocated(x)) call put_lines(beam, x, laws)
             if (allocated(x) .or. how == on_polylines) return
             not_known = known%joins(last) /= through .and. .not. is_exact(history, last)
@@ -194,7 +194,7 @@ contains
                 deallocate (error)
             end if
             how = merge(by_tangents, on_polylines, known%unique .and. .not. not_known)
-            laws = laws_at(beam, s(k))
+            laws = laws_at(beam, history, k)
         end associate
     end subroutine find_lines
 

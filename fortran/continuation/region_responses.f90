@@ -11,7 +11,8 @@ module gapbeam_region_responses
     use gapbeam_affine_response_quad, only: lines_type, new_lines, response_type, response_of, value_at, width_at
     implicit none
     private
-    public :: responses_type, outgoing_type, new_responses, solve_responses, find_falling, find_index, is_held_twice, are_one
+    public :: responses_type, outgoing_type, new_responses, solve_responses, renew_responses, find_falling, find_index
+    public :: is_held_twice, are_one
     public :: rise, fall, turn, from_nowhere
 
     !> Directions of the load factor along a way
@@ -64,23 +65,57 @@ contains
         type(beam_type), intent(in) :: beam
         logical, intent(in) :: closed(:)
         type(responses_type), intent(inout) :: responses
-        integer :: state, place, k
+        integer :: state, place
+
+        call renew_rates(beam, responses)
+        call solve_and_refine(beam, closed, responses%dead, state, place)
+        if (state == band_ok) call solve_and_refine(responses%incremental, closed, responses%live, state, place)
+        responses%solves = responses%solves + 2
+        responses%closed(:) = closed
+        responses%regular = state == band_ok
+        if (responses%regular) call find_responses(beam, responses)
+    end subroutine solve_responses
+
+    !> The same where laws may have been written anew since, but for the same lines: solved if another scheme was solved last
+    subroutine renew_responses(beam, closed, responses)
+        !> As for solve_responses
+        type(beam_type), intent(in) :: beam
+        logical, intent(in) :: closed(:)
+        type(responses_type), intent(inout) :: responses
+        logical :: known
+
+        known = responses%regular
+        if (known) known = all(responses%closed .eqv. closed)
+        if (known) then
+            call renew_rates(beam, responses)
+            call find_responses(beam, responses)
+        else
+            call solve_responses(beam, closed, responses)
+        end if
+    end subroutine renew_responses
+
+    !> The laws for the rates: moved by the supports' own movement only
+    pure subroutine renew_rates(beam, responses)
+        type(beam_type), intent(in) :: beam
+        type(responses_type), intent(inout) :: responses
 
         associate (s => responses%incremental%supports)
             s = beam%supports
             s%contact = responses%settling
             s%force = 0.0_wp
         end associate
-        call solve_and_refine(beam, closed, responses%dead, state, place)
-        if (state == band_ok) call solve_and_refine(responses%incremental, closed, responses%live, state, place)
-        responses%solves = responses%solves + 2
-        responses%closed(:) = closed
-        responses%regular = state == band_ok
-        if (.not. responses%regular) return
-        do k = 1, size(closed)
-            responses%response(k) = response_of(beam, closed, k, responses%lines_type)
+    end subroutine renew_rates
+
+    !> Responses of all breakpoints in the scheme that is solved
+    pure subroutine find_responses(beam, responses)
+        type(beam_type), intent(in) :: beam
+        type(responses_type), intent(inout) :: responses
+        integer :: k
+
+        do k = 1, size(responses%closed)
+            responses%response(k) = response_of(beam, responses%closed, k, responses%lines_type)
         end do
-    end subroutine solve_responses
+    end subroutine find_responses
 
     !> Which breakpoints that are at zero fall along the line of a region
     subroutine find_falling(beam, closed, factor, direction, at_hand, responses, falling)

@@ -8,7 +8,7 @@ module gapbeam_single_direction
     use gapbeam_limits, only: most_looks, looks_without_progress
     use gapbeam_polyline_quad, only: node_support_type, coincide, piece_that_acts, open_from
     use gapbeam_model_quad, only: beam_type
-    use gapbeam_region_responses, only: responses_type, outgoing_type, solve_responses, find_falling, is_held_twice, &
+    use gapbeam_region_responses, only: responses_type, outgoing_type, renew_responses, find_falling, is_held_twice, &
         rise, fall, turn
     implicit none
     private
@@ -68,7 +68,7 @@ contains
             if (is_held_twice(beam, closed)) then
                 responses%regular = .false.
             else
-                call solve_responses(beam, closed, responses)
+                call renew_responses(beam, closed, responses)
             end if
             if (.not. responses%regular) then
                 if (idle > looks_without_progress) return

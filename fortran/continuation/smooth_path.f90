@@ -5,6 +5,7 @@
 !> of its piece, and the load factors that are gone to. What is not found there stays as it is on the polylines, and says so.
 module gapbeam_smooth_path
     use gapbeam_kinds, only: wp
+    use gapbeam_limits, only: segments_a_breakpoint
     use gapbeam_path_tolerances, only: nothing_on_arc, farthest_beside, further_than_asked
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
@@ -34,22 +35,27 @@ contains
         !> As for follow_history
         type(assembled_type), intent(in), target :: assembled
         real(wp), intent(in) :: factors(:)
-        integer, intent(in) :: at_limit, most
+        integer, intent(in) :: at_limit
+        !> Stretches after which it is cut off, beside those that breakpoints make
+        integer, intent(in) :: most
         type(history_type), intent(out), target :: history
         !> As for follow_history; or what cannot be told on the laws
         type(error_type), allocatable, intent(out) :: error
         type(assembled_type), target :: dead
         type(view_type) :: view
         real(wp), allocatable :: to(:)
-        integer :: goes, tries, n
+        integer :: goes, tries, n, longest
 
+        n = size(assembled%beam%supports)
+        if (allocated(assembled%axial%laws)) n = n + size(assembled%axial%laws)
+        longest = int(min(real(huge(n), wp), most + real(segments_a_breakpoint, wp)*n*size(factors)))
         if (size(smooth_supports(assembled)) == 0) then
-            call follow_history(assembled, factors, at_limit, most, history, error)
+            call follow_history(assembled, factors, at_limit, longest, history, error)
             if (allocated(error) .or. history%ending == cut_off) return
             if (allocated(assembled%axial%limit)) call follow_ground_along(assembled, history, error)
             if (.not. allocated(assembled%axial%laws)) return
             call grow_dead_loads(assembled, dead)
-            call follow_along_axis(assembled, dead, most, history, error)
+            call follow_along_axis(assembled, dead, longest, history, error)
             return
         end if
         n = size(factors)
@@ -60,7 +66,7 @@ contains
         goes = merge(at_limit_jump, at_limit, view%stops)
         allocate (to, source=factors)
         do tries = 1, 2
-            call follow_history(assembled, to, goes, most, history, error)
+            call follow_history(assembled, to, goes, longest, history, error)
             if (allocated(error) .or. history%ending == cut_off) return
             view%history => history
             if (any(history%stretches(:history%number)%leg == 0) .and. .not. associated(view%dead)) then

@@ -5,7 +5,8 @@ module gapbeam_traced_branch
     use gapbeam_words, only: shown
     use gapbeam_smooth_arc, only: arc_type, is_lost
     use gapbeam_smooth_branches, only: branch_points_type, tracer_at, follow_branch
-    use gapbeam_history_record, only: stretch_type, limit_type, add_stretch, no_limit, limit_point, bifurcation, ended
+    use gapbeam_history_stretch, only: stretch_type, nothing_changes
+    use gapbeam_history_record, only: limit_type, add_stretch, no_limit, limit_point, bifurcation, ended
     use gapbeam_path_on_laws, only: view_type, goal_of_leg, way_of_leg, given_factor, unknown, start_of_stretch, &
         stop_of_stretch
     implicit none
@@ -70,6 +71,7 @@ contains
         last = branch%points(n + 1, branch%number)
         associate (h => view%history, known => view%history%on_laws)
             stretch = h%stretches(k)
+            call nothing_changes(stretch)
             stretch%index = 0
             stretch%ways = 2
             stretch%skipped = .false.

@@ -60,8 +60,8 @@ contains
         end if
         if (.not. allocated(error)) then
             if (history%path%ending == cut_off) then
-                call fatal_error(error, gapbeam_not_converged, "the path has more than 20,000 stretches: shorten the history, "// &
-                                 "or follow it in parts")
+                call fatal_error(error, gapbeam_not_converged, "the path has more than "//trim(whole(history%path%number))// &
+                                 " stretches: shorten the history, or follow it in parts")
             else
                 call describe(beam%lowered, factors, history, stat)
                 if (stat /= 0) call no_memory(error)

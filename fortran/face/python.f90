@@ -160,7 +160,7 @@ end subroutine gbsize
 
 ! Which supports of the scene those of the engine are
 subroutine gbnumb(beam, ns, number, laws)
-    use gapbeam_python_handles, only: handle_type, behind
+    use gapbeam_python_handles, only: handle_type, behind, put_laws
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: ns
@@ -174,12 +174,7 @@ subroutine gbnumb(beam, ns, number, laws)
     number = 0
     laws = 0.0d0
     number(:ns) = handle%beam%lowered%normal - 1
-    associate (s => handle%beam%lowered%beam%supports)
-        laws(1, :ns) = s%contact
-        laws(2, :ns) = s%force
-        laws(3, :ns) = s%stiffness
-        laws(4, :ns) = s%before
-    end associate
+    call put_laws(handle%beam%lowered%beam%supports, laws)
 end subroutine gbnumb
 
 ! What there is along a beam, in the scene's units

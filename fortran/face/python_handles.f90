@@ -24,7 +24,7 @@ module gapbeam_python_handles
     implicit none
     private
     public :: error_type, handle_type, number_of, behind, keep_beam, copy_beam, keep_state, keep_fields, keep_train
-    public :: listen, report, pack_extremes, laws_given
+    public :: listen, report, pack_extremes, laws_given, put_laws
 
     interface
         !> Let Python see to signals that have come, in its main thread; not 0 where what it did then is an exception
@@ -242,6 +242,20 @@ contains
         supports%before = laws(4, :)
         supports%passed = supports%breakpoint > 0 .and. .not. abs(supports%stiffness - supports%before) > 0.0_wp
     end function laws_given
+
+    !> The same to Python
+    pure subroutine put_laws(supports, laws)
+        type(node_support_type), intent(in) :: supports(:)
+        !> As for laws_given, or more
+        real(wp), intent(inout) :: laws(:, :)
+
+        associate (n => size(supports))
+            laws(1, :n) = supports%contact
+            laws(2, :n) = supports%force
+            laws(3, :n) = supports%stiffness
+            laws(4, :n) = supports%before
+        end associate
+    end subroutine put_laws
 
     !> What Python is told of an error
     pure subroutine report(error, status, message)

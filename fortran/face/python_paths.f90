@@ -109,23 +109,18 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
 end subroutine gbhist
 
 ! What GBHIST found
-subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, laws, factors, which, motion, others, scheme, &
-                  runs, at, events)
+subroutine gbhget(hist, nl, ns, nh, nk, nw, nr, ne, along, about, factors, which, motion, others, scheme, runs, at, events)
     use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_history_record, only: laws_at, runs_of
+    use gapbeam_history_record, only: runs_of
     use gapbeam_path_states, only: is_exact
-    use gapbeam_polyline, only: node_support_type
     implicit none
-    integer(8), intent(in) :: beam, hist
+    integer(8), intent(in) :: hist
     ! Links; supports of the engine, stretches, limits, ways not taken, runs and events, one more than there are
     integer, intent(in) :: nl, ns, nh, nk, nw, nr, ne
     ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end
     ! is on the smooth laws
     double precision, intent(out) :: along(2, nh)
     integer, intent(out) :: about(6, nh)
-    ! Scheme: 1 closed, 0 open; contact level, force, slope and slope before of every support as it has become
-    integer(1), intent(out) :: closed(ns, nh)
-    double precision, intent(out) :: laws(4, ns, nh)
     ! Of every limit: load factor; kind, leg, stretch before it, stretch of the landing (from 1, 0 none)
     double precision, intent(out) :: factors(nk)
     integer, intent(out) :: which(4, nk)
@@ -139,16 +134,12 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, 
     ! Of every event: load factor; support of the scene (from 1), what happens as in gapbeam_pieces
     double precision, intent(out) :: at(ne)
     integer, intent(out) :: events(2, ne)
-    type(handle_type), pointer :: handle, found
-    type(node_support_type), allocatable :: now(:)
+    type(handle_type), pointer :: found
     integer :: k
 
-    handle => behind(beam)
     found => behind(hist)
     along = 0.0d0
     about = 0
-    closed = int(0, kind(closed))
-    laws = 0.0d0
     factors = 0.0d0
     which = 0
     motion = 0.0d0
@@ -169,12 +160,6 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, 
             associate (s => path%stretches(k))
                 along(:, k) = [s%from, s%to]
                 about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped), merge(1, 0, is_exact(path, k))]
-                closed(:ns - 1, k) = int(merge(1, 0, s%closed), kind(closed))
-                now = laws_at(handle%beam%lowered, s)
-                laws(1, :ns - 1, k) = now%contact
-                laws(2, :ns - 1, k) = now%force
-                laws(3, :ns - 1, k) = now%stiffness
-                laws(4, :ns - 1, k) = now%before
             end associate
         end do
         do k = 1, nk - 1
@@ -193,9 +178,30 @@ subroutine gbhget(beam, hist, nl, ns, nh, nk, nw, nr, ne, along, about, closed, 
     end associate
 end subroutine gbhget
 
+! The pieces of all supports on a stretch of a path
+subroutine gbhsch(beam, hist, ns, stretch, closed, laws)
+    use gapbeam_python_handles, only: handle_type, behind, put_laws
+    use gapbeam_history_record, only: scheme_at, laws_at
+    implicit none
+    integer(8), intent(in) :: beam, hist
+    ! Supports of the engine, one more than there are; number of the stretch, from 1
+    integer, intent(in) :: ns, stretch
+    ! Scheme: 1 closed, 0 open; contact level, force, slope and slope before of every support as it has become
+    integer, intent(out) :: closed(ns)
+    double precision, intent(out) :: laws(4, ns)
+    type(handle_type), pointer :: handle, found
+
+    handle => behind(beam)
+    found => behind(hist)
+    closed = 0
+    laws = 0.0d0
+    closed(:ns - 1) = merge(1, 0, scheme_at(found%history%path, stretch))
+    call put_laws(laws_at(handle%beam%lowered, found%history%path, stretch), laws)
+end subroutine gbhsch
+
 ! Lines in place of smooth laws in the state at a load factor on a path
 subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
-    use gapbeam_python_handles, only: error_type, handle_type, behind, report
+    use gapbeam_python_handles, only: error_type, handle_type, behind, report, put_laws
     use gapbeam_path_states, only: find_lines
     use gapbeam_polyline, only: node_support_type
     implicit none
@@ -220,10 +226,7 @@ subroutine gbhlin(beam, hist, ns, stretch, factor, laws, how, status, message)
     call find_lines(handle%beam%lowered, found%history%path, stretch, factor, lines, how, error)
     call report(error, status, message)
     if (allocated(error)) return
-    laws(1, :ns - 1) = lines%contact
-    laws(2, :ns - 1) = lines%force
-    laws(3, :ns - 1) = lines%stiffness
-    laws(4, :ns - 1) = lines%before
+    call put_laws(lines, laws)
 end subroutine gbhlin
 
 ! What there is along the beam in a state on a path, put into the state and to the values of its supports
@@ -291,14 +294,14 @@ subroutine gbhten(beam, hist, np, nc, tension)
     ! Of every piece, in the scene's units
     double precision, intent(out) :: tension(np, nc)
     type(handle_type), pointer :: handle, found
-    integer :: j, bar
+    integer :: bars(np), j, k
 
     handle => behind(beam)
     found => behind(hist)
-    associate (axial => handle%beam%lowered%axial, values => found%history%path%along%values)
-        do j = 1, np
-            bar = axial_node(axial%point, j)
-            tension(j, :) = scale(values(size(axial%point) + bar, :nc), axial%units%force)
+    associate (axial => handle%beam%lowered%axial, columns => found%history%path%along%columns)
+        bars = [(size(axial%point) + axial_node(axial%point, j), j=1, np)]
+        do k = 1, nc
+            tension(:, k) = scale(columns(k)%x(bars), axial%units%force)
         end do
     end associate
 end subroutine gbhten

@@ -212,10 +212,6 @@ class History:
         Leg (0 while the dead loads are put on, then from 1), direction (1 rising, -1 falling, 0 turning at constant load), number
         of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump, 1 if its end is on the
         smooth laws; n by 6.
-    closed : numpy.ndarray of int
-        Schemes, n by supports of the engine.
-    breakpoints : numpy.ndarray
-        The laws as they have become, n by 4 by supports of the engine, as `Beam.breakpoints`.
     limit_factors : numpy.ndarray
         Where the load could not go on.
     limits : numpy.ndarray of int
@@ -240,8 +236,6 @@ class History:
 
     along: np.ndarray
     about: np.ndarray
-    closed: np.ndarray
-    breakpoints: np.ndarray
     limit_factors: np.ndarray
     limits: np.ndarray
     others: np.ndarray

@@ -265,6 +265,7 @@ gbroom = _engine.gbroom
 gbone = _engine.gbone
 gbnumb = _engine.gbnumb
 gbhget = _engine.gbhget
+gbhsch = _engine.gbhsch
 gbhaxi = _engine.gbhaxi
 gbhend = _engine.gbhend
 gbhten = _engine.gbhten

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ..base.errors import check_status
+from ..base.records import read_only
 from . import calls as _engine
 from .arrays import GroundChanges, History, Stretch, extended
 from .beam import RULES, Beam
@@ -97,14 +98,32 @@ class Followed:
         """
         beam, (sizes, handle) = self.beam, self._found
         count, limits, others, runs, events, ending, solves = sizes.tolist()
-        along, about, closed, breakpoints, where, which, motion, ways, schemes, parts, at, happens = _engine.gbhget(
-            beam.handle, handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1, runs + 1, events + 1
+        along, about, where, which, motion, ways, schemes, parts, at, happens = _engine.gbhget(
+            handle, beam.links, beam.supports + 1, count + 1, limits + 1, others + 1, runs + 1, events + 1
         )
         return History(
-            along.T[:count], about.T[:count], closed.T[:count, :-1], np.moveaxis(breakpoints, 2, 0)[:count, :, :-1],
+            along.T[:count], about.T[:count],
             where[:limits], which.T[:limits], ways.T[:others], schemes.T[:others, :-1], parts.T[:runs] - 1, at[:events],
             happens.T[:events] - (1, 0), ENDINGS[ending], motion if motion.any() else None, solves,
         )  # fmt: skip
+
+    def pieces(self, stretch: int) -> tuple[np.ndarray, np.ndarray]:
+        """Give the pieces of all supports on a stretch.
+
+        Parameters
+        ----------
+        stretch : int
+            From 0.
+
+        Returns
+        -------
+        closed : numpy.ndarray of int
+            The scheme: 1 where a support of the engine acts.
+        breakpoints : numpy.ndarray
+            The laws as they have become, as `Beam.breakpoints`.
+        """
+        closed, laws = _engine.gbhsch(self.beam.handle, self._found[1], self.beam.supports + 1, stretch + 1)
+        return read_only(closed[:-1]), laws[:, :-1]
 
     def lines(self, beam: Beam, stretch: int, factor: float) -> tuple[np.ndarray, int, int]:
         """Find lines in place of smooth laws in the state at a load factor.

@@ -25,7 +25,7 @@ def test_no_single_precision(name):
 
 def test_all_routines_are_there():
     names = (
-        "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gbhaxi gbhend gbhten gbhlin gbheng gblaws "
+        "gbmake gbcopy gbdrop gbsize gbnumb gbplac gbsolv gbpath gbhist gbhget gbhsch gbhaxi gbhend gbhten gbhlin gbheng gblaws "
         "gbsget gbcert gbreco gbfind gbvalu gbextr gblarg "
         "gbshar gbroom gbcase gbone gbgget gbgrun gbgpth gbgpte gbcomb gbcext gbccrt "
         "gbtmak gbtget gbtenv gbtcur gbtinf gbtprt gbrmak gbrget gbrext gbrcur gbstop gbtole gblawv gblawp gbslop gbyiel"

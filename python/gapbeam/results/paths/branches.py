@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.errors import EngineError, Status
-from ...base.records import Pickled, read_only
+from ...base.records import Pickled
 from ...engine.beam import BY_TANGENTS, GIVEN, ON_POLYLINES, Beam
 from ...engine.paths import ENDINGS, Followed, OnStretch
 from ...engine.tolerances import MOST_PATH_SEGMENTS
@@ -76,13 +76,12 @@ class BranchPath(Pickled):
 
     def _others(self, k: int) -> tuple[OtherWay, ...]:
         """Ways that were not taken where a stretch begins."""
-        h = self._history
-        before = h.closed[k - 1] if k else h.closed[k]
-        return tuple(
-            OtherWay(DIRECTIONS[direction], index, tuple(self._between(before, h.other_schemes[j], h.breakpoints[k])))
-            for j, (stretch, direction, index) in enumerate(h.others.tolist())
-            if stretch == k + 1
-        )
+        h, found = self._history, []
+        for j in np.flatnonzero(h.others[:, 0] == k + 1).tolist():
+            before, (_, breakpoints) = self._scheme(max(k - 1, 0)), self._followed.pieces(k)
+            changes = tuple(self._between(before, h.other_schemes[j], breakpoints))
+            found.append(OtherWay(DIRECTIONS[int(h.others[j, 1])], int(h.others[j, 2]), changes))
+        return tuple(found)
 
     def _events(self) -> list[Event]:
         beam, h = self._beam, self._history
@@ -95,8 +94,8 @@ class BranchPath(Pickled):
 
     def _changes(self, before: int, after: int) -> list[tuple[int, str]]:
         """Supports to which something happens between two stretches."""
-        h = self._history
-        return self._between(h.closed[before], h.closed[after], h.breakpoints[after], h.breakpoints[before])
+        (one, breakpoints_before), (other, breakpoints) = map(self._followed.pieces, (before, after))
+        return self._between(one, other, breakpoints, breakpoints_before)
 
     def _between(
         self, before: np.ndarray, after: np.ndarray, breakpoints: np.ndarray, breakpoints_before: np.ndarray | None = None
@@ -126,7 +125,7 @@ class BranchPath(Pickled):
 
     def closed(self, segment: BranchSegment) -> np.ndarray:
         """Give the scheme of a segment, as `Path.closed`."""
-        return self._history.closed[segment.number].astype(np.int32)
+        return self._scheme(segment.number)
 
     def pressed(self, segment: BranchSegment) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
         """Give what tells whether the beam buckles on a segment, with links along the beam.
@@ -145,9 +144,9 @@ class BranchPath(Pickled):
         tensions : numpy.ndarray
             Axial force of every piece at its start and at its stop.
         """
-        breakpoints = self._history.breakpoints[segment.number] if self._beam.has_laws else None
+        closed, breakpoints = self._followed.pieces(segment.number)
         columns, tensions = self._tensions
-        return self._history.closed[segment.number], breakpoints, tensions[columns[:, segment.number] - 1]
+        return closed, breakpoints if self._beam.has_laws else None, tensions[columns[:, segment.number] - 1]
 
     @cached_property
     def _tensions(self) -> tuple[np.ndarray, np.ndarray]:
@@ -234,7 +233,7 @@ class BranchPath(Pickled):
         return segment.first > 0 and bool(self._history.about[segment.first - 1, 4])
 
     def _beam_at(self, k: int) -> Beam:
-        return self._loaded(k).with_breakpoints(self._history.breakpoints[k])
+        return self._loaded(k).with_breakpoints(self._followed.pieces(k)[1])
 
     def _loaded(self, k: int) -> Beam:
         """The beam with the loads of the leg of a stretch."""
@@ -249,7 +248,7 @@ class BranchPath(Pickled):
         return Step(beam, factor, GIVEN, self._scheme(k), settled=how != BY_TANGENTS, exact=how != ON_POLYLINES)
 
     def _scheme(self, k: int) -> np.ndarray:
-        return read_only(self._history.closed[k].astype(np.int32))
+        return self._followed.pieces(k)[0]
 
     def find(self, factor: float) -> BranchSegment | None:
         """Find the segment that a load factor belongs to, as `Path.find`."""
@@ -276,7 +275,7 @@ def follow_branches(result: Result) -> BranchPath:
     path = BranchPath(result.scene, followed, perf_counter() - begin)
     if path.ending == "cut off":
         raise EngineError(
-            f"the path has more than {MOST_PATH_SEGMENTS:,} stretches: shorten the history, or follow it in parts",
+            f"the path has more than {len(path._history.about):,} stretches: shorten the history, or follow it in parts",
             Status.NOT_CONVERGED,
         )
     if path.ending:
