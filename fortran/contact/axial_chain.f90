@@ -8,10 +8,12 @@
 !> between the events of bending (Moreau's sweeping process): stuck it is rigid where it is, sliding it has the force of its limit.
 module gapbeam_axial_chain
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_limits, only: short_chain_bars
     use gapbeam_polyline_quad, only: node_support_type, last_breakpoint
     implicit none
     private
-    public :: chain_type, new_chain, find_piece, find_reach, next_change, sticks, no_rate
+    public :: chain_type, new_chain, choose_parts, find_piece, find_reach, next_change, plan, &
+        stays_at_rest, sticks, no_rate
 
     !> Closed breakpoints of a friction support that sticks; one fewer where it slides to the left, one more to the right
     integer, parameter :: sticks = 1
@@ -42,6 +44,7 @@ module gapbeam_axial_chain
         !> each link ends, and where that goes: 1 on, -1 back
         real(qp) :: clock = 0.0_qp
         real(qp), allocatable :: since_point(:), since_bar(:), since_link(:), due(:)
+        real(wp), allocatable :: soon(:)
         integer, allocatable :: goes(:)
         !> Largest rates of forces and of displacements, as far as they were found
         real(qp) :: force_scale = 0.0_qp, place_scale = 0.0_qp
@@ -49,6 +52,20 @@ module gapbeam_axial_chain
         integer, allocatable :: in_order(:), first_at(:)
         !> Rigid link that takes the force of each point, 0: none, shape (0:n)
         integer, allocatable :: holder(:)
+        !> Is the chain solved part by part (gapbeam_axial_slip); sums of flexibilities and of rates of elongations from its left
+        !> end, shape (0:n)
+        logical :: by_parts = .false.
+        !> May rates of loads and limits be others than where rates of the chain were found last
+        logical :: anew = .true.
+        real(qp), allocatable :: softness(:), longer(:)
+        !> Rates of what pushes the points, 1 where their links slide to the right, -1 to the left, shape (0:n); sums of these over
+        !> some points, and times their softness, shape (2, n + 1)
+        real(qp), allocatable :: push(:), sums(:, :)
+        integer, allocatable :: way(:)
+        !> In double precision: what pushes; flexibilities and rates of elongations, shape (2, n)
+        real(wp), allocatable :: pushed(:), bar(:, :)
+        !> Which points, shape (0:n), and bars are known in double precision only; which links slide in a part known so, shape (l)
+        logical, allocatable :: coarse(:), coarse_bar(:), slides(:)
         !> In double precision what values_of tells: values, rates, and the load at which they were so
         real(wp), allocatable :: value(:), rate(:), since(:)
         !> Does nothing hold the chain, nor push it
@@ -105,8 +122,37 @@ contains
         allocate (chain%since_point(0:n), chain%since_bar(n), chain%since_link(l - 1), chain%due(l - 1), source=0.0_qp)
         allocate (chain%goes(l - 1), chain%in_order(l - 1), chain%holder(0:n), source=0)
         allocate (chain%value(2*n + l), chain%rate(2*n + l), chain%since(2*n + l), source=0.0_wp)
+        allocate (chain%softness(0:n), chain%longer(0:n), source=0.0_qp)
+        call sum_up(flexibility, chain%softness)
+        allocate (chain%push(0:n), chain%sums(2, n + 1), source=0.0_qp)
+        allocate (chain%pushed(0:n), chain%bar(2, n), chain%soon(l - 1), source=0.0_wp)
+        allocate (chain%way(0:n), source=0)
+        chain%bar(1, :) = real(flexibility, wp)
+        allocate (chain%coarse(0:n), chain%coarse_bar(n), chain%slides(l - 1), source=.false.)
         call order_links(chain)
     end subroutine new_chain
+
+    !> Tell whether a chain is solved part by part, its rates of loads being set: where friction alone remembers, and no link moves
+    !> by itself
+    pure subroutine choose_parts(chain)
+        type(chain_type), intent(inout) :: chain
+
+        chain%by_parts = size(chain%flexibility) > short_chain_bars .and. .not. any(chain%keeps_set) &
+            .and. .not. any(abs(chain%own_rate) > 0.0_qp)
+        call sum_up(chain%elongation_rate, chain%longer)
+        chain%bar(2, :) = real(chain%elongation_rate, wp)
+    end subroutine choose_parts
+
+    !> Sums of numbers up to each of them
+    pure subroutine sum_up(numbers, sums)
+        real(qp), intent(in) :: numbers(:)
+        real(qp), intent(inout) :: sums(0:)
+        integer :: i
+
+        do i = 1, size(numbers)
+            sums(i) = sums(i - 1) + numbers(i)
+        end do
+    end subroutine sum_up
 
     !> Links in the order of their points, those of one point in the order that they have
     pure subroutine order_links(chain)
@@ -131,6 +177,26 @@ contains
         chain%first_at(0) = 1
     end subroutine order_links
 
+    !> Does the chain stay as it is whatever limits friction has: nothing acts on it, and it is held
+    pure function stays_at_rest(chain)
+        type(chain_type), intent(in) :: chain
+        logical :: stays_at_rest
+
+        stays_at_rest = .not. (chain%loose .or. any(chain%keeps_set))
+        if (stays_at_rest) stays_at_rest = nothing(chain%load_rate) .and. nothing(chain%elongation_rate) &
+            .and. nothing(chain%own_rate) .and. nothing(chain%force)
+
+    contains
+
+        !> Are numbers all zero
+        pure logical function nothing(numbers)
+            real(qp), intent(in) :: numbers(:)
+
+            nothing = .not. any(abs(numbers) > 0.0_qp)
+        end function nothing
+
+    end function stays_at_rest
+
     !> Points between which the rates change with the pieces of some links: as far as the nearest rigid links that stay
     pure function find_reach(chain, links) result(reach)
         type(chain_type), intent(in) :: chain
@@ -140,7 +206,10 @@ contains
 
         ! Laws that keep a set follow the beam wherever it goes, and what moves by itself takes friction along
         reach = [0, size(chain%flexibility)]
-        if (chain%loose .or. any(chain%keeps_set) .or. any(abs(chain%own_rate) > 0.0_qp)) return
+        if (chain%loose) return
+        if (.not. chain%by_parts) then
+            if (any(chain%keeps_set) .or. any(abs(chain%own_rate) > 0.0_qp)) return
+        end if
         reach = reach([2, 1])
         do l = 1, size(links)
             associate (node => chain%laws(chain%first(links(l)))%node)
@@ -188,37 +257,53 @@ contains
         !> Links that come to such an end first, and the piece to which each goes: 1 on, -1 back
         integer, allocatable, intent(out) :: links(:), steps(:)
         real(qp) :: share, first, near
+        real(wp) :: soonest
         integer :: l, j
 
         share = merge(0.0_qp, 1.0_qp, at_once)
-        if (reach(2) - reach(1) == size(chain%flexibility)) then
-            chain%force_scale = 0.0_qp
-            chain%place_scale = 0.0_qp
-        end if
         associate (a => reach(1), b => reach(2))
-            chain%force_scale = max(chain%force_scale, maxval(abs(chain%tension_rate(a + 1:b))))
-            chain%place_scale = max(chain%place_scale, maxval(abs(chain%displacement_rate(a:b))))
+            do j = a, b
+                if (.not. chain%coarse(j)) chain%place_scale = max(chain%place_scale, abs(chain%displacement_rate(j)))
+                if (j == a) cycle
+                if (.not. chain%coarse_bar(j)) chain%force_scale = max(chain%force_scale, abs(chain%tension_rate(j)))
+            end do
             do j = chain%first_at(a), chain%first_at(b + 1) - 1
                 l = chain%in_order(j)
+                if (chain%slides(l)) cycle
                 chain%force_scale = max(chain%force_scale, abs(chain%force_rate(l)), share*abs(chain%limit_rate(l)))
                 chain%place_scale = max(chain%place_scale, share*abs(chain%own_rate(l)))
             end do
             do j = chain%first_at(a), chain%first_at(b + 1) - 1
-                call find_due(chain, chain%in_order(j), at_once)
+                if (.not. chain%slides(chain%in_order(j))) call find_due(chain, chain%in_order(j), at_once)
             end do
         end associate
-        first = huge(first)
-        if (size(chain%due) > 0) first = minval(chain%due)
-        way = first
+        way = huge(way)
         links = [integer ::]
         steps = [integer ::]
-        if (.not. first < huge(first)) return
+        if (.not. any(chain%soon < huge(soonest))) return
+        soonest = minval(chain%soon)
+        links = pack([(l, l=1, size(chain%soon))], chain%soon - soonest <= 4*epsilon(soonest)*abs(soonest))
+        first = minval(chain%due(links))
         way = max(0.0_qp, first - chain%clock)
         ! Sums of the load round
         near = first + no_way*max(abs(first), abs(chain%clock))
-        links = pack([(l, l=1, size(chain%due))], chain%due <= near)
+        links = pack(links, chain%due(links) <= near)
         steps = chain%goes(links)
     end subroutine next_change
+
+    !> Note how far the load will be when the piece of a link ends
+    pure subroutine plan(chain, l, due, goes)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: l
+        !> As in chain_type
+        real(qp), intent(in) :: due
+        integer, intent(in) :: goes
+
+        chain%due(l) = due
+        chain%goes(l) = goes
+        chain%soon(l) = huge(chain%soon)
+        if (due < huge(chain%soon)) chain%soon(l) = real(due, wp)
+    end subroutine plan
 
     !> How far the load will be when the piece of a link ends
     pure subroutine find_due(chain, l, at_once)
@@ -229,8 +314,7 @@ contains
         real(qp) :: slope, gap, rate, least_rate, deflection, velocity, limits
         integer :: n, j
 
-        chain%due(l) = huge(gap)
-        chain%goes(l) = 0
+        call plan(chain, l, huge(gap), 0)
         associate (k => chain%first(l), node => chain%laws(chain%first(l))%node)
             if (chain%laws(k)%side == 0) return
             call find_piece(chain, l, slope, n)
@@ -268,8 +352,7 @@ contains
                 if (.not. rate > least_rate) cycle
                 gap = chain%clock + max(gap, 0.0_qp)/rate
                 if (gap >= chain%due(l)) cycle
-                chain%due(l) = gap
-                chain%goes(l) = merge(1, -1, j == 0)
+                call plan(chain, l, gap, merge(1, -1, j == 0))
             end do
         end associate
     end subroutine find_due

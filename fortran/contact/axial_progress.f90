@@ -7,7 +7,7 @@ module gapbeam_axial_progress
     use gapbeam_axial_chain, only: chain_type
     implicit none
     private
-    public :: advance, change_pieces, settle, note_rates, values_of
+    public :: advance, change_pieces, settle, settle_link, note_rates, note_link, note_point, note_part, make_fine, values_of
 
 contains
 
@@ -69,73 +69,167 @@ contains
         end do
     end subroutine change_pieces
 
-    !> Add up what has happened between two points since they were looked at
+    !> Add up what has happened between two points since they were looked at; what is known in double precision goes on
     pure subroutine settle(chain, reach)
         type(chain_type), intent(inout) :: chain
         !> The points, and the bars and links between them
         integer, intent(in) :: reach(2)
-        real(qp) :: way, limit
+        real(qp) :: way
+        logical :: whole
         integer :: i, j
 
+        whole = reach(2) - reach(1) == size(chain%flexibility)
         do i = reach(1), reach(2)
-            way = chain%clock - chain%since_point(i)
-            if (abs(way) > 0.0_qp) chain%displacement(i) = chain%displacement(i) + way*chain%displacement_rate(i)
-            chain%since_point(i) = chain%clock
+            if (.not. chain%coarse(i)) then
+                way = chain%clock - chain%since_point(i)
+                if (abs(way) > 0.0_qp) chain%displacement(i) = chain%displacement(i) + way*chain%displacement_rate(i)
+                chain%since_point(i) = chain%clock
+            end if
             if (i == reach(1)) cycle
+            if (chain%coarse_bar(i)) cycle
             way = chain%clock - chain%since_bar(i)
             if (abs(way) > 0.0_qp) chain%tension(i) = chain%tension(i) + way*chain%tension_rate(i)
             chain%since_bar(i) = chain%clock
         end do
         do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
-            associate (l => chain%in_order(j))
-                way = chain%clock - chain%since_link(l)
-                chain%since_link(l) = chain%clock
-                if (abs(way) > 0.0_qp) then
-                    chain%force(l) = chain%force(l) + way*chain%force_rate(l)
-                    chain%moved(l) = chain%moved(l) + way*chain%own_rate(l)
-                end if
-                if (.not. chain%rubs(l)) cycle
-                associate (k => chain%first(l))
-                    limit = max(0.0_qp, chain%laws(k + 1)%force + way*chain%limit_rate(l))
-                    chain%laws(k)%force = -limit
-                    chain%laws(k + 1)%force = limit
-                    chain%laws(k:k + 1)%contact = chain%displacement(chain%laws(k)%node)
-                end associate
-            end associate
+            if (whole .or. .not. chain%slides(chain%in_order(j))) call settle_link(chain, chain%in_order(j))
         end do
     end subroutine settle
 
-    !> Note values and rates between two points in double precision, all of them added up
+    !> The same for a link, its point settled
+    pure subroutine settle_link(chain, l)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: l
+        real(qp) :: way, limit
+
+        way = chain%clock - chain%since_link(l)
+        if (.not. abs(way) > 0.0_qp) return
+        chain%since_link(l) = chain%clock
+        chain%force(l) = chain%force(l) + way*chain%force_rate(l)
+        chain%moved(l) = chain%moved(l) + way*chain%own_rate(l)
+        if (.not. chain%rubs(l)) return
+        associate (k => chain%first(l))
+            limit = max(0.0_qp, chain%laws(k + 1)%force + way*chain%limit_rate(l))
+            chain%laws(k)%force = -limit
+            chain%laws(k + 1)%force = limit
+            chain%laws(k:k + 1)%contact = chain%displacement(chain%laws(k)%node)
+        end associate
+    end subroutine settle_link
+
+    !> Note values and rates between two points in double precision, all of them added up but for what is known so already
     pure subroutine note_rates(chain, reach)
         type(chain_type), intent(inout) :: chain
         integer, intent(in) :: reach(2)
-        integer :: n, j
+        logical :: whole
+        integer :: n, i, j
 
         n = size(chain%flexibility)
-        associate (a => reach(1), b => reach(2))
-            call note(chain, 1 + a, chain%displacement(a:b), chain%displacement_rate(a:b))
-            call note(chain, n + 2 + a, chain%tension(a + 1:b), chain%tension_rate(a + 1:b))
-            do j = chain%first_at(a), chain%first_at(b + 1) - 1
-                associate (l => chain%in_order(j))
-                    call note(chain, 2*n + 1 + l, [-chain%force(l)], [-chain%force_rate(l)])
-                end associate
-            end do
-        end associate
+        whole = reach(2) - reach(1) == n
+        do i = reach(1), reach(2)
+            if (.not. chain%coarse(i)) call note(chain, 1 + i, chain%displacement(i), chain%displacement_rate(i))
+            if (i == reach(1)) cycle
+            if (.not. chain%coarse_bar(i)) call note(chain, n + 1 + i, chain%tension(i), chain%tension_rate(i))
+        end do
+        do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
+            associate (l => chain%in_order(j))
+                if (.not. chain%slides(l)) call note_link(chain, l)
+                if (chain%slides(l) .and. whole) then
+                    if (.not. abs(chain%clock - chain%since_link(l)) > 0.0_qp) call note_link(chain, l)
+                end if
+            end associate
+        end do
     end subroutine note_rates
 
-    !> Note some of them
-    pure subroutine note(chain, first, value, rate)
+    !> The same for a link
+    pure subroutine note_link(chain, l)
         type(chain_type), intent(inout) :: chain
-        !> Where they begin
-        integer, intent(in) :: first
-        real(qp), intent(in) :: value(:), rate(:)
+        integer, intent(in) :: l
 
-        associate (last => first + size(value) - 1)
-            chain%value(first:last) = real(value, wp) + 0.0_wp
-            chain%rate(first:last) = real(rate, wp)
-            chain%since(first:last) = real(chain%clock, wp)
-        end associate
+        call note(chain, 2*size(chain%flexibility) + 1 + l, -chain%force(l), -chain%force_rate(l))
+    end subroutine note_link
+
+    !> Note one of them
+    pure subroutine note(chain, number, value, rate)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: number
+        real(qp), intent(in) :: value, rate
+
+        chain%value(number) = real(value, wp) + 0.0_wp
+        chain%rate(number) = real(rate, wp)
+        chain%since(number) = real(chain%clock, wp)
     end subroutine note
+
+    !> Note the rate of a point, and have it and its links added up
+    pure subroutine note_point(chain, point, rate)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: point
+        real(qp), intent(in) :: rate
+
+        call make_fine(chain, [point, point])
+        chain%displacement_rate(point) = rate
+        call note(chain, 1 + point, chain%displacement(point), rate)
+    end subroutine note_point
+
+    !> Note rates of bars and of the points between them that are found in double precision
+    pure subroutine note_part(chain, ends, displacement_rate, tension_rate)
+        type(chain_type), intent(inout) :: chain
+        !> First and last point of the bars
+        integer, intent(in) :: ends(2)
+        real(wp), intent(in) :: displacement_rate(:), tension_rate(:)
+        integer :: i
+
+        do i = 1, size(tension_rate)
+            associate (bar => ends(1) + i, k => size(chain%flexibility) + 1 + ends(1) + i)
+                chain%value(k) = double_at(chain, k)
+                if (.not. chain%coarse_bar(bar)) chain%value(k) = real(chain%tension(bar), wp) + 0.0_wp
+                chain%coarse_bar(bar) = .true.
+                chain%rate(k) = tension_rate(i)
+                chain%since(k) = real(chain%clock, wp)
+            end associate
+        end do
+        do i = 1, size(displacement_rate)
+            associate (point => ends(1) + i, k => 1 + ends(1) + i)
+                chain%value(k) = double_at(chain, k)
+                if (.not. chain%coarse(point)) chain%value(k) = real(chain%displacement(point), wp) + 0.0_wp
+                chain%coarse(point) = .true.
+                chain%rate(k) = displacement_rate(i)
+                chain%since(k) = real(chain%clock, wp)
+            end associate
+        end do
+    end subroutine note_part
+
+    !> Go on in quadruple precision between two points, all of it added up
+    pure subroutine make_fine(chain, reach)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: reach(2)
+        integer :: i, j
+
+        do i = reach(1), reach(2)
+            if (chain%coarse(i)) then
+                chain%displacement(i) = double_at(chain, 1 + i)
+                chain%since_point(i) = chain%clock
+                chain%coarse(i) = .false.
+            end if
+            if (i == reach(1)) cycle
+            if (.not. chain%coarse_bar(i)) cycle
+            chain%tension(i) = double_at(chain, size(chain%flexibility) + 1 + i)
+            chain%since_bar(i) = chain%clock
+            chain%coarse_bar(i) = .false.
+        end do
+        do j = chain%first_at(reach(1)), chain%first_at(reach(2) + 1) - 1
+            call settle_link(chain, chain%in_order(j))
+            chain%slides(chain%in_order(j)) = .false.
+        end do
+    end subroutine make_fine
+
+    !> One of the numbers of the chain where it is
+    pure function double_at(chain, number) result(value)
+        type(chain_type), intent(in) :: chain
+        integer, intent(in) :: number
+        real(wp) :: value
+
+        value = chain%value(number) + (real(chain%clock, wp) - chain%since(number))*chain%rate(number)
+    end function double_at
 
     !> Numbers of the chain where it is: displacements, forces of bars, forces of links on the beam, to the right
     pure function values_of(chain) result(values)

@@ -7,7 +7,7 @@ module gapbeam_axial_loads
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_axial_chain, only: chain_type, new_chain
+    use gapbeam_axial_chain, only: chain_type, new_chain, choose_parts
     use gapbeam_history_record, only: history_type
     use gapbeam_path_states, only: solve_on_path
     implicit none
@@ -86,6 +86,7 @@ contains
             end do
             chain%limit_rate(:) = 0.0_qp
         end associate
+        call choose_parts(chain)
     end subroutine set_loads
 
     !> Let friction have given limits

@@ -9,9 +9,10 @@ module gapbeam_axial_path
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_axial_loads, only: make_chain, movement_of, set_loads, set_limits, find_reactions, zeros_between
-    use gapbeam_axial_chain, only: chain_type, next_change, find_reach
-    use gapbeam_axial_progress, only: advance, change_pieces, settle, note_rates, values_of
-    use gapbeam_axial_rates, only: find_rates, moves_at_once, not_told
+    use gapbeam_axial_chain, only: chain_type, next_change, find_reach, stays_at_rest
+    use gapbeam_axial_progress, only: advance, change_pieces, settle, settle_link, note_rates, values_of
+    use gapbeam_axial_rates, only: moves_at_once, not_told
+    use gapbeam_axial_slip, only: find_rates_by_parts
     use gapbeam_history_stretch, only: stretch_type, nothing_changes
     use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, along_type, &
         mechanism, no_limit, cut_off
@@ -122,6 +123,10 @@ contains
                 return
             end if
             call set_loads(walk%assembled, walk%support, s%leg, sign(1.0_wp, s%to - s%from), chain)
+            if (walk%path%number > 0 .and. stays_at_rest(chain)) then
+                call keep(walk, s, s%from, s%to, error)
+                return
+            end if
             ends = [real(s%to, qp)]
             if (any(chain%rubs)) then
                 call find_reactions(beam, history, k, s%from, walk%support, chain%rubs, from_force, error)
@@ -174,19 +179,20 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: links(:), steps(:)
         real(qp) :: at, way
-        integer :: outcome, place, single, whole(2), reach(2)
+        integer :: outcome, place, single, whole(2), reach(2), i
         logical :: dragged
 
         at = from
         whole = [0, size(walk%chain%flexibility)]
         reach = whole
         walk%idle = 0
+        walk%chain%anew = .true.
         do
             call end_if_stopped(walk%assembled%beam%watch, error)
             if (allocated(error)) return
             dragged = .true.
             do while (dragged)
-                call find_rates(walk%chain, reach, outcome, place, dragged)
+                call find_rates_by_parts(walk%chain, reach, outcome, place, dragged)
                 if (outcome == not_told) exit
             end do
             call note_rates(walk%chain, reach)
@@ -231,6 +237,9 @@ contains
             reach = whole
             if (outcome /= moves_at_once) reach = find_reach(walk%chain, links(:single))
             call settle(walk%chain, reach)
+            do i = 1, single
+                call settle_link(walk%chain, links(i))
+            end do
             call change_pieces(walk%chain, links(:single), steps(:single))
         end do
 

@@ -118,9 +118,9 @@ subroutine gbhget(hist, nl, ns, nh, nk, nw, nr, ne, along, about, factors, which
     ! Links; supports of the engine, stretches, limits, ways not taken, runs and events, one more than there are
     integer, intent(in) :: nl, ns, nh, nk, nw, nr, ne
     ! Of every stretch: load factors; leg (0 dead loads, then from 1), direction, index, ways, 1 if passed in a jump, 1 if its end
-    ! is on the smooth laws
+    ! is on the smooth laws; the stretch from which on no scheme and no law across the beam has changed, from 1
     double precision, intent(out) :: along(2, nh)
-    integer, intent(out) :: about(6, nh)
+    integer, intent(out) :: about(7, nh)
     ! Of every limit: load factor; kind, leg, stretch before it, stretch of the landing (from 1, 0 none)
     double precision, intent(out) :: factors(nk)
     integer, intent(out) :: which(4, nk)
@@ -135,9 +135,11 @@ subroutine gbhget(hist, nl, ns, nh, nk, nw, nr, ne, along, about, factors, which
     double precision, intent(out) :: at(ne)
     integer, intent(out) :: events(2, ne)
     type(handle_type), pointer :: found
-    integer :: k
+    integer :: k, same
+    logical :: begins
 
     found => behind(hist)
+    same = 1
     along = 0.0d0
     about = 0
     factors = 0.0d0
@@ -159,7 +161,10 @@ subroutine gbhget(hist, nl, ns, nh, nk, nw, nr, ne, along, about, factors, which
         do k = 1, nh - 1
             associate (s => path%stretches(k))
                 along(:, k) = [s%from, s%to]
-                about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped), merge(1, 0, is_exact(path, k))]
+                begins = .not. allocated(s%changed)
+                if (.not. begins) begins = size(s%changed) > 0
+                if (begins) same = k
+                about(:, k) = [s%leg, s%direction, s%index, s%ways, merge(1, 0, s%skipped), merge(1, 0, is_exact(path, k)), same]
             end associate
         end do
         do k = 1, nk - 1

@@ -211,7 +211,7 @@ class History:
     about : numpy.ndarray of int
         Leg (0 while the dead loads are put on, then from 1), direction (1 rising, -1 falling, 0 turning at constant load), number
         of ways in which the beam gives way by itself, ways on at the beginning, 1 if passed in a jump, 1 if its end is on the
-        smooth laws; n by 6.
+        smooth laws, the stretch (from 1) from which on the pieces of all supports are the same; n by 7.
     limit_factors : numpy.ndarray
         Where the load could not go on.
     limits : numpy.ndarray of int

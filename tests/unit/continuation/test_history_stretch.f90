@@ -49,8 +49,9 @@ contains
             schemes(:, k) = closed
             call enter_stretch(stretch, last)
             call add_stretch(stretch, history, error)
-            call check(.not. allocated(error), "there is memory")
+            if (allocated(error)) exit
         end do
+        call check(.not. allocated(error), "there is memory")
         stored = 0
         right = .true.
         do k = 1, stretches

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
+from itertools import groupby
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -63,14 +65,15 @@ class BranchPath(Pickled):
     def _segments(self) -> list[BranchSegment]:
         found: list[BranchSegment] = []
         path, h = 0.0, self._history
+        about, along, branching = h.about.tolist(), h.along.tolist(), set(h.others[:, 0].tolist())
         for first, last in h.runs.tolist():
-            leg, direction, index, _, skipped, exact = h.about[last].tolist()
+            leg, direction, index, _, skipped, exact, _ = about[last]
             if skipped or leg == 0 or direction == 0:
                 continue
-            start, stop = float(h.along[first, 0]), float(h.along[last, 1])
+            start, stop = along[first][0], along[last][1]
             path += abs(stop - start)
             stable = index == 0 and direction == self._ways[leg - 1]
-            others = self._others(first)
+            others = self._others(first) if first + 1 in branching else ()
             found.append(BranchSegment(start, stop, 0, first, last, leg - 1, path, stable, index, others, bool(exact)))
         return found
 
@@ -127,30 +130,27 @@ class BranchPath(Pickled):
         """Give the scheme of a segment, as `Path.closed`."""
         return self._scheme(segment.number)
 
-    def pressed(self, segment: BranchSegment) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
-        """Give what tells whether the beam buckles on a segment, with links along the beam.
+    def pressed(self) -> Iterator[tuple[np.ndarray, np.ndarray | None, list[float], np.ndarray]]:
+        """Give what tells whether the beam buckles, with links along the beam: of segments with the same scheme together.
 
-        Parameters
-        ----------
-        segment : BranchSegment
-            One of the segments.
-
-        Returns
-        -------
+        Yields
+        ------
         closed : numpy.ndarray of int
             The scheme.
         breakpoints : numpy.ndarray or None
             The laws of supports as they have become, if there are any.
+        factors : list of float
+            Load factors at start and stop of every segment.
         tensions : numpy.ndarray
-            Axial force of every piece at its start and at its stop.
+            Axial force of every piece there, a row a load factor.
         """
-        closed, breakpoints = self._followed.pieces(segment.number)
-        columns, tensions = self._tensions
-        return closed, breakpoints if self._beam.has_laws else None, tensions[columns[:, segment.number] - 1]
-
-    @cached_property
-    def _tensions(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._followed.tensions(len(self._history.about))
+        ends, tensions = self._followed.tensions(len(self._history.about))
+        for _, group in groupby(self.segments, lambda segment: self._history.about[segment.number, 6]):
+            segments = list(group)
+            closed, breakpoints = self._followed.pieces(segments[0].number)
+            factors = [factor for segment in segments for factor in (segment.start, segment.stop)]
+            rows = ends[:, [segment.number for segment in segments]].T.ravel() - 1
+            yield closed, breakpoints if self._beam.has_laws else None, factors, tensions[rows]
 
     def beam(self, segment: BranchSegment) -> Beam:
         """Give the beam with the laws of its supports as they are on a segment.

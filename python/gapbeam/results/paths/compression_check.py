@@ -97,10 +97,9 @@ def check_compression(result: Result) -> None:
 
 def _along(result: Result, struts: Struts) -> Iterator[tuple[str, Compression | None]]:
     """Go through both ends of all segments, where the path has the axial forces: no state is solved for them."""
-    for segment in result.path.segments:
-        closed, breakpoints, tensions = result.path.pressed(segment)
-        for factor, tension in zip((segment.start, segment.stop), tensions, strict=True):
-            yield f"at load factor {factor:.6g} ", struts.largest(closed, tension, breakpoints=breakpoints)
+    for closed, breakpoints, factors, tension in result.path.pressed():
+        for k in struts.notable(closed, tension, breakpoints):
+            yield f"at load factor {factors[k]:.6g} ", struts.largest(closed, tension[k], breakpoints=breakpoints)
 
 
 def _begins(result: Result) -> Iterator[Step]:

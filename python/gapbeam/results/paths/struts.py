@@ -29,7 +29,7 @@ from ...scene.ground_laws import (
 from ...scene.ground_tables import least_between
 from ..state.breakpoints import piece_of
 from ..state.ground import TOUCHING, Contact
-from .compression import Compression, larger
+from .compression import REFUSED, Compression, larger
 
 if TYPE_CHECKING:
     from ...scene.structs import Foundation, Scene
@@ -110,19 +110,49 @@ class Struts:
         """
         found, EI = None, self.EI if EI is None else EI
         stretches = self.stretches(closed, breakpoints)
-        if id(stretches) not in self._columns:  # kept as long as the stretches are
-            self._columns[id(stretches)] = tuple(np.array(column) for column in zip(*stretches, strict=True))
-        first, last, length = self._columns[id(stretches)]
-        force = -np.minimum.reduceat(tension, first)
+        force, critical, overhangs = self._beside_euler(stretches, tension, EI)
         with np.errstate(all="ignore"):
-            ratio = np.where(force > 0.0, force / (np.pi / length * np.minimum.reduceat(EI, first) * (np.pi / length)), 0.0)
-        # Of an overhang the length follows from the compression
-        follows = (force > 0.0) & (length != self.x[last] - self.x[first])
+            ratio = np.where(force > 0.0, force / critical, 0.0)
+        follows = (force > 0.0) & overhangs
         largest = np.argmax(np.where(follows, 0.0, ratio), keepdims=True)
         for k in np.union1d(np.flatnonzero(follows), largest[force[largest] > 0.0]).tolist():
             a, b, one = self._compressed(*stretches[k], tension)
             found = larger(found, self._beside(float(force[k]), euler(float(EI[a:b].min()), one), self.x[a], self.x[b], one))
         return found
+
+    def notable(self, closed: np.ndarray, tension: np.ndarray, breakpoints: np.ndarray | None = None) -> list[int]:
+        """Find the states that may have the largest compression beside the Euler load, or one beyond it.
+
+        Parameters
+        ----------
+        closed, breakpoints
+            As for `largest`.
+        tension : numpy.ndarray
+            Axial force of every piece, a row a state.
+
+        Returns
+        -------
+        list of int
+            Their rows.
+        """
+        force, critical, overhangs = self._beside_euler(self.stretches(closed, breakpoints), tension, self.EI)
+        wanted = (force[:, overhangs] > 0.0).any(axis=1)
+        with np.errstate(all="ignore"):
+            most = np.where(overhangs, 0.0, force / critical).max(axis=1)
+        wanted |= most >= REFUSED / 2
+        wanted[np.argmax(most)] = True
+        return np.flatnonzero(wanted).tolist()
+
+    def _beside_euler(
+        self, stretches: list[tuple[int, int, float]], tension: np.ndarray, EI: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Compression of stretches, their Euler loads, and which of them overhang, so that their length follows from it."""
+        if id(stretches) not in self._columns:  # kept as long as the stretches are
+            self._columns[id(stretches)] = tuple(np.array(column) for column in zip(*stretches, strict=True))
+        first, last, length = self._columns[id(stretches)]
+        with np.errstate(all="ignore"):
+            critical = np.pi / length * np.minimum.reduceat(EI, first) * (np.pi / length)
+        return -np.minimum.reduceat(tension, first, axis=-1), critical, length != self.x[last] - self.x[first]
 
     def _compressed(self, a: int, b: int, length: float, tension: np.ndarray) -> tuple[int, int, float]:
         """The same stretch and length; of an overhang without what is beyond all compression: that follows as it is."""

@@ -420,3 +420,42 @@ def test_stops_on_the_way_change_nothing(seed):
         assert np.abs(getattr(one, name) - getattr(other, name)).max() <= 1e-12 * max(1.0, size), name
     along = sum(force for force, given in zip(one.reaction, supports, strict=True) if given.get("direction") == "axial")
     assert abs(one.friction.sum() + along + 0.8 * loads[2]["F"]) <= 1e-11 * size
+
+
+def long_rack(count, friction=True):
+    """Supports that lift off, or have gaps, hot and cold, with an elastic stop in the middle."""
+    rng = random.Random(count)
+    supports = [at(i, side="below", friction=rng.choice([0.1, 0.2, 0.3]) if friction else 0.0) for i in range(count)]
+    for one in supports[1:-1]:
+        if rng.random() < 0.3:
+            one["gap"] = 0.003
+    loads = [own_weight(3.0), {"type": "temperature", "dT": 60.0, "gradient": 4.0}]
+    loads += [{"type": "force", "x": 6.0 * i + 2.0, "F": -rng.uniform(5.0, 25.0)} for i in range(2, count - 2, 5)]
+    return {"beam": {"spans": [6.0] * (count - 1), "EI": 2e4, "EA": 4e6, "alpha": 1.2e-5, "depth": 0.3},
+            "supports": [*supports, along(count // 2, stiffness=5e4)], "loads": loads,
+            "analysis": FOLLOW | {"first_order": True, "history": [1.0, -0.5, 1.0]}}  # fmt: skip
+
+
+def test_a_long_chain_is_not_solved_at_every_event():
+    """Where friction alone acts between two supports that stick, one equation tells the force there."""
+    result, bending = gapbeam.solve(long_rack(60)), gapbeam.solve(long_rack(60, friction=False))
+    slips = [event for event in result.events if event.event in ("slips", "sticks")]
+    assert len(slips) > 200
+    assert result.solves - bending.solves < len(slips) / 10
+
+
+def test_a_long_chain_beside_one_with_springs_that_hold_nothing():
+    """Links that move themselves, by nothing to speak of, have the chain solved in quadruple precision throughout."""
+    scene = long_rack(45)
+    slow = {**scene, "supports": [*scene["supports"], along(0, side="right", gap=1e3, stiffness=1.0)],
+            "loads": [*scene["loads"], {"type": "movement", "support": 46, "value": 1.0}]}  # fmt: skip
+    one, other = (gapbeam.solve(each) for each in (scene, slow))
+    assert [event.event for event in one.events] == [event.event for event in other.events]
+    assert [event.support for event in one.events] == [event.support for event in other.events]
+    factors = [np.array([event.factor for event in each.events]) for each in (one, other)]
+    assert np.abs(factors[0] - factors[1]).max() <= 1e-13
+    for factor, leg in ((1.0, 0), (-0.5, 1), (0.3, 2), (1.0, 2)):
+        states = [each.state(factor, leg=leg) for each in (one, other)]
+        for name in ("friction", "slip"):
+            values = [getattr(state, name)[:46] for state in states]
+            assert np.abs(values[0] - values[1]).max() <= 1e-12 * np.abs(values[0]).max(), (factor, name)
