@@ -71,9 +71,11 @@ module gapbeam_limits
     !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
     !> contact/modes
     integer, parameter :: most_halvings = 1000
-    !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. After so many states
-    !> it is given up. Read by precision/compressed
-    integer, parameter :: least_compressions = 8, most_compressions = 400
+    !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. Read by
+    !> precision/compressed
+    integer, parameter :: least_compressions = 8
+    !> States after which they are given up. Read by precision/compressed
+    integer, parameter :: most_compressions = 400
     !> Places of a mode on every stretch, so that it can be drawn. Read by precision/compressed
     integer, parameter :: mode_parts = 8
 

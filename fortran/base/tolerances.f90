@@ -123,9 +123,11 @@ module gapbeam_tolerances
     !> beam/foundation_roots, cases/lane_roots
     real(wp), parameter :: root_place = 2*epsilon(1.0_wp)
 
-    !> Share of the axial forces to which is found when a beam buckles, beside the share and beside the least that is looked for.
-    !> Read by precision/compressed
-    real(wp), parameter :: same_compression = 2.0_wp**(-44), least_share = 2.0_wp**(-30)
+    !> Part of a share of the axial forces to which is found when a beam buckles: rounding of states near there. Read by
+    !> precision/compressed
+    real(wp), parameter :: same_compression = 2.0_wp**(-44)
+    !> The least such share that is looked for to all digits; tuned. Read by precision/compressed
+    real(wp), parameter :: least_share = 2.0_wp**(-30)
     !> Share by which more of the axial forces are tried there, and of the greatest reaction that is hardly any; tuned: the last
     !> state is nearer. Read by precision/compressed
     real(wp), parameter :: little_compression = 2.0_wp**(-14)

@@ -68,6 +68,11 @@ contains
                              "the ground a stiffness")
             return
         end if
+        if (any(assembled%pieces%compression > 0.0_wp)) then
+            call fatal_error(error, gapbeam_bad_input, "goes over a beam under compression (N below 0), which is not available "// &
+                             "in this version; give its axles as forces at the positions that matter")
+            return
+        end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
         if (stat /= 0) then

@@ -144,7 +144,8 @@ contains
 
     contains
 
-        !> Is that the end of stable states: a little more compression, or the loss of what hardly carries any more, lets it give way
+        !> Is that the end of stable states: a little more compression, or the loss of what hardly carries any more, lets it give
+        !> way
         function gives_way() result(it_does)
             logical :: it_does
             type(workspace_type) :: work
