@@ -135,8 +135,8 @@ module gapbeam_api_objects
     !> Positions that are not solved
     type :: train_gap_type
         real(wp) :: from = 0.0_wp, to = 0.0_wp
-        !> gapbeam_no_equilibrium, gapbeam_moves_freely where the beam can move without work of the loads, gapbeam_indeterminate or
-        !> gapbeam_not_converged
+        !> gapbeam_no_equilibrium, gapbeam_buckles, gapbeam_moves_freely where the beam can move without work of the loads,
+        !> gapbeam_indeterminate or gapbeam_not_converged
         integer :: reason = gapbeam_no_equilibrium
     end type train_gap_type
 

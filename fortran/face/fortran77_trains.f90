@@ -95,8 +95,8 @@ subroutine ghtget(pass, maxev, evpos, ievent, maxgap, gap, igap, info)
     ! IEVENT(3, .) of GHHGET
     double precision, intent(inout) :: evpos(*)
     integer, intent(inout) :: ievent(3, *)
-    ! The first MAXGAP gaps: first and last position; 1 no equilibrium, 2 the beam can move freely without work of the loads, 12 or
-    ! 13 no unique answer
+    ! The first MAXGAP gaps: first and last position; 1 no equilibrium, 2 the beam buckles, 3 it can move freely without work of
+    ! the loads, 12 or 13 no unique answer
     double precision, intent(inout) :: gap(2, *)
     integer, intent(inout) :: igap(*)
     ! -1, -2, -5

@@ -1,7 +1,7 @@
 !> States of a beam on the ground, or on smooth laws, under a train at one position after another, each looked for near another one.
 module gapbeam_train_states
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, gapbeam_indeterminate, &
         gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_laws, only: is_smooth
@@ -28,7 +28,8 @@ module gapbeam_train_states
         real(wp) :: position = 0.0_wp
         !> Which axles act
         logical, allocatable :: acts(:)
-        !> gapbeam_solved, gapbeam_no_equilibrium, not_unique, or the code of an error that leaves other positions their answers
+        !> gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, not_unique, or the code of an error that leaves other positions
+        !> their answers
         integer :: status = -1
         !> The beam with the train on it, and what was solved
         type(assembled_type), allocatable :: placed
@@ -102,7 +103,7 @@ contains
         end if
         solves = solves + kept%state%solves
         kept%status = kept%state%status
-        if (kept%status == gapbeam_no_equilibrium) return
+        if (kept%status == gapbeam_no_equilibrium .or. kept%status == gapbeam_buckles) return
         if (kept%state%indifferent) then
             kept%status = not_unique
             return

@@ -8,8 +8,8 @@ module gapbeam_train_traversal
     private
     public :: traversal_type, not_unique, keep_motion, lengthen
 
-    !> Beside gapbeam_solved and gapbeam_no_equilibrium: the beam can move freely without work of the loads
-    integer, parameter :: not_unique = 2
+    !> Beside gapbeam_solved, gapbeam_no_equilibrium and gapbeam_buckles: the beam can move freely without work of the loads
+    integer, parameter :: not_unique = 3
     !> The way of a train over a beam: stretches of places, on each of which one scheme acts, in ascending order
     type :: traversal_type
         !> How many there are

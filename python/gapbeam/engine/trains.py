@@ -12,7 +12,7 @@ from . import calls as _engine
 from .beam import Beam
 from .quantities import BENDING
 
-NOT_UNIQUE = 2
+NOT_UNIQUE = 3
 """Status of stretches on which the beam can move freely without work of the loads, as in gapbeam_train_path."""
 SIDES = (None, "left", "right")
 """On which side of x a value is, as in gapbeam_train_envelope."""
