@@ -4,7 +4,7 @@
 !> are curves, limit analysis knows it.
 module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, gapbeam_buckles
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_refined_ground, only: refine_ground
@@ -186,8 +186,9 @@ contains
             path%beyond = below%at
             path%at_limit = problem%yields .and. path%last > 0.0_wp
             if (.not. allocated(above%trouble)) then
-                if (problem%levels_off) path%beyond = above%at
                 call problem%find(above%at, point, error)
+                ! Where it buckles there may be a state at the factor below
+                if (problem%levels_off .or. problem%state%status == gapbeam_buckles) path%beyond = above%at
                 return
             end if
             do power = -50, -9, 4
