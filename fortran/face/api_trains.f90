@@ -29,7 +29,8 @@ module gapbeam_api_trains
     use gapbeam_train_lines, only: find_lines
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_search, only: rule_block
-    use gapbeam_quantities, only: quantity_count, bending, bending_count, needs_axial, needs_ground, quantity_names
+    use gapbeam_quantities, only: quantity_count, bending, bending_count, of_shear, of_transverse, needs_axial, needs_ground, &
+        quantity_names
     use gapbeam_api_quantities, only: require_quantities
     use gapbeam_api_train_loads, only: moving_train_type, train_gap_type, check_train, put_axles, find_gaps, lost_in
     use gapbeam_api_objects, only: prepared_type, passing_type, require_beam, require_no_path, require_size, bad_argument
@@ -158,7 +159,7 @@ contains
         call envelope_of(beam, passing, envelope, error)
         if (allocated(error)) return
         do k = 1, size(quantities)
-            values(:, k) = first_tie(envelope%fields(:, findloc(bending, quantities(k), 1)))
+            values(:, k) = first_tie(envelope%fields(:, place_of(quantities(k))))
         end do
     end subroutine get_train_quantity_extremes
 
@@ -248,7 +249,7 @@ contains
         end do
         if (allocated(error)) return
         do k = 1, size(quantities)
-            associate (j => findloc(bending, quantities(k), 1))
+            associate (j => place_of(quantities(k)))
                 do i = 1, 2
                     value(i, k, :) = found(i, j, :, 1)
                     position(i, k, :) = found_at(i, j, :, 1)
@@ -313,6 +314,14 @@ contains
             error%entry = k
         end do
     end subroutine require_fields
+
+    !> Place of a quantity among those of bending; without an axial force that bending feels the transverse force is the shear
+    elemental function place_of(quantity) result(place)
+        integer, intent(in) :: quantity
+        integer :: place
+
+        place = findloc(bending, merge(of_shear, quantity, quantity == of_transverse), 1)
+    end function place_of
 
     !> The first one of those that tie
     elemental function first_tie(extreme) result(found)
