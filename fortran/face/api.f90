@@ -166,7 +166,7 @@ contains
         !> Factor of the live loads
         real(wp), intent(in) :: factor
         type(options_type), intent(in) :: options
-        !> The new state; result%status says whether there is equilibrium
+        !> The new state; result%status says whether there is equilibrium, or the beam buckles (get_buckling)
         type(result_type), intent(inout) :: result
         !> gapbeam_bad_input, also of beams whose state depends on the loading history, gapbeam_indeterminate,
         !> gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared or gapbeam_stopped; result%status
@@ -185,7 +185,7 @@ contains
     end subroutine solve_beam
 
     !> Follow the load from factor 0 upwards: every change of the contact state at its exact load factor, on smooth laws too; not
-    !> of beams that solve_beam refuses; follow_ground is for beams on foundations
+    !> of beams that solve_beam refuses; follow_ground is for beams on foundations, with axial forces or mass
     subroutine follow_load(beam, factor, options, events, result, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam

@@ -12,6 +12,7 @@ module gapbeam_api_cases
     use gapbeam_scene, only: load_type, gapbeam_axial, gapbeam_both, gapbeam_movement
     use gapbeam_assemble_laws, only: laws_depend_on_path
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_axial_force, only: what_stretches
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
@@ -29,8 +30,8 @@ contains
 
     !> Make ready for many cases of a beam: what every load does alone is worked out once
     subroutine prepare_cases(beam, cases, error)
-        !> Prepared, on no foundation, without laws that make the state depend on the loading history. Loads may move supports that
-        !> have no law
+        !> Prepared, without foundations, axial forces and mass of spans, and laws that make the state depend on the loading
+        !> history. Loads may move supports that have no law
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases
@@ -47,8 +48,8 @@ contains
         if (allocated(error)) return
         associate (lowered => beam%lowered)
             if (allocated(lowered%layers)) then
-                call fatal_error(error, gapbeam_bad_input, "the beam is on a foundation, where many cases in one call are not "// &
-                                 "available; use combine_loads and solve_beam for each")
+                call fatal_error(error, gapbeam_bad_input, "the beam has "//what_stretches(lowered%model)//", where many "// &
+                                 "cases in one call are not available; use combine_loads and solve_beam for each")
                 return
             end if
             n = size(lowered%node_point)

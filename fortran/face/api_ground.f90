@@ -1,4 +1,5 @@
-!> Beams on foundations, for Fortran: where the ground acts, where the beam hangs free above it, its pressure, and its load path.
+!> Beams on foundations, for Fortran: where the ground acts, where the beam hangs free above it, its pressure, and its load path;
+!> the path also of beams without foundations, with an axial force that bending feels.
 !> As in gapbeam_api nothing is printed or kept, and the floating-point environment is that of the caller. Without foundations
 !> there is no contact and no free span, and the pressure is 0
 module gapbeam_api_ground
@@ -21,19 +22,21 @@ module gapbeam_api_ground
 
 contains
 
-    !> Follow the load of a beam on foundations from factor 0 upwards: every change of zones of contact and of supports at its load
-    !> factor, to the last digit. Changes that undo each other within 1/64 of the way are not seen
+    !> Follow the load of a beam on foundations, or with an axial force N that bending feels, from factor 0 upwards: every change
+    !> of zones of contact and of supports at its load factor, to the last digit. N stays what it is. Changes that undo each other
+    !> within 1/64 of the way are not seen
     subroutine follow_ground(beam, factor, options, events, result, error)
-        !> Prepared, with foundations
+        !> Prepared, with foundations, axial forces or mass of spans
         type(prepared_type), intent(in) :: beam
         !> Where the path ends, above 0
         real(wp), intent(in) :: factor
         type(options_type), intent(in) :: options
         !> The events in their order
         type(ground_event_type), allocatable, intent(out) :: events(:)
-        !> The state at `factor`; or, with status gapbeam_no_equilibrium, the motion that begins at result%factor
+        !> The state at `factor`; or, with status gapbeam_no_equilibrium or gapbeam_buckles, the motion that begins at
+        !> result%factor
         type(result_type), intent(inout) :: result
-        !> As for solve_beam; gapbeam_bad_input also without foundations; events are then not allocated
+        !> As for solve_beam; gapbeam_bad_input also of beams that follow_load is for; events are then not allocated
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
         type(ground_path_type) :: path
@@ -65,10 +68,11 @@ contains
 
     contains
 
-        !> Is there ground, and a way to go
+        !> Is it solved in stretches, and is there a way to go
         subroutine check_way()
             if (.not. allocated(beam%lowered%layers)) then
-                call fatal_error(error, gapbeam_bad_input, "the beam has no foundation: use follow_load")
+                call fatal_error(error, gapbeam_bad_input, "the beam has no foundation, no axial force N and no "// &
+                                 "mass: use follow_load")
             else if (.not. factor > 0.0_wp) then
                 call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))
             end if

@@ -2,12 +2,13 @@
 !> and trains; and what its procedures refuse before anything is done with them
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, &
-        gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
+        gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_axial_force, only: what_stretches
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_events, only: event_type
@@ -39,7 +40,7 @@ module gapbeam_api_objects
 
     !> A solved state; what it says of supports, fields and extremes is asked for with the get_ procedures
     type :: result_type
-        !> gapbeam_solved, gapbeam_no_equilibrium, or -1: nothing solved
+        !> gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, or -1: nothing solved
         integer :: status = -1
         !> Load factor of the live loads
         real(wp) :: factor = 0.0_wp
@@ -51,6 +52,9 @@ module gapbeam_api_objects
         logical :: indifferent = .false.
         !> Without equilibrium: does the beam slide along its axis
         logical :: slides = .false.
+        !> Solved: is the state known to be the only one; under compression it may be one of several, that which is reached as
+        !> the axial forces grow
+        logical :: unique = .true.
         !> Opaque
         type(state_type), allocatable :: state
     end type result_type
@@ -177,7 +181,8 @@ contains
         if (.not. beam%lowered%depends_on_path) return
         if (allocated(beam%lowered%layers)) then
             call fatal_error(error, gapbeam_bad_input, "the law of a support falls, keeps a set, or may let go of the beam: "// &
-                             "beside a foundation that is not available in this version; give laws that rise")
+                             "beside "//what_stretches(beam%lowered%model)//" that is not available in this version; "// &
+                             "give laws that rise")
         else
             call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
                              "of a support falls, keeps a set, or may let go of the beam, or a load moves a support: use "// &
@@ -196,13 +201,13 @@ contains
         error%table = of_supports
     end subroutine require_no_curves
 
-    !> Refuse a beam on a foundation, whose way is followed apart
+    !> Refuse a beam that is solved in stretches, whose way is followed apart
     subroutine require_no_ground(beam, error)
         type(prepared_type), intent(in) :: beam
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(beam%lowered%layers)) return
-        call fatal_error(error, gapbeam_bad_input, "the beam is on a foundation: use follow_ground")
+        call fatal_error(error, gapbeam_bad_input, "the beam has "//what_stretches(beam%lowered%model)//": use follow_ground")
     end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status
@@ -216,6 +221,8 @@ contains
         if (allocated(error)) return
         if (.not. allocated(result%state) .or. (result%status /= status .and. status == gapbeam_solved)) then
             call fatal_error(error, gapbeam_not_prepared, "nothing is solved: call solve_beam first")
+        else if (result%status /= status .and. status == gapbeam_buckles) then
+            call fatal_error(error, gapbeam_not_prepared, "there is no buckling: the beam was found to bear its axial forces")
         else if (result%status /= status) then
             call fatal_error(error, gapbeam_not_prepared, "there is no motion: the beam was not found without equilibrium")
         else if (.not. fits(beam, result%state) .or. result%state%fingerprint /= beam%lowered%fingerprint) then
@@ -303,6 +310,8 @@ contains
             result%method = state%method
             result%indifferent = state%indifferent
             result%slides = state%slides
+            result%unique = .true.
+            if (allocated(state%ground)) result%unique = state%ground%unique
         end associate
     end subroutine summarise
 

@@ -19,7 +19,7 @@ module gapbeam_capi
     type, bind(c) :: c_info
         integer(c_size_t) :: size
         real(c_double) :: factor
-        integer(c_int) :: status, solves, method, indifferent, slides, reserved
+        integer(c_int) :: status, solves, method, indifferent, slides, unique
     end type c_info
 
     type, bind(c) :: c_certificate
@@ -114,7 +114,8 @@ contains
         if (.not. associated(handle)) return
         associate (r => handle%result)
             if (r%status < 0) return
-            info = c_info(info%size, r%factor, r%status, r%solves, r%method, merge(1, 0, r%indifferent), merge(1, 0, r%slides), 0)
+            info = c_info(info%size, r%factor, r%status, r%solves, r%method, merge(1, 0, r%indifferent), merge(1, 0, r%slides), &
+                          merge(1, 0, r%unique))
         end associate
         status = gapbeam_solved
     end function c_get_info

@@ -42,6 +42,7 @@ module gapbeam_capi_model
         type(c_ptr) :: table_foundation = c_null_ptr, table_quantity = c_null_ptr, table_x = c_null_ptr, table_value = c_null_ptr
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
         type(c_ptr) :: hinge_stiffness = c_null_ptr
+        type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
     end type c_model
 
 contains
@@ -131,6 +132,8 @@ contains
         end associate
         if (has_reals(c%hinge_x, c%hinges, reals)) model%hinges(:) = reals
         if (with_all) then
+            if (has_reals(c%N, c%spans, reals)) model%spans%N = reals
+            if (has_reals(c%mass, c%spans, reals)) model%spans%mass = reals
             allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
             if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
         end if
@@ -208,6 +211,7 @@ contains
             if (has_reals(c%foundation_k_to, n, reals)) f%k_to = reals
             if (has_reals(c%foundation_gap, n, reals)) f%gap = reals
             if (has_reals(c%foundation_gap_to, n, reals)) f%gap_to = reals
+            if (has_reals(c%foundation_shear, n, reals)) f%shear = reals
             if (has_integers(c%foundation_law, n, integers)) f%law = integers
             if (has_reals(c%foundation_parameter, n*parameters_of_law, reals)) then
                 do i = 1, n

@@ -2,7 +2,8 @@
 !
 ! Units, signs: see gapbeam.f90. Nodes (span ends) count from 0, spans, supports, loads and hinges from 1. Beams on foundations:
 ! fortran77_ground.f90. Histories of the load: fortran77_history.f90. Combinations and trains: fortran77_trains.f90. Many cases:
-! fortran77_cases.f90. Calls that take long, ended: fortran77_watch.f90.
+! fortran77_cases.f90. Axial forces that bending feels, buckling, frequencies: fortran77_modes.f90. Calls that take long, ended:
+! fortran77_watch.f90.
 !
 !     SPAN(4, NSPAN)    length; EI; GA (GBINF(): rigid in shear); EA (GBINF() if not needed), above 0
 !     HINGE(NHINGE)     places of moment hinges
@@ -31,8 +32,9 @@
 !      -i   the i-th argument has an illegal value: a handle is of another kind or none of the library's (which cannot be told of
 !           the address of no memory at all), or a state, history, cases or train are not of the beam as it is now
 !       1   no equilibrium: GHMOTN gives the motion
+!       2   the beam buckles: GHBUCK says how
 !     >10   an error, see gapbeam_error: 12 indeterminate, 13 not converged, 14 not finite, 15 no memory, 18 stopped (GHWTCH)
-! Nothing but INFO, handles to be made (0) and IENTRY is written where INFO is not 0 or 1.
+! Nothing but INFO, handles to be made (0) and IENTRY is written where INFO is not 0, 1 or 2.
 !
 ! A beam is only read by all but GHLOAD, GHWTCH, GHLIMT and GHFREE: threads may share it, each with its own STATE.
 
@@ -202,7 +204,7 @@ subroutine ghsolv(beam, factor, rule, start, state, info)
     ! The state
     integer(8), intent(in) :: state
     ! -1, also of a beam whose state depends on the loading history (GHHIST); -2, -3, -4; -5, also where START is 1 and nothing is
-    ! solved there; 1, 12 to 15, 18
+    ! solved there; 1, 2, 12 to 15, 18
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
@@ -268,7 +270,7 @@ subroutine ghinfo(state, factor, ninfo, info)
     integer(8), intent(in) :: state
     ! Load factor
     double precision, intent(inout) :: factor
-    ! Status (0 or 1), linear solves, method (0 mixed, 1 three-moment, 2 with pivoting), 1 where the beam is free to move without
+    ! Status (0, 1 or 2), linear solves, method (0 mixed, 1 three-moment, 2 with pivoting), 1 where the beam is free to move without
     ! work of the loads, 1 where it slides along its axis
     integer, intent(inout) :: ninfo(5)
     ! -1, also where nothing is solved

@@ -23,7 +23,7 @@
 !     ATAB(2, NTAB)     x, also beside the foundation; value there; straight in between, beyond its ends the last value; two points
 !                       at a place are a step
 !
-! Events are found by GHGEVT; GHEVNT and GHHIST are not for beams on foundations.
+! Events are found by GHGEVT; GHEVNT and GHHIST are not for beams on foundations, nor for those of GHPRAF.
 
 ! Prepare a beam on foundations, whose supports may follow laws
 subroutine ghprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
@@ -54,7 +54,7 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     use gapbeam_api_ground, only: ground_event_type, follow_ground
     use gapbeam_fortran77_info, only: error_type, handle_type, beam_tag, state_tag, find_first, find, info_of
     implicit none
-    ! On foundations
+    ! On foundations, or from GHPRAF
     integer(8), intent(in) :: beam
     ! End of the path, above 0
     double precision, intent(in) :: factor
@@ -69,7 +69,7 @@ subroutine ghgevt(beam, factor, rule, maxev, state, nev, event, ievent, info)
     ! with the next, 23 splits; 24 an end reaches, 25 leaves that of the foundation or of the beam
     double precision, intent(inout) :: event(2, *)
     integer, intent(inout) :: ievent(4, *)
-    ! -1, also of a beam without foundations, or whose state depends on the loading history; -2, -3, -4, -5; 1, 12 to 15, 18
+    ! -1, also of a beam that GHEVNT is for, or whose state depends on the loading history; -2, -3, -4, -5; 1, 2, 12 to 15, 18
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error

@@ -1,11 +1,11 @@
-!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL, GHPRFR and GHPRFD do
+!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL, GHPRFR, GHPRFD and GHPRAF do
 module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
     use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, gapbeam_table_of_gap
-    use gapbeam_input_error, only: of_supports, of_foundations, not_expected
+    use gapbeam_input_error, only: of_spans, of_supports, of_foundations, not_expected
     use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_handles, only: handle_type, number_of
@@ -19,7 +19,7 @@ contains
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                        found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
-                       slaw, fric)
+                       slaw, fric, axial, shear)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
@@ -31,8 +31,8 @@ contains
         real(wp), intent(in), optional :: slaw(parameters_of_law, *)
         !> Friction coefficients of supports, as for GHPRFR
         real(wp), intent(in), optional :: fric(*)
-        !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
-        integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
+        !> Axial forces and masses of spans, second parameters of foundations, as for GHPRAF
+        real(wp), intent(in), optional :: axial(2, *), shear(*)
         type(model_type) :: model
         type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
@@ -88,6 +88,11 @@ contains
                 end do
             end if
             if (present(fric)) model%supports%friction = fric(1:nsup)
+            if (present(axial)) then
+                model%spans%N = axial(1, 1:nspan)
+                model%spans%mass = axial(2, 1:nspan)
+            end if
+            if (present(shear)) model%foundations%shear = shear(1:nfound)
             call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then
@@ -96,23 +101,37 @@ contains
         end if
         info = error%code
         ientry = error%entry
-        if (error%code /= gapbeam_bad_input) return
-        info = -argument(error%table)
+        if (error%code == gapbeam_bad_input) info = -argument_of(error, nprof)
+    end subroutine prepare
+
+    !> The argument of GHPRAF, or of GHPRSL and GHPRFR, that bad input is about
+    pure function argument_of(error, nprof) result(place)
+        type(error_type), intent(in) :: error
+        !> Number of points of profiles
+        integer, intent(in) :: nprof
+        integer :: place
+        !> The argument that an array of the model is; of a pair of arrays the first, which has the number of entries
+        integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
+
+        place = argument(error%table)
         select case (error%table)
+        case (of_spans)
+            if (error%key == "N" .or. error%key == "mass") place = 29
         case (of_supports)
-            if (error%key == "law") info = -12
-            if (index(error%key, "law.") == 1) info = -16
-            if (error%key == "unloading") info = -14
-            if (error%key == "friction") info = -17
+            if (error%key == "law") place = 12
+            if (index(error%key, "law.") == 1) place = 16
+            if (error%key == "unloading") place = 14
+            if (error%key == "friction") place = 17
         case (of_foundations)
-            if (error%key == "law") info = merge(-24, -22, error%reason == not_expected)
-            if (index(error%key, "law.") == 1) info = -25
-            if (error%key == "profile") info = -19
+            if (error%key == "law") place = merge(24, 22, error%reason == not_expected)
+            if (index(error%key, "law.") == 1) place = 25
+            if (error%key == "profile") place = 19
             ! A point of a table
-            if (error%partner > 0 .and. (error%key == "k" .or. index(error%key, "law.") == 1)) info = -27
-            if (error%key == "profile" .and. nprof == 0) info = -27
+            if (error%partner > 0 .and. (error%key == "k" .or. index(error%key, "law.") == 1)) place = 27
+            if (error%key == "profile" .and. nprof == 0) place = 27
+            if (error%key == "shear") place = 30
         case default
         end select
-    end subroutine prepare
+    end function argument_of
 
 end module gapbeam_fortran77_model

@@ -1,7 +1,8 @@
 ! Quantities along the beam by their numbers in the Fortran 77 interface; all else is said in fortran77.f90. Marshalling only.
 !
 !     IQUAN(NQUAN)      1 deflection, 2 rotation, 3 moment, 4 shear, 5 axial force, 6 axial displacement, 7 pressure of the ground
-!                       (up), 8 curvature (sagging: M/EI less what is imposed). Numbers stay, and new quantities get new ones
+!                       (up), 8 curvature (sagging: M/EI less what is imposed), 9 transverse force (shear and axial force times
+!                       slope). Numbers stay, and new quantities get new ones
 
 ! Exact values at places
 subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
@@ -52,7 +53,7 @@ subroutine ghqxtr(beam, state, nquan, iquan, value, xvalue, info)
     info = info_of(error, 2, ["quantities"], [4])
 end subroutine ghqxtr
 
-! Largest and smallest values over all positions of a train; of quantities 1 to 4 and 8
+! Largest and smallest values over all positions of a train; of quantities 1 to 4, 8 and 9
 subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, copy_extremes
     use gapbeam_fortran77_info, only: error_type, gapbeam_no_equilibrium, gapbeam_no_memory, handle_type, passing_tag, &
@@ -82,7 +83,7 @@ subroutine ghtqxt(beam, pass, nquan, iquan, value, info)
     call copy_extremes(found, value(:, :, 1:nquan))
 end subroutine ghtqxt
 
-! Largest and smallest values at places over all positions of a train; of quantities 1 to 4 and 8
+! Largest and smallest values at places over all positions of a train; of quantities 1 to 4, 8 and 9
 subroutine ghtqcr(beam, pass, nquan, iquan, nx, x, curve, posn, info)
     use gapbeam_fortran77_shapes, only: fill_curves
     implicit none

@@ -27,6 +27,12 @@
 !>     call get_contact(beam, result, zones, error)                              ! where the ground acts, and its force
 !>     call get_pressure(beam, result, [3d0], pressure, error)
 !>
+!> Bending may feel an axial force, tension positive; under compression a beam may buckle:
+!>
+!>     model%spans(1)%N = -50d0
+!>     if (result%status == gapbeam_buckles) call get_buckling(beam, result, share, x, deflection, error)
+!>     call get_modes(beam, result, gapbeam_buckling, factors, found, error)     ! factors of N at which a solved beam buckles
+!>
 !> Combinations of load cases are beams of their own, each with a contact state of its own:
 !>
 !>     call combine_loads(beam, [1.35d0, 1.5d0], combined, error)                ! a factor for every load
@@ -41,11 +47,11 @@
 !> couples and rotations clockwise, axial forces on the beam to the right. Supports, foundations and loads count from 1,
 !> nodes from 0.
 !> Errors: `error` is allocated where something failed, with one of the codes of gapbeam_error and a message. That a beam has
-!> no equilibrium is no error: result%status says it.
+!> no equilibrium, or buckles, is no error: result%status says it.
 module gapbeam
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_indeterminate, &
-        gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, &
-        gapbeam_stopped, gapbeam_status_message => status_text
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, gapbeam_bad_input, &
+        gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite, gapbeam_no_memory, gapbeam_not_prepared, &
+        gapbeam_other_version, gapbeam_stopped, gapbeam_status_message => status_text
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
@@ -74,6 +80,7 @@ module gapbeam
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes, gapbeam_of_deflection, gapbeam_of_rotation, &
         gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
         gapbeam_of_curvature, gapbeam_of_transverse
+    use gapbeam_api_modes, only: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_buckling
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         get_released_energy, gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended

@@ -56,8 +56,8 @@ end subroutine gbshap
 
 ! How a beam buckles that does not bear its axial forces; NX places have room, and there are FOUND
 subroutine gbbuck(beam, state, nx, x, w, found)
-    use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_assembled_model, only: point_x
+    use gapbeam_python_handles, only: error_type, handle_type, behind
+    use gapbeam_state_modes, only: shape_of_buckling
     implicit none
     integer(8), intent(in) :: beam, state
     integer, intent(in) :: nx
@@ -66,7 +66,8 @@ subroutine gbbuck(beam, state, nx, x, w, found)
     integer, intent(out) :: found
     !f2py threadsafe
     type(handle_type), pointer :: handle, solved
-    integer :: i
+    type(error_type), allocatable :: error
+    double precision, allocatable :: places(:), deflections(:)
 
     handle => behind(beam)
     solved => behind(state)
@@ -74,13 +75,11 @@ subroutine gbbuck(beam, state, nx, x, w, found)
     w = 0.0d0
     found = 0
     if (.not. allocated(solved%result%state%ground)) return
-    associate (ground => solved%result%state%ground, beam_model => handle%beam%lowered)
-        if (.not. allocated(ground%mode_piece)) return
-        found = size(ground%mode_piece)
-        if (found > nx) return
-        do i = 1, found
-            x(i) = point_x(beam_model, ground%mode_piece(i) - 1) + scale(ground%mode_distance(i), beam_model%units%length)
-        end do
-        w(:found) = ground%mode_deflection
-    end associate
+    if (.not. allocated(solved%result%state%ground%mode_piece)) return
+    call shape_of_buckling(handle%beam%lowered, solved%result%state, places, deflections, error)
+    if (allocated(error)) return
+    found = size(places)
+    if (found > nx) return
+    x(:found) = places
+    w(:found) = deflections
 end subroutine gbbuck

@@ -15,7 +15,7 @@ module gapbeam_state_modes
     use gapbeam_state, only: ground_of, detail_of
     implicit none
     private
-    public :: by_axial_force, by_vibration, values_of_modes, shape_of_mode
+    public :: by_axial_force, by_vibration, values_of_modes, shape_of_mode, shape_of_buckling
 
 contains
 
@@ -77,9 +77,13 @@ contains
         integer, allocatable :: piece(:)
         real(qp), allocatable :: distance(:), w(:), m(:, :)
         real(qp) :: at
-        integer :: i
+        integer :: i, stat
 
         call check_state(assembled, state, error)
+        if (.not. allocated(error) .and. .not. has_any(assembled, what)) then
+            call fatal_error(error, gapbeam_bad_input, "modes: there are none, since the beam has no "// &
+                             trim(merge("mass       ", "compression", what == by_vibration)))
+        end if
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor)
         call start_from(state%ground, state%closed, start)
@@ -88,7 +92,11 @@ contains
         at = value
         if (what == by_vibration) at = at**2
         call find_fine_shape(fine, zones, start%closed, what, at, parts, piece, distance, w, m)
-        allocate (x(size(piece)), deflection(size(piece)), moment(2, size(piece)))
+        allocate (x(size(piece)), deflection(size(piece)), moment(2, size(piece)), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         associate (units => assembled%units)
             do i = 1, size(piece)
                 x(i) = point_x(assembled, piece(i) - 1) + scale(real(distance(i), wp), units%length)
@@ -97,6 +105,30 @@ contains
             moment(:, :) = scale(real(m, wp), units%force + units%length - units%deflection)
         end associate
     end subroutine shape_of_mode
+
+    !> How a beam gives way that does not bear its axial forces
+    subroutine shape_of_buckling(assembled, state, x, deflection, error)
+        !> The beam, and its state with status gapbeam_buckles
+        type(assembled_type), intent(in) :: assembled
+        type(state_type), intent(in) :: state
+        !> Places; deflections there, the largest 1
+        real(wp), allocatable, intent(out) :: x(:), deflection(:)
+        !> No memory
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        associate (ground => state%ground)
+            allocate (x(size(ground%mode_piece)), deflection(size(ground%mode_piece)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            do i = 1, size(x)
+                x(i) = point_x(assembled, ground%mode_piece(i) - 1) + scale(ground%mode_distance(i), assembled%units%length)
+            end do
+            deflection(:) = ground%mode_deflection
+        end associate
+    end subroutine shape_of_buckling
 
     !> Has a beam what its modes are of: compression, or mass
     pure function has_any(assembled, what) result(it_has)

@@ -98,6 +98,7 @@ class Model(c.Structure):
         ("support_parameter", REAL),
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
+        *((name, REAL) for name in ("N", "mass", "foundation_shear")),
     )
 
 
@@ -113,7 +114,7 @@ class Info(c.Structure):
     _fields_ = (
         ("size", c.c_size_t),
         ("factor", c.c_double),
-        *((name, c.c_int) for name in ("status", "solves", "method", "indifferent", "slides", "reserved")),
+        *((name, c.c_int) for name in ("status", "solves", "method", "indifferent", "slides", "unique")),
     )
 
 
@@ -196,8 +197,8 @@ def columns(scene):
     def real(rows, key, default):
         return np.array([default if row.get(key) is None else row[key] for row in rows], dtype=float)
 
-    def spread(key):
-        return np.broadcast_to(np.array(scene["beam"].get(key, math.inf), dtype=float), len(spans)).copy()
+    def spread(key, default=math.inf):
+        return np.broadcast_to(np.array(scene["beam"].get(key, default), dtype=float), len(spans)).copy()
 
     def number_of(load):
         found = load.get("support", load.get("node"))
@@ -221,6 +222,7 @@ def columns(scene):
     return {
         "length": np.array(spans, dtype=float),
         **{key: spread(key) for key in ("EI", "GA", "EA")},
+        **{key: spread(key, 0.0) for key in ("N", "mass")},
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -264,6 +266,7 @@ def ground_columns(foundations, end):
         **{f"foundation_{key}_to": [pair[1] for pair in pairs] for key, pairs in ends.items()},
     }
     made = {key: np.array(values, dtype=float) for key, values in made.items()}
+    made["foundation_shear"] = np.array([f.get("shear", 0.0) for f in foundations], dtype=float)
     made["foundation_side"] = np.array([SIDES[f.get("side", "both")] for f in foundations], dtype=np.int32)
     laws = [f["law"] if isinstance(f.get("law"), dict) else {} for f in foundations]
     codes = [GROUND_LAWS[law["type"]] if law else (0, ()) for law in laws]
@@ -477,6 +480,35 @@ class CBeam:
         assert self.c.gapbeam_get_motion(self.handle, self.state, pointer(x), pointer(motion)) == 0
         return x, motion
 
+    def modes(self, kind, count):
+        """Status and the first values of modes."""
+        values, number = np.empty(count), c.c_int(-1)
+        status = self.c.gapbeam_get_modes(
+            self.handle, self.state, kind, count, pointer(values), c.byref(number), None, c.c_size_t(0)
+        )
+        return status, values[: max(number.value, 0)].tolist()
+
+    def mode_shape(self, kind, value, parts):
+        """Places, deflections, moments left and right of them."""
+        number, given = c.c_int(-1), (self.handle, self.state, kind, c.c_double(value), parts)
+        assert self.c.gapbeam_get_mode_shape(*given, 0, None, None, None, c.byref(number), None, c.c_size_t(0)) == 0
+        n = number.value
+        found = np.empty(n), np.empty(n), np.empty((n, 2))
+        assert self.c.gapbeam_get_mode_shape(*given, n, *map(pointer, found), None, None, c.c_size_t(0)) == 0
+        return found[0], found[1], found[2].T
+
+    def buckling(self):
+        """Share of the axial forces that it bears, places and deflections."""
+        share, number = c.c_double(), c.c_int(-1)
+        assert self.c.gapbeam_get_buckling(self.handle, self.state, c.byref(share), 0, None, None, c.byref(number)) == 0
+        found = np.empty((2, number.value))
+        assert self.c.gapbeam_get_buckling(self.handle, self.state, None, number.value, *map(pointer, found), None) == 0
+        return share.value, *found
+
+    def unique(self):
+        """Is the state known to be the only one."""
+        return bool(self.info().unique)
+
     def follow_ground(self, factor, rule="block"):
         """Status and events of a beam on foundations: factor, support, foundation, place, change, branch."""
         options, number, most = Options(c.sizeof(Options), RULES[rule], 0), c.c_int(0), 1000
@@ -547,12 +579,14 @@ class F77Beam:
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
-        prepare = "ghprfd" if len(sides) else "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
-        if len(ilaw) or len(sides) or named:
+        feels = a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
+        plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
+        prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
+        if len(ilaw) or len(sides) or named or feels:
             model += [len(ilaw), ilaw, alaw, a["support_unloading"]]
         if named:
             model += [a["support_law"], a["support_parameter"], *([a["support_friction"]] if rubs else [])]
-        if len(sides):
+        if len(sides) or feels:
             model += [len(sides), sides, np.array([a[f"foundation_{n}"] for n in foundations]).T.copy()]
             for name, pair in (("profile", ("x", "gap")), ("ground_law", ("displacement", "force"))):
                 points = np.array([a[f"{name}_{column}"] for column in pair]).T.copy()
@@ -560,6 +594,8 @@ class F77Beam:
             model += [a["foundation_law"], np.hstack([a[f"foundation_parameter{end}"] for end in ("", "_to")])]
             tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
+        if feels:
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"]]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0
@@ -667,6 +703,34 @@ class F77Beam:
         """INFO and energy of GHHENG for the history followed last."""
         energy = np.zeros(1)
         return self.call("ghheng", self.beam, self.history, limit + 1, energy), float(energy[0])
+
+    def modes(self, kind, count):
+        """As CBeam.modes."""
+        values, number = np.empty(count), np.zeros(1, np.int32)
+        info = self.call("ghmode", *self.both, kind, count, values, number)
+        return info, values[: number[0]].tolist()
+
+    def mode_shape(self, kind, value, parts):
+        """As CBeam.mode_shape."""
+        n, given = np.zeros(1, np.int32), (*self.both, kind, float(value), parts)
+        assert self.call("ghshap", *given, 0, n, n, n, n) == 0
+        found = np.empty(n[0]), np.empty(n[0]), np.empty((n[0], 2))
+        assert self.call("ghshap", *given, int(n[0]), n, *found) == 0
+        return found[0], found[1], found[2].T
+
+    def buckling(self):
+        """As CBeam.buckling."""
+        share, n = np.zeros(1), np.zeros(1, np.int32)
+        assert self.call("ghbuck", *self.both, share, 0, n, n, n) == 0
+        found = np.empty((2, n[0]))
+        assert self.call("ghbuck", *self.both, share, int(n[0]), n, *found) == 0
+        return float(share[0]), *found
+
+    def unique(self):
+        """As CBeam.unique."""
+        found = np.zeros(1, np.int32)
+        assert self.call("ghuniq", self.state, found) == 0
+        return bool(found[0])
 
     def at_supports(self):
         """As CBeam.at_supports."""

@@ -587,7 +587,7 @@ static void foundations(void)
     check(both[0][0] == value[0] && both[0][1] == value[1] && at[0][1] == x[1], "of the pressure");
     check(gapbeam_get_quantity_extremes(beam, state, 2, two, NULL, NULL, NULL, 0) == GAPBEAM_SOLVED, "for nobody");
     check(gapbeam_get_quantities(beam, state, 1, none, 1, places, 0, both[0], message, sizeof message) == GAPBEAM_BAD_INPUT
-          && strstr(message, "from 1 to 8, got 0"), "no such quantity");
+          && strstr(message, "from 1 to 9, got 0"), "no such quantity");
     check(gapbeam_get_quantities(beam, state, 1, NULL, 1, places, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "which");
     check(gapbeam_get_quantities(beam, state, 0, two, 1, places, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "none");
     check(gapbeam_get_quantities(beam, state, 2, two, 1, NULL, 0, both[0], NULL, 0) == GAPBEAM_BAD_INPUT, "no places");
@@ -707,7 +707,7 @@ static void foundations(void)
 /* EI is 1, so that curvature is the moment */
 static void quantities_of_train(gapbeam_beam *beam, gapbeam_passing *passing, double place)
 {
-    static const int two[] = {GAPBEAM_OF_CURVATURE, GAPBEAM_SHEAR}, wrong[] = {GAPBEAM_OF_PRESSURE}, none[] = {GAPBEAM_QUANTITIES};
+    static const int two[] = {GAPBEAM_OF_CURVATURE, GAPBEAM_OF_TRANSVERSE}, wrong[] = {GAPBEAM_OF_PRESSURE}, none[] = {GAPBEAM_QUANTITIES};
     double extremes[2][2][4], value[1][2][2], at[1][2][2];
     char message[200];
 
@@ -719,7 +719,7 @@ static void quantities_of_train(gapbeam_beam *beam, gapbeam_passing *passing, do
     check(gapbeam_get_train_quantity_extremes(beam, passing, 1, wrong, extremes, message, sizeof message) == GAPBEAM_BAD_INPUT
           && strstr(message, "a train has no pressure of the ground"), "no ground under a train");
     check(gapbeam_get_train_quantity_extremes(beam, passing, 1, none, extremes, message, sizeof message) == GAPBEAM_BAD_INPUT
-          && strstr(message, "from 1 to 8, got 9"), "no such quantity");
+          && strstr(message, "from 1 to 9, got 10"), "no such quantity");
     check(gapbeam_get_train_quantity_extremes(beam, passing, 0, two, extremes, NULL, 0) == GAPBEAM_BAD_INPUT, "none asked for");
     check(gapbeam_get_train_quantity_extremes(beam, NULL, 1, two, extremes, NULL, 0) == GAPBEAM_NOT_PREPARED, "no train");
     check(gapbeam_get_train_quantity_curves(beam, passing, 1, two, 1, NULL, value[0], at[0], NULL, 0) == GAPBEAM_BAD_INPUT,
@@ -820,7 +820,7 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 464 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 488 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");

@@ -13,6 +13,7 @@ C     Compiled with -std=legacy.
       CALL GROUND
       CALL CURVED
       CALL TRAINS
+      CALL COLUMN
       CALL HANDLE
       WRITE (*, '(A, I3)') '1..', NCHECK
       IF (NFAIL .GT. 0) STOP 1
@@ -771,7 +772,7 @@ C     EI is 1: the curvature is the moment
       CALL CLOSE(PQ(1,1,1), 0.5D0, 'it stands there')
       CALL GHTQXT(COMB, PASS, 0, IQ, Q, INFO)
       CALL EXPECT(INFO, -3, 'NQUAN = 0')
-      IQ(2) = 9
+      IQ(2) = 10
       CALL GHTQXT(COMB, PASS, 2, IQ, Q, INFO)
       CALL EXPECT(INFO, -4, 'no such quantity')
       IQ(2) = 7
@@ -920,4 +921,179 @@ C     Whether a call is to end: as its first argument says
       COMMON /WATCHD/ ASKED
       ASKED = ASKED + 1
       ASK = MANY(1)
+      END
+C
+C     A column of length, stiffness and load 1, a stop at midspan below
+C     a gap of 0.02: its states, how it buckles; two spans that vibrate
+      SUBROUTINE COLUMN
+      DOUBLE PRECISION SPAN(4,1), SUP(5,3), ALOAD(4,1), HINGE(1)
+      DOUBLE PRECISION ALAW(2,1), FOUND(6,3), APROF(2,1), AFLAW(2,1)
+      DOUBLE PRECISION GLAW(6,3), ATAB(2,1), AXIAL(2,1), SHEAR(3)
+      DOUBLE PRECISION GBINF, PI, COMP(3), FORCE(3), V(4,3), FACT(2)
+      DOUBLE PRECISION X(40), W(40), XMOM(2,40), SHARE, EV(2,2), Q(2)
+      INTEGER*8 BEAM, STATE
+      INTEGER ISUP(3,3), ILOAD(3,1), ILAW(1), IUNL(3), IFOUND(3)
+      INTEGER IPROF(1), IFLAW(1), IGLAW(3), ITAB(2,1), INFO, IENT, I, K
+      INTEGER KIND(3), N, IUNIQ, IEV(4,2), NINFO(5), IQ(2)
+      EXTERNAL GBINF, GHBUCK, GHEVNT, GHFREE, GHGEVT, GHINFO, GHMODE
+      EXTERNAL GHMOTN, GHPRAF, GHQUAN, GHSHAP, GHSOLV, GHSTAT, GHSUPP
+      EXTERNAL GHUNIQ
+      DATA COMP /0.5D0, 0.9D0, 2.0D0/
+      DATA FORCE /0.14714005862549203D0, 0.53807030793317657D0,
+     +            1.6440875059318176D0/
+      PI = ACOS(-1.0D0)
+      SPAN(1,1) = 1.0D0
+      SPAN(2,1) = 1.0D0
+      SPAN(3,1) = GBINF()
+      SPAN(4,1) = GBINF()
+      DO 20 K = 1, 3
+         DO 10 I = 1, 5
+            SUP(I,K) = 0.0D0
+   10    CONTINUE
+         SUP(1,K) = 0.5D0*(K - 1)
+         SUP(2,K) = GBINF()
+         ISUP(1,K) = 0
+         ISUP(2,K) = 0
+         ISUP(3,K) = -1
+   20 CONTINUE
+      ISUP(1,2) = 1
+      SUP(3,2) = 0.02D0
+      ILOAD(1,1) = 3
+      ILOAD(2,1) = 0
+      ILOAD(3,1) = -1
+      ALOAD(1,1) = 0.0D0
+      ALOAD(2,1) = 1.0D0
+      ALOAD(3,1) = 1.0D0
+      ALOAD(4,1) = 1.0D0
+      AXIAL(1,1) = 0.0D0
+      AXIAL(2,1) = -1.0D0
+      CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
+     +            SHEAR, BEAM, IENT, INFO)
+      CALL EXPECT(INFO, -29, 'a negative mass')
+      CALL EXPECT(IENT, 1, 'of span 1')
+      AXIAL(2,1) = 0.0D0
+      CALL GHSTAT(STATE, INFO)
+      CALL EXPECT(INFO, 0, 'state')
+      DO 30 K = 1, 3
+         AXIAL(1,1) = -COMP(K)*PI**2
+         CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +               0, ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF,
+     +               APROF, 0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB,
+     +               ATAB, AXIAL, SHEAR, BEAM, IENT, INFO)
+         CALL EXPECT(INFO, 0, 'prepared')
+         CALL GHUNIQ(STATE, IUNIQ, INFO)
+         IF (K .EQ. 1) CALL EXPECT(INFO, -1, 'nothing solved')
+         CALL GHSOLV(BEAM, 1.0D0, 0, 0, STATE, INFO)
+         CALL EXPECT(INFO, 0, 'solved')
+         CALL GHUNIQ(STATE, IUNIQ, INFO)
+         CALL CHECK(INFO .EQ. 0 .AND. IUNIQ .EQ. 1 - K/3, 'unique')
+         CALL GHSUPP(BEAM, STATE, V, KIND, INFO)
+         CALL CLOSE(V(1,2), FORCE(K), 'stop')
+         CALL GHMODE(BEAM, STATE, 1, 2, FACT, N, INFO)
+         CALL CHECK(INFO .EQ. 0 .AND. N .EQ. 2, 'two modes')
+         CALL CLOSE(FACT(1), 4.0D0/COMP(K), 'in two waves')
+         IF (K .LT. 3) CALL GHFREE(BEAM, INFO)
+   30 CONTINUE
+      IQ(1) = 9
+      IQ(2) = 4
+      CALL GHQUAN(BEAM, STATE, 2, IQ, 1, 0.0D0, 0, Q, INFO)
+      CALL EXPECT(INFO, 0, 'quantities')
+      CALL CLOSE(Q(1), V(1,1), 'the transverse force is balanced')
+      CALL CHECK(ABS(Q(2) - V(1,1)) .GT. 0.1D0, 'the shear is not')
+      CALL GHSHAP(BEAM, STATE, 1, FACT(1), 4, 40, N, X, W, XMOM, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N .EQ. 17, 'seventeen places')
+      CALL CLOSE(X(5), 0.25D0, 'the fifth')
+      CALL CLOSE(ABS(W(5)), 1.0D0, 'where it moves most')
+      CALL GHSHAP(BEAM, STATE, 1, FACT(1), 4, -1, N, X, W, XMOM, INFO)
+      CALL EXPECT(INFO, -6, 'MAXX = -1')
+      CALL GHSHAP(BEAM, STATE, 1, FACT(1), 0, 0, N, X, W, XMOM, INFO)
+      CALL EXPECT(INFO, -5, 'NPARTS = 0')
+      CALL GHSHAP(BEAM, STATE, 1, 0.0D0, 4, 0, N, X, W, XMOM, INFO)
+      CALL EXPECT(INFO, -4, 'VALUE = 0')
+      CALL GHMODE(BEAM, STATE, 3, 2, FACT, N, INFO)
+      CALL EXPECT(INFO, -3, 'no such kind')
+      CALL GHMODE(BEAM, STATE, 1, -1, FACT, N, INFO)
+      CALL EXPECT(INFO, -4, 'NVAL = -1')
+      CALL GHMODE(BEAM, STATE, 2, 2, FACT, N, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N .EQ. 0, 'no mass')
+      CALL GHBUCK(BEAM, STATE, SHARE, 0, N, X, W, INFO)
+      CALL EXPECT(INFO, -2, 'it stands')
+      CALL GHEVNT(BEAM, 1.0D0, 0, 2, STATE, N, EV, IEV, INFO)
+      CALL EXPECT(INFO, -1, 'GHEVNT is not for it')
+      CALL GHGEVT(BEAM, 1.0D0, 0, 2, STATE, N, EV, IEV, INFO)
+      CALL EXPECT(INFO, 0, 'GHGEVT is')
+      CALL GHFREE(BEAM, INFO)
+C     More than four times Euler's load
+      AXIAL(1,1) = -5.0D0*PI**2
+      CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
+     +            SHEAR, BEAM, IENT, INFO)
+      CALL GHSOLV(BEAM, 1.0D0, 0, 0, STATE, INFO)
+      CALL EXPECT(INFO, 2, 'it buckles')
+      CALL GHINFO(STATE, Q(1), NINFO, INFO)
+      CALL EXPECT(NINFO(1), 2, 'and says so')
+      CALL GHBUCK(BEAM, STATE, SHARE, -1, N, X, W, INFO)
+      CALL EXPECT(INFO, -4, 'MAXX = -1')
+      CALL GHBUCK(BEAM, STATE, SHARE, 40, N, X, W, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N .GT. 16 .AND. N .LE. 40, 'how')
+      CALL CHECK(ABS(SHARE - 0.8D0) .LT. 1.0D-12, 'share')
+      DO 40 K = 1, N
+         IF (ABS(W(K) - SIN(2.0D0*PI*X(K))) .GT. 1.0D-9)
+     +      CALL CHECK(.FALSE., 'in two waves')
+   40 CONTINUE
+      CALL GHMOTN(BEAM, STATE, 40, N, X, W, INFO)
+      CALL EXPECT(INFO, -2, 'no free motion')
+      CALL GHUNIQ(STATE, IUNIQ, INFO)
+      CALL EXPECT(INFO, -1, 'no state')
+      CALL GHFREE(BEAM, INFO)
+C     A free span of 4 between two stretches of 10 on ground, with a
+C     second parameter
+      SPAN(1,1) = 24.0D0
+      ALOAD(2,1) = 24.0D0
+      AXIAL(1,1) = 0.0D0
+      AXIAL(2,1) = 1.0D0
+      SUP(1,2) = 24.0D0
+      SUP(3,2) = 0.0D0
+      ISUP(1,2) = 0
+      DO 60 K = 1, 3
+         IFOUND(K) = 0
+         IGLAW(K) = 0
+         SHEAR(K) = 0.0D0
+         FOUND(1,K) = 14.0D0*(K - 1)
+         FOUND(2,K) = 10.0D0 + 14.0D0*(K - 1)
+         FOUND(3,K) = 100.0D0
+         FOUND(4,K) = 100.0D0
+         FOUND(5,K) = 0.0D0
+         FOUND(6,K) = 0.0D0
+         DO 50 I = 1, 6
+            GLAW(I,K) = 0.0D0
+   50    CONTINUE
+   60 CONTINUE
+      FOUND(1,3) = 0.0D0
+      FOUND(2,3) = 24.0D0
+      FOUND(3,3) = 1.0D-11
+      FOUND(4,3) = 1.0D-11
+      SHEAR(3) = -5.0D0
+      CALL GHPRAF(1, SPAN, 0, HINGE, 2, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 3, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
+     +            SHEAR, BEAM, IENT, INFO)
+      CALL EXPECT(INFO, -30, 'a negative SHEAR')
+      CALL EXPECT(IENT, 3, 'of foundation 3')
+      SHEAR(3) = 5.0D0
+      CALL GHPRAF(1, SPAN, 0, HINGE, 2, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 3, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
+     +            SHEAR, BEAM, IENT, INFO)
+      CALL GHSOLV(BEAM, 1.0D0, 0, 0, STATE, INFO)
+      CALL EXPECT(INFO, 0, 'on ground')
+      CALL GHMODE(BEAM, STATE, 2, 2, FACT, N, INFO)
+      CALL CHECK(INFO .EQ. 0 .AND. N .EQ. 2, 'two frequencies')
+      CALL CHECK(ABS(FACT(1) - 1.76512387529D0) .LT. 1.0D-10, 'first')
+      CALL CHECK(ABS(FACT(2) - 3.80941611761D0) .LT. 1.0D-10, 'second')
+      CALL GHFREE(BEAM, INFO)
+      CALL GHFREE(STATE, INFO)
       END

@@ -82,7 +82,7 @@ def test_same_digits_in_every_language(installed, tmp_path, python_digits, name)
     assert len(python_digits.splitlines()) == 12
 
 
-@pytest.mark.parametrize("name", ["test_capi.c", "test_f77.f", "test_threads.c", "test_memory.c"])
+@pytest.mark.parametrize("name", ["test_capi.c", "test_capi_modes.c", "test_f77.f", "test_threads.c", "test_memory.c"])
 def test_interfaces_as_installed(installed, tmp_path, name):
     """The tests of the interfaces once more, with the shared library; failures within it print nothing."""
     program = installed.compile(Path(__file__).with_name(name), tmp_path / "program", "-pthread", "-lm")
@@ -135,13 +135,13 @@ def test_all_spellings_of_the_codes_agree(installed, header, tmp_path):
     """Header, Fortran module, Fortran 77, Python and the page about the languages."""
     values = constants(header)
     fortran = {name: value for name, value in values.items() if name not in fields_of(header)}
-    assert len(fortran) == 84
+    assert len(fortran) == 87
     listing = ["program codes", "    use gapbeam", "    implicit none"]
     for name in fortran:
         listing.append(f'    print "(a, 1x, i0)", "{name}", {name.lower()}')
     statuses = [value for value in fortran.values() if value == 0 or value > 10]
     listing += [
-        f'    print "(a)", "text {value} " // trim(gapbeam_status_message({value}))' for value in sorted({1, *statuses})
+        f'    print "(a)", "text {value} " // trim(gapbeam_status_message({value}))' for value in sorted({1, 2, *statuses})
     ]
     listing += ['    print "(2a)", "version ", gapbeam_version_string', "end program codes", ""]
     source = tmp_path / "codes.f90"

@@ -115,7 +115,7 @@ def test_cases_on_foundations_are_refused(library):
     assert status == 11
     like = [np.zeros(1, np.int32), *(np.zeros((1, n)) for n in (0, 2, 2, 2))]
     assert solve_in_f77(library, scene, np.ones((1, 1)), [None] * 3, "block", like)[0] == -1
-    assert message.startswith("the beam is on a foundation, where many cases in one call are not available; use combine_loads")
+    assert message.startswith("the beam has a foundation, where many cases in one call are not available; use combine_loads")
     beam.close()
 
 

@@ -30,7 +30,7 @@ from .clibrary import F77Beam
 from .installation import TOP
 
 FIELDS = ("deflection", "rotation", "moment", "shear", "axial_force", "axial_displacement")
-QUANTITIES = (*FIELDS, "pressure", "curvature")
+QUANTITIES = (*FIELDS, "pressure", "curvature", "transverse")
 CONDITIONS = {"open": 0, "closed": 1, "bilateral": 2, "touching": 4} | {f"branch {k}": 10 + k for k in range(1, 10)}
 
 
@@ -381,7 +381,7 @@ def test_foundations_agree(library, first):
             assert_same_state(beam, f77, result, scene, random.Random(seed))
             found = assert_same_ground(beam, f77, result, scene, random.Random(seed))
             zones, spans = zones + found[0], spans + found[1]
-            assert beam.follow(1.0)[:2] == (11, "the beam is on a foundation: use follow_ground")
+            assert beam.follow(1.0)[:2] == (11, "the beam has a foundation: use follow_ground")
             assert f77.follow(1.0)[0] == -1
             assert beam.follow_history([1.0], "stop")[0] == 11
         beam.close()
