@@ -24,7 +24,7 @@ FORTRAN = {
     "continuation": "from event to event, through limit points, over ground",
     "moving_load": "trains, what they make at most, influence lines",
     "cases": "many cases, side by side in wide registers, and combinations",
-    "face": "the same objects for C, Fortran, Fortran 77 and f2py: marshalling only",
+    "face": "objects for C, Fortran, Fortran 77, f2py: marshalling only",
     "yardsticks": "other methods, compiled for the studies",
 }
 """The folders, each standing on those before it only."""
