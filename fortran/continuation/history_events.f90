@@ -6,7 +6,7 @@ module gapbeam_history_events
     use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
         gapbeam_closes, gapbeam_slips, gapbeam_sticks
     use gapbeam_events, only: event_type, add_event
-    use gapbeam_history_stretch, only: pieces_type, enter_stretch
+    use gapbeam_history_stretch, only: stretch_type, pieces_type, enter_stretch
     use gapbeam_history_record, only: history_type, find_pieces
     implicit none
     private
@@ -42,8 +42,8 @@ contains
                     cycle
                 end if
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
-                    call go_to(k)
-                    which = switching(k + 1)
+                    call go_to(path, k, at, pieces)
+                    which = switching(s(k + 1), pieces)
                     which = pack(which, .not. pieces%closed(which))
                     if (size(which) > 0) then
                         call add_event(event_type(s(k)%from, assembled%normal(minval(which)), gapbeam_turns, gapbeam_turns, k), &
@@ -72,84 +72,18 @@ contains
 
     contains
 
-        !> Have the pieces of a stretch at hand
-        subroutine go_to(one)
-            integer, intent(in) :: one
-
-            if (at > 0 .and. at <= one) then
-                do at = at + 1, one
-                    call enter_stretch(path%stretches(at), pieces)
-                end do
-            else
-                call find_pieces(path, one, pieces)
-            end if
-            at = one
-        end subroutine go_to
-
         !> What happens to every support where a stretch begins
         subroutine note_changes(other)
             integer, intent(in) :: other
-            type(acting_type), allocatable :: before(:)
-            type(acting_type) :: after
-            integer, allocatable :: which(:)
-            integer :: i, change, added
+            integer :: added
 
             if (stat /= 0) return
-            call go_to(other - 1)
-            which = changing(other)
-            before = [(acts_in(assembled, which(i), pieces%closed, pieces%laws), i=1, size(which))]
-            call go_to(other)
-            do i = 1, size(which)
-                after = acts_in(assembled, which(i), pieces%closed, pieces%laws)
-                associate (first => assembled%beam_support(which(i)))
-                    if (assembled%beam%supports(first)%breakpoint > 0) then
-                        change = what_happens(before(i), after)
-                    else
-                        change = merge(gapbeam_closes, gapbeam_opens, pieces%closed(first))
-                    end if
-                end associate
-                if (change == no_change) cycle
-                pending = pending + 1
-                call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number, &
-                               stat)
-                if (stat /= 0) return
-            end do
+            call find_changes_across(assembled, path, other, at, pieces, events, number, added, stat)
+            pending = pending + added
             if (.not. allocated(assembled%axial%laws)) return
             call find_changes_along(assembled, path, other - 1, other, events, number, added, stat)
             pending = pending + added
         end subroutine note_changes
-
-        !> Breakpoints that open or close from the stretch at hand to the next one
-        function switching(next) result(breakpoints)
-            integer, intent(in) :: next
-            integer, allocatable :: breakpoints(:)
-            integer :: i
-
-            associate (s => path%stretches(next))
-                if (allocated(s%changed)) then
-                    breakpoints = pack(s%changed, s%closed .neqv. pieces%closed(s%changed))
-                else
-                    breakpoints = pack([(i, i=1, size(s%closed))], s%closed .neqv. pieces%closed)
-                end if
-            end associate
-        end function switching
-
-        !> Their supports, in the order of the model
-        function changing(next) result(supports)
-            integer, intent(in) :: next
-            integer, allocatable :: supports(:)
-            logical, allocatable :: changes(:)
-            integer :: i
-
-            supports = assembled%normal(switching(next))
-            if (size(supports) < 2) return
-            associate (first => minval(supports), last => maxval(supports))
-                allocate (changes(first:last))
-                changes(:) = .false.
-                changes(supports) = .true.
-                supports = pack([(i, i=first, last)], changes)
-            end associate
-        end function changing
 
         !> The path ends at a limit: what happens there is all that happens
         subroutine end_at_limit()
@@ -167,6 +101,103 @@ contains
         end subroutine end_at_limit
 
     end subroutine find_events
+
+    !> Have the pieces of a stretch at hand
+    pure subroutine go_to(path, number, at, pieces)
+        type(history_type), intent(in) :: path
+        integer, intent(in) :: number
+        !> The stretch whose pieces are at hand, 0: none
+        integer, intent(inout) :: at
+        type(pieces_type), intent(inout) :: pieces
+        integer :: k
+
+        if (at > 0 .and. at <= number) then
+            do k = at + 1, number
+                call enter_stretch(path%stretches(k), pieces)
+            end do
+        else
+            call find_pieces(path, number, pieces)
+        end if
+        at = number
+    end subroutine go_to
+
+    !> What happens to every support across the beam where a stretch begins
+    subroutine find_changes_across(assembled, path, other, at, pieces, events, number, added, stat)
+        type(assembled_type), intent(in) :: assembled
+        type(history_type), intent(in) :: path
+        !> The stretch
+        integer, intent(in) :: other
+        !> As for go_to
+        integer, intent(inout) :: at
+        type(pieces_type), intent(inout) :: pieces
+        !> As for find_changes_along
+        type(event_type), allocatable, intent(inout) :: events(:)
+        integer, intent(inout) :: number
+        integer, intent(out) :: added
+        integer, intent(inout) :: stat
+        type(acting_type), allocatable :: before(:)
+        type(acting_type) :: after
+        integer, allocatable :: which(:)
+        integer :: i, change, begun
+
+        begun = number
+        call go_to(path, other - 1, at, pieces)
+        allocate (which, source=changing(assembled, path%stretches(other), pieces))
+        allocate (before(size(which)))
+        do i = 1, size(which)
+            before(i) = acts_in(assembled, which(i), pieces%closed, pieces%laws)
+        end do
+        call go_to(path, other, at, pieces)
+        do i = 1, size(which)
+            if (stat /= 0) exit
+            after = acts_in(assembled, which(i), pieces%closed, pieces%laws)
+            associate (first => assembled%beam_support(which(i)))
+                if (assembled%beam%supports(first)%breakpoint > 0) then
+                    change = what_happens(before(i), after)
+                else
+                    change = merge(gapbeam_closes, gapbeam_opens, pieces%closed(first))
+                end if
+            end associate
+            if (change == no_change) cycle
+            call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number, stat)
+        end do
+        added = number - begun
+    end subroutine find_changes_across
+
+    !> Breakpoints that open or close where a stretch begins
+    pure function switching(stretch, before) result(breakpoints)
+        type(stretch_type), intent(in) :: stretch
+        !> The pieces on the stretch before
+        type(pieces_type), intent(in) :: before
+        integer, allocatable :: breakpoints(:)
+        integer :: i
+
+        if (allocated(stretch%changed)) then
+            breakpoints = pack(stretch%changed, stretch%closed .neqv. before%closed(stretch%changed))
+        else
+            breakpoints = pack([(i, i=1, size(stretch%closed))], stretch%closed .neqv. before%closed)
+        end if
+    end function switching
+
+    !> Their supports, in the order of the model
+    pure function changing(assembled, stretch, before) result(supports)
+        type(assembled_type), intent(in) :: assembled
+        !> As for switching
+        type(stretch_type), intent(in) :: stretch
+        type(pieces_type), intent(in) :: before
+        integer, allocatable :: supports(:)
+        logical, allocatable :: changes(:)
+        integer :: i
+
+        supports = assembled%normal(switching(stretch, before))
+        if (size(supports) < 2) return
+        associate (first => minval(supports), last => maxval(supports))
+            allocate (changes(first:last))
+            changes(:) = .false.
+            changes(supports) = .true.
+            supports = pack([(i, i=first, last)], changes)
+        end associate
+    end function changing
 
     !> What happens to every link along the beam between two stretches
     subroutine find_changes_along(assembled, path, one, other, events, number, added, stat)

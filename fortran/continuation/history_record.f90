@@ -13,7 +13,7 @@ module gapbeam_history_record
     public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, on_ground_type, point_type
     public :: new_history, find_pieces, scheme_at, laws_at, runs_of
     ! Of gapbeam_history_stretch
-    public :: same_laws
+    public :: pieces_type, same_laws
     public :: add_stretch, add_column, add_others, note_limit, note_landings, is_jumping
     public :: at_limit_stop, at_limit_jump, at_limit_follow
     public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off

@@ -17,8 +17,7 @@ module gapbeam_path_on_laws
     use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose, is_lost
     use gapbeam_arc_states, only: eigenvalues_at, wrongness_of
     use gapbeam_arc_roots, only: arc_test_type, of_factor, of_breakpoint, find_root
-    use gapbeam_history_stretch, only: pieces_type
-    use gapbeam_history_record, only: history_type, on_laws_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
+    use gapbeam_history_record, only: history_type, on_laws_type, pieces_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
     implicit none
     private
     public :: view_type, begin_on_laws, join_after, beam_of, end_of, arc_about, is_near, keep_end, forget_end, check_on_laws, &
@@ -117,14 +116,13 @@ contains
         integer :: join
         logical :: turns
 
-        associate (h => view%history, s => view%history%stretches(k), next => view%history%stretches(k + 1), &
-                   beam => view%assembled)
+        associate (h => view%history, s => view%history%stretches(k), next => view%history%stretches(k + 1))
             turns = s%direction /= next%direction
             if (next%leg /= s%leg) then
                 join = given_factor
             else if (next%direction == 0) then
                 join = unknown
-            else if (turns .and. .not. same_laws(laws_at(beam, h, k), laws_at(beam, h, k + 1))) then
+            else if (turns .and. .not. same_laws(laws_at(view%assembled, h, k), laws_at(view%assembled, h, k + 1))) then
                 join = unknown  ! laws written anew where the load turns round
             else if (size(passed_ends(view, k)) > 0) then
                 join = event
