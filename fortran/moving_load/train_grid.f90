@@ -16,6 +16,8 @@ module gapbeam_train_grid
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end
+    use gapbeam_compressed, only: is_unique
+    use gapbeam_state, only: ground_of
     implicit none
     private
     public :: find_borders, find_parts, places_of_jumps, ends_of_ground
@@ -68,9 +70,9 @@ contains
                              "the ground a stiffness")
             return
         end if
-        if (any(assembled%pieces%compression > 0.0_wp)) then
-            call fatal_error(error, gapbeam_bad_input, "goes over a beam under compression (N below 0), which is not available "// &
-                             "in this version; give its axles as forces at the positions that matter")
+        if (.not. is_unique(ground_of(assembled, 0.0_wp))) then
+            call fatal_error(error, gapbeam_bad_input, "goes over a beam that its compression (N below 0) would let buckle off its "// &
+                             "one-sided supports, which is not available in this version; give its axles as forces at places")
             return
         end if
         n = size(borders) - 1

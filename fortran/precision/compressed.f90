@@ -23,7 +23,7 @@ module gapbeam_compressed
     use gapbeam_ground_solver, only: solve_on_ground
     implicit none
     private
-    public :: solve_with_axial_force
+    public :: solve_with_axial_force, is_unique
 
 contains
 
@@ -41,17 +41,16 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
 
-        if (any(ground%pieces%tension < ground%pieces%slope_stiffness)) then
-            if (.not. is_unique(ground)) then
-                call follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
-                return
-            end if
+        if (.not. is_unique(ground)) then
+            call follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
+            return
         end if
         call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
     end subroutine solve_with_axial_force
 
-    !> Is there one state for sure: the beam is stable on what holds it both ways alone
+    !> Is there one state for sure: without compression, or where the beam is stable on what holds it both ways alone
     function is_unique(ground) result(unique)
+        !> The beam and its ground
         type(ground_type), intent(in) :: ground
         logical :: unique
         type(zones_type) :: zones
@@ -59,8 +58,9 @@ contains
         type(workspace_type) :: work
         integer :: i, k, number
 
-        unique = is_convex(ground%beam%supports) .and. .not. any(has_curves(ground%layers))
-        if (.not. unique) return
+        unique = .not. any(ground%pieces%tension < ground%pieces%slope_stiffness)
+        if (unique) return
+        if (.not. is_convex(ground%beam%supports) .or. any(has_curves(ground%layers))) return
         call full_contact(ground, zones)
         do i = 1, size(zones%piece)
             associate (first => ground%first(zones%piece(i)))
