@@ -99,12 +99,14 @@ class WithModes:
     @cached_property
     def buckling(self) -> tuple[float, ...]:
         """Factors of all axial forces at which the beam buckles as it stands at the end; see `analysis.buckling`."""
-        return modes_of(self.steps[-1], "buckling", self.scene.analysis.buckling)
+        count = self.scene.analysis.buckling
+        return modes_of(self.steps[-1], "buckling", count) if count else ()
 
     @cached_property
     def frequencies(self) -> tuple[float, ...]:
         """Circular frequencies (rad per unit of time) of the beam as it stands at the end; see `analysis.frequencies`."""
-        return modes_of(self.steps[-1], "vibration", self.scene.analysis.frequencies)
+        count = self.scene.analysis.frequencies
+        return modes_of(self.steps[-1], "vibration", count) if count else ()
 
     def mode(self, kind: str, number: int = 1) -> Mode:
         """Find how the beam moves in a mode.
