@@ -153,7 +153,7 @@ def _snapped(places: Sequence[float], beam: Beam) -> np.ndarray:
 def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
     """The scene with every key that changes a result, laws as points, and places that are one as one number."""
     data = {"title": scene.title, **{key: msgspec.to_builtins(getattr(scene, key)) for key in ("units", "beam")}}
-    for unused in ("width", "direction", "alpha", "depth"):
+    for unused in ("width", "direction", "alpha", "depth", "mass", *(() if np.any(scene.beam.N) else ("N",))):
         del data["beam"][unused]
     data["beam"]["hinges"] = _snapped(scene.beam.hinges, beam).tolist()
     for key in ("sections", "supports", "foundation", "loads"):
@@ -166,6 +166,9 @@ def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
     for table in data["sections"]:
         for key in [key for key in ("EI", "GA", "EA") if isinstance(table.get(key), tuple | list | dict)]:
             table[f"tapered {key}"] = table.pop(key)  # which checkers do not know, and say so
+    for table in data["foundation"]:
+        if not table["shear"]:
+            del table["shear"]
     if scene.hinges:
         data["hinges"] = list(map(msgspec.to_builtins, scene.hinges))
     for table, support in zip(data["supports"], scene.supports, strict=True):

@@ -20,6 +20,7 @@ from math import inf, isinf
 import numpy as np
 
 from ..base.errors import SceneError
+from ..results.equilibrium import axial_forces
 from ..scene.ground_tables import at_both_ends
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad
 from ..scene.places import locate
@@ -63,6 +64,8 @@ class Reference:
             raise SceneError("sections", "the exact solution of the study does not know sections that taper; leave them out")
         if any(one.stiffness for one in scene.hinges):
             raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
+        if any(force for *_, force in axial_forces(scene)):
+            raise SceneError("beam.N", "the exact solution of the study does not know axial forces in bending; leave them out")
         if which_turn(scene.supports).any():
             what = "restraints and hinges with laws, a slack or a side"
             raise SceneError("supports", f"the exact solution of the study does not know {what}; leave them out")

@@ -207,6 +207,7 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
         (np.any(arrays.kinds == HINGE) or any(one.stiffness for one in scene.hinges), "hinges"),
         (any(map(is_tapered, scene.sections)), "sections that taper"),
         (len(scene.foundation) > 0, "foundations"),
+        (beam.has_axial_force, "an axial force N in bending"),
         (np.any(clamps & ~at_ends) or np.isfinite(arrays.turning[clamps]).any(), "a rotational support that is no clamp at an end"),
         (np.isfinite(arrays.pieces[:, 2]).any(), "shear flexibility"),
         (np.isinf(arrays.pieces[:, 1]).any(), "a rigid stretch"),
