@@ -51,6 +51,7 @@ contains
         end if
         chain%loose = .false.
         outcome = moves_on
+        place = 0
         dragged = .false.
         allocate (points(reach(1):reach(2)))
         do a = reach(1), reach(2)
