@@ -351,7 +351,7 @@ module gapbeam_tolerances
     !> response/ground_distance
     real(wp), parameter :: touching_distance = 32*epsilon(1.0_wp)
     !> Values that differ by less than this share are the same, and the first of them, from the left, is taken: else rounding would
-    !> choose among those of a symmetric beam. Read by response/ground_query
+    !> choose among those of a symmetric beam. Read by response/ground_query, response/transverse
     real(wp), parameter :: same_extreme = 4*epsilon(1.0_wp)
 
     !
