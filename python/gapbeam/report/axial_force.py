@@ -55,7 +55,7 @@ def write_axial_force(say: Writer, result: Result, at: str) -> None:
         say.heading(f"Modes {at}")
     if analysis.buckling:
         say.line(_buckling_in_words(result))
-    if analysis.frequencies:
+    if analysis.frequencies and not (analysis.buckling and isinstance(_values(result, "buckling"), str)):
         _frequencies(say, result)
 
 

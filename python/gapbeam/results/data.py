@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from ..base.errors import EngineError
 from ..scene.structs import Scene
 from .envelopes.over_path import is_followed
 from .paths.branches import BranchPath
@@ -132,10 +133,16 @@ def modes_data(result: Result) -> dict[str, Any]:
     Returns
     -------
     dict
-        What the scene asks for.
+        What the scene asks for; ``remarks`` say why where they are not available for this beam.
     """
-    analysis = result.scene.analysis
-    return {name: list(getattr(result, name)) for name in ("buckling", "frequencies") if getattr(analysis, name)}
+    found: dict[str, Any] = {}
+    for name in ("buckling", "frequencies"):
+        if getattr(result.scene.analysis, name):
+            try:
+                found[name] = list(getattr(result, name))
+            except EngineError as error:
+                found["remarks"] = [*result.remarks, str(error)]
+    return found
 
 
 def name_of(item: Any) -> dict[str, str]:

@@ -143,3 +143,13 @@ def test_error_bounds_are_those_of_the_state():
                               "loads": [{"type": "force", "x": 5.0, "F": 7.0}]})  # fmt: skip
         bounds = [value for name, value in mast.steps[-1].certificate.items() if name.startswith("error_bound")]
         assert all(0.0 < bound < 1e-13 for bound in bounds)
+
+
+def test_modes_that_are_not_available_are_told_once():
+    ground = [{"law": {"type": "tanh", "stiffness": 100.0, "limit": 3.0}, "side": "below"}]
+    result = column(-0.5 * EULER, foundation=ground)
+    assert told(result).count("odes: beside ground whose law is a curve") == 1
+    data = result.to_dict()
+    assert not {"buckling", "frequencies"} & data.keys()
+    assert "whose law is a curve" in data["remarks"][-1]
+    html_page(result)

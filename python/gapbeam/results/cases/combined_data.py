@@ -90,7 +90,8 @@ def _one(result: Result) -> dict[str, Any]:
         return data
     steps = list(step_data(result))
     data |= steps[-1] if len(steps) == 1 else {"steps": steps, "supports": steps[-1]["supports"]}
-    data |= ground_data(result, result.steps[-1]) | modes_data(result)
+    data |= ground_data(result, result.steps[-1])
+    data |= {name: values for name, values in modes_data(result).items() if name != "remarks"}
     found = result._pairs_of_extremes()
     data["extremes"] = {name: {which: list(pair) for which, pair in row.items()} for name, row in found.items()}
     return data
