@@ -87,11 +87,9 @@ contains
         type(ground_start_type), intent(in), optional :: near
         type(ground_solution_type) :: last
         type(ground_start_type) :: start
-        logical :: first(size(closed)), last_closed(size(closed))
+        logical :: first(size(closed)), last_closed(size(closed)), reached
         real(wp) :: share, step
-        logical :: ended
         integer :: number, solves
-        character(len=20) :: text
 
         first(:) = closed
         if (present(near)) then
@@ -101,23 +99,24 @@ contains
             if (is_found() .or. has_ended()) return
             closed(:) = first
         end if
-        call solve_on_ground(forced_by(0.0_wp), detail, factor, rule, closed, last, outcome, error)
+        call solve_on_ground(forced_by(ground, 0.0_wp), detail, factor, rule, closed, last, outcome, error)
         solves = last%solves
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         last_closed(:) = closed
         share = 0.0_wp
         step = 1.0_wp/least_compressions
+        reached = .false.
         do number = 1, most_compressions
             call start_from(last, last_closed, start)
             closed(:) = last_closed
-            call solve_on_ground(forced_by(min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, error, &
-                                 start)
+            call solve_on_ground(forced_by(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, &
+                                 error, start)
             solves = solves + solution%solves
             if (has_ended()) return
-            ended = .not. is_found()
-            if (.not. ended) ended = jumps(last, solution)
-            if (.not. ended) then
-                if (share + step >= 1.0_wp) exit
+            if (is_found()) reached = .not. jumps(last, solution)
+            if (reached .and. share + step >= 1.0_wp) exit
+            if (reached) then
+                reached = .false.
                 share = share + step
                 last = solution
                 last_closed(:) = closed
@@ -129,56 +128,11 @@ contains
         end do
         solution%solves = solves
         solution%unique = .false.
-        if (.not. ended) return
+        if (reached) return
         if (allocated(error)) deallocate (error)
-        if (.not. gives_way()) then
-            write (text, "(f0.6)") share
-            call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(text)// &
-                             " times its axial forces, where it is still stable: look for supports or ground far stiffer than it")
-            return
-        end if
-        solution%axial_share = share
-        outcome = outcome_type(status=gapbeam_buckles)
-        allocate (outcome%motion(0:size(ground%pieces)))
-        call take_mode()
+        call buckle(ground, last, last_closed, share, solution, outcome, error)
 
     contains
-
-        !> Is that the end of stable states: a little more compression, or the loss of what hardly carries any more, lets it give
-        !> way
-        function gives_way() result(it_does)
-            logical :: it_does
-            type(workspace_type) :: work
-            type(grounded_type) :: grounded
-            logical :: held(size(closed))
-            integer :: number
-
-            call start_from(last, last_closed, start)
-            held(:) = last_closed
-            do
-                call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, &
-                                 grounded)
-                it_does = number /= 0
-                if (it_does .or. .not. all(held .eqv. last_closed)) return
-                where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
-                    held = .false.
-                if (all(held .eqv. last_closed)) return
-            end do
-        end function gives_way
-
-        !> How it gives way, with the supports and the ground that acted last
-        subroutine take_mode()
-            real(wp), allocatable :: moment(:, :)
-            integer :: i
-
-            call start_from(last, last_closed, start)
-            call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &
-                                 solution%mode_distance, solution%mode_deflection, moment)
-            outcome%motion(0) = solution%mode_deflection(1)
-            do i = 2, size(solution%mode_piece)
-                outcome%motion(solution%mode_piece(i)) = solution%mode_deflection(i)
-            end do
-        end subroutine take_mode
 
         !> Was a state found
         pure function is_found() result(found)
@@ -195,18 +149,80 @@ contains
             if (allocated(error)) ended = any(error%code == [gapbeam_no_memory, gapbeam_stopped])
         end function has_ended
 
-        !> The beam under a share of its axial forces
-        pure function forced_by(share) result(changed)
-            real(wp), intent(in) :: share
-            type(ground_type) :: changed
-
-            changed = ground
-            associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
-                changed%pieces%tension = of_ground + share*(given - of_ground)
-            end associate
-        end function forced_by
-
     end subroutine follow_compression
+
+    !> The beam under a share of its axial forces
+    pure function forced_by(ground, share) result(changed)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: share
+        type(ground_type) :: changed
+
+        changed = ground
+        associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
+            changed%pieces%tension = of_ground + share*(given - of_ground)
+        end associate
+    end function forced_by
+
+    !> The end of stable states: how the beam gives way there
+    subroutine buckle(ground, last, closed, share, solution, outcome, error)
+        type(ground_type), intent(in) :: ground
+        !> The last state, its supports, and the share of the axial forces in it
+        type(ground_solution_type), intent(in) :: last
+        logical, intent(in) :: closed(:)
+        real(wp), intent(in) :: share
+        !> With that share and the mode, on the side to which the last state bends
+        type(ground_solution_type), intent(inout) :: solution
+        type(outcome_type), intent(out) :: outcome
+        !> It is stable still
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_start_type) :: start
+        real(wp), allocatable :: moment(:, :)
+        character(len=20) :: text
+        integer :: i
+
+        call start_from(last, closed, start)
+        if (.not. gives_way(ground, last, start, share)) then
+            write (text, "(f0.6)") share
+            call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(text)// &
+                             " times its axial forces, where it is still stable: look for supports or ground far stiffer than it")
+            return
+        end if
+        solution%axial_share = share
+        outcome = outcome_type(status=gapbeam_buckles)
+        allocate (outcome%motion(0:size(ground%pieces)))
+        call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &
+                             solution%mode_distance, solution%mode_deflection, moment)
+        outcome%motion(0) = solution%mode_deflection(1)
+        do i = 2, size(solution%mode_piece)
+            outcome%motion(solution%mode_piece(i)) = solution%mode_deflection(i)
+        end do
+        if (dot_product(outcome%motion, last%deflection) >= 0.0_wp) return
+        outcome%motion(:) = -outcome%motion
+        solution%mode_deflection(:) = -solution%mode_deflection
+    end subroutine buckle
+
+    !> Does a little more compression, or the loss of what hardly carries any more, let the beam give way
+    function gives_way(ground, last, start, share) result(it_does)
+        type(ground_type), intent(in) :: ground
+        !> As for buckle, with its zones
+        type(ground_solution_type), intent(in) :: last
+        type(ground_start_type), intent(in) :: start
+        real(wp), intent(in) :: share
+        logical :: it_does
+        type(workspace_type) :: work
+        type(grounded_type) :: grounded
+        logical :: held(size(start%closed))
+        integer :: number, trial
+
+        held(:) = start%closed
+        do trial = 1, 2
+            call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, grounded)
+            it_does = number /= 0
+            if (it_does) return
+            where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
+                held = .false.
+        end do
+    end function gives_way
 
     !> Are two states farther apart than one grows out of the other: by more than the smaller one of them
     pure function jumps(one, other) result(far)

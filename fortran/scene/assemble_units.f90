@@ -5,8 +5,8 @@ module gapbeam_assemble_units
     use gapbeam_error, only: error_type
     use gapbeam_link, only: piece_load_type
     use gapbeam_range, only: is_lost
-    use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, turning_unit, &
-        units_with_loads, middle, largest, no_exponent, ordinary_exponent
+    use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, turning_unit, units_with_loads, middle, &
+        largest, no_exponent, ordinary_exponent
     use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit, point_x, piece_length, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_axial_force, only: assign_axial_force
@@ -25,9 +25,8 @@ module gapbeam_assemble_units
 
 contains
 
-    !> Choose the engine's units, and take all to them
+    !> Choose the engine's units, and take all of a model in the user's units to them
     subroutine change_units(assembled, error)
-        !> All in the user's units in
         type(assembled_type), intent(inout) :: assembled
         !> Numbers out of range
         type(error_type), allocatable, intent(out) :: error
@@ -71,12 +70,10 @@ contains
         !> Becomes allocated
         type(error_type), allocatable, intent(out) :: error
 
-        if (lost > 0) then
-            call name_farthest(assembled, error)
-        else
-            call refuse_range(error, "the loads "//trim(from_to(assembled, assembled%node_point(-lost - 1), &
-                                                                assembled%node_point(-lost)))//too_great_loads, smaller_loads)
-        end if
+        if (lost > 0) call name_farthest(assembled, error)
+        if (lost < 0) call refuse_range(error, "the loads "//trim(from_to(assembled, assembled%node_point(-lost - 1), &
+                                                                          assembled%node_point(-lost)))//too_great_loads, &
+                                        smaller_loads)
     end subroutine refuse_link
 
     !> The engine's units: 1 but for models far from it. In them the lengths of the pieces lie about 1, and so does EI; loads and
