@@ -61,6 +61,12 @@ def _parser() -> argparse.ArgumentParser:
         "nanoseconds a node and the share of the memory's bandwidth that is used. Takes about a minute.",
     )  # fmt: skip
     _add_largest(kernel, 10**6, "nodes")
+    axial = add(
+        "axial", _axial, "axial force in bending, beside textbook stability functions",
+        "Solve two spans under axial forces from next to none to nothing but them by gapbeam and by stability functions in\n"
+        "doubles, and print true errors; time beams of up to 1,000 spans beside no axial force. Takes some seconds.",
+    )  # fmt: skip
+    _add_largest(axial, 1000, "spans")
     schemes = add(
         "schemes", _schemes, "linear solves until the contact state is found",
         "Count the linear solves and events of the reference problems from all starting schemes, of fronts that move\n"
@@ -119,6 +125,12 @@ def _kernel(arguments: argparse.Namespace) -> int:
     from . import kernel as study
 
     return _tell_table(arguments, study, study.kernels)
+
+
+def _axial(arguments: argparse.Namespace) -> int:
+    from . import axial as study
+
+    return _tell_table(arguments, study, study.axial)
 
 
 def _schemes(arguments: argparse.Namespace) -> int:
