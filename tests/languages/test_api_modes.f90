@@ -186,7 +186,7 @@ contains
         call check(.not. allocated(error), "how")
         call check_close(share, 0.8_wp, "share", relative=1e-12_wp)
         call check(size(x) == size(deflection) .and. size(x) >= 17, "places")
-        call check_close(deflection, sin(2*acos(-1.0_wp)*x), "in two waves", absolute=1e-9_wp)
+        call check_close(deflection*sign(1.0_wp, deflection(2)), sin(2*acos(-1.0_wp)*x), "in two waves", absolute=1e-9_wp)
         call check_close(maxval(abs(deflection)), 1.0_wp, "the largest is 1")
         call get_motion(beam, result, x(:3), motion, error)
         call check(error%code == gapbeam_not_prepared, "no free motion")
@@ -225,7 +225,7 @@ contains
         call check_close(result%factor, 1.6440875059318176_wp/3, "where the stop has nothing to push any more", relative=1e-12_wp)
         call get_buckling(beam, result, share, x, deflection, error)
         call check_close(share, 0.5_wp, "share", relative=1e-9_wp)
-        call check_close(deflection, sin(acos(-1.0_wp)*x), "in one wave", absolute=1e-8_wp)
+        call check_close(abs(deflection), sin(acos(-1.0_wp)*x), "in one wave", absolute=1e-8_wp)
     end subroutine along_the_load
 
     !> Two spans with the middle support closed and open; a free span between ground

@@ -121,7 +121,7 @@ static void buckles(double euler)
     check_close(share, 0.8, 1e-12, "share");
     check(number > 16 && number <= 40, "places");
     for (int i = 0; i < number && i < 40; i++)
-        if (fabs(w[i] - sin(2.0 * sqrt(euler) * x[i])) > 1e-9)
+        if (fabs(copysign(1.0, w[1]) * w[i] - sin(2.0 * sqrt(euler) * x[i])) > 1e-9)
             check(0, "in two waves");
     check(gapbeam_get_buckling(NULL, state, NULL, 0, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED, "no beam");
     check(gapbeam_get_buckling(beam, state, NULL, 0, NULL, NULL, NULL) == GAPBEAM_SOLVED, "nothing asked for");
@@ -172,13 +172,11 @@ static void frequencies(void)
     gapbeam_free_state(state);
 }
 
-/* Two spans compressed by more than they bear without the support in the middle, off which a train lifts them */
+/* Two spans compressed by more than they bear without the support in the middle, off which a train might lift them */
 static void under_a_train(double euler)
 {
     const double ends[] = {0.0, 1.0, 2.0}, slack[] = {0.0, 0.005, 0.0}, two[] = {2.0}, lengths[] = {1.0, 1.0}, stiffness[] = {1.0, 1.0};
     const double N[] = {-0.3 * euler, -0.3 * euler}, q[] = {0.01}, at[] = {0.0}, force[] = {-0.5};
-    double from[4], to[4];
-    int reason[4] = {7, 7, 7, 7}, number = -1;
     gapbeam_model model = column(N);
     gapbeam_beam *beam = NULL;
     gapbeam_passing *passing = NULL;
@@ -192,10 +190,9 @@ static void under_a_train(double euler)
     model.load_to = two;
     model.load_value = q;
     check(gapbeam_prepare(&model, &beam, message, sizeof message) == GAPBEAM_SOLVED, "two spans");
-    check(gapbeam_follow_train(beam, 1, at, force, 0.0, 0, NULL, NULL, &passing, message, sizeof message) == GAPBEAM_SOLVED, "train");
-    check(gapbeam_get_train_gaps(passing, 4, from, to, reason, &number) == GAPBEAM_SOLVED && number == 1, "one gap");
-    check(reason[0] == GAPBEAM_BUCKLES && from[0] > 0.0 && from[0] < 0.1 && to[0] > 1.9 && to[0] < 2.0, "where it buckles");
-    gapbeam_free_passing(passing);
+    check(gapbeam_follow_train(beam, 1, at, force, 0.0, 0, NULL, NULL, &passing, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && !passing, "a train is refused");
+    check(strstr(message, "would buckle off its one-sided supports") != NULL, "says why");
     gapbeam_free_beam(beam);
 }
 
