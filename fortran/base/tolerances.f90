@@ -10,7 +10,7 @@ module gapbeam_tolerances
     public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power
     public :: narrowest_interval, narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left
     public :: root_piece_length, same_parameters, tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution
-    public :: same_compression, least_share, little_compression, mode_digits
+    public :: same_compression, least_share, little_compression, mode_digits, mode_width, same_length
     public :: no_decay_length, shortest_step, most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change
     public :: pivot_hair, least_quad_pivot, near_zero, last_width, rounding_product, most_in_subdomains, subdomain_lengths
     public :: boundary_share, first_spring, first_reaction_share, last_correction, harmless_correction, no_work, no_speed
@@ -123,6 +123,10 @@ module gapbeam_tolerances
     !> beam/foundation_roots, cases/lane_roots
     real(wp), parameter :: root_place = 2*epsilon(1.0_wp)
 
+    !> Share by which lengths of equal steps may differ: rounding of the places of their ends. Read by beam/foundation_stretch
+    real(wp), parameter :: same_length = 4*epsilon(1.0_wp)
+    !> Width of a bracket of a mode beside its value, below the rounding of a double. Read by contact/modes
+    real(wp), parameter :: mode_width = epsilon(1.0d0)/32
     !> Part of a share of the axial forces to which is found when a beam buckles: rounding of states near there. Read by
     !> precision/compressed
     real(wp), parameter :: same_compression = 2.0_wp**(-44)

@@ -5,11 +5,13 @@
 module gapbeam_foundation_stretch
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_power
+    use gapbeam_tolerances, only: same_length
     use gapbeam_piece, only: piece_type, is_tapered
     use gapbeam_taper, only: depth_ratios, softness_at
     implicit none
     private
     public :: stretch_type, stretch_load_type, softness_type
+    public :: are_alike, same_load
     public :: stretch_between, is_of_one_stiffness, softness_in, softest, without_slip, part_of_stretch, softness_around, soften
 
     !> A stretch on elastic ground
@@ -41,6 +43,24 @@ module gapbeam_foundation_stretch
     end type softness_type
 
 contains
+
+    !> Are two stretches the same, but for what rounding of the places of their ends makes of their lengths
+    pure function are_alike(a, b) result(alike)
+        type(stretch_type), intent(in) :: a, b
+        logical :: alike
+
+        alike = abs(a%length - b%length) <= same_length*a%length .and. all(a%power == b%power) &
+            .and. .not. any(abs([a%flexibility, a%shear_flexibility, a%modulus_a, a%modulus_b, a%tension, a%taper] &
+                                - [b%flexibility, b%shear_flexibility, b%modulus_a, b%modulus_b, b%tension, b%taper]) > 0.0_wp)
+    end function are_alike
+
+    !> Are two loads the same
+    pure function same_load(a, b) result(same)
+        type(stretch_load_type), intent(in) :: a, b
+        logical :: same
+
+        same = .not. any(abs([a%qa, a%qb, a%qc, a%kappa] - [b%qa, b%qb, b%qc, b%kappa]) > 0.0_wp)
+    end function same_load
 
     !> What of a piece lies between two places, without ground
     pure function stretch_between(piece, from, to) result(stretch)

@@ -5,7 +5,7 @@
 module gapbeam_ground
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: piece_type, piece_load_type, link_type, condense_link
-    use gapbeam_foundation_stretch, only: stretch_between
+    use gapbeam_foundation_stretch, only: stretch_between, are_alike, same_load
     use gapbeam_band, only: plain
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded
     use gapbeam_curved, only: curved_type, condense_curved
@@ -241,6 +241,11 @@ contains
         associate (j => zones%piece(i), s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), &
                    link => grounded%beam%links(i), from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
             call stretch_on_layers(ground, zones, i, s, dead, live)
+            if (repeats()) then
+                link = grounded%beam%links(i - 1)
+                grounded%beam%ground(i) = grounded%beam%ground(i - 1)
+                return
+            end if
             call condense_both(s, dead, live, link, grounded%beam%ground(i))
             call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), from, to, &
                              p%length, curved%curves)
@@ -257,6 +262,31 @@ contains
                 link%shear_b(1) = -link%shear_b(1)
             end if
         end associate
+
+    contains
+
+        !> Is it as the one before, so that it need not be condensed again
+        pure function repeats() result(it_does)
+            logical :: it_does
+
+            it_does = .false.
+            if (i == 1) return
+            associate (s => grounded%stretches(i - 1:i), dead => grounded%dead(i - 1:i), live => grounded%live(i - 1:i))
+                it_does = are_alike(s(1), s(2)) .and. same_load(dead(1), dead(2)) .and. same_load(live(1), live(2)) &
+                    .and. .not. (on_curves(i - 1) .or. on_curves(i))
+            end associate
+        end function repeats
+
+        !> Does ground act by curves on a stretch
+        pure function on_curves(number) result(it_does)
+            integer, intent(in) :: number
+            logical :: it_does
+
+            associate (first => ground%first(zones%piece(number)), last => ground%first(zones%piece(number) + 1) - 1)
+                it_does = any(is_curve(ground%layers(first:last), zones%acts(:last - first + 1, number)))
+            end associate
+        end function on_curves
+
     end subroutine place_stretch
 
     !> What a stretch is made of on its layers, but those that act by curves

@@ -6,8 +6,9 @@
 module gapbeam_modes
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_mode_stretches, most_halvings
-    use gapbeam_tolerances, only: mode_digits
+    use gapbeam_tolerances, only: mode_digits, mode_width
     use gapbeam_band, only: band_ok, count_unstable_pivots
+    use gapbeam_piece, only: no_load
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_ground_laws, only: between
@@ -43,6 +44,9 @@ contains
 
         number = -1
         changed = ground
+        ! Modes know no loads, and equal steps are condensed once then
+        changed%dead = no_load
+        changed%live = no_load
         if (what == by_axial_force) then
             changed%pieces%tension = ground%pieces%slope_stiffness &
                 + value*(ground%pieces%tension - ground%pieces%slope_stiffness)
@@ -159,7 +163,7 @@ contains
 
             do step = 1, most_halvings
                 middle = low + (high - low)/2
-                if (.not. (middle > low .and. middle < high)) exit
+                if (.not. (middle > low .and. middle < high) .or. high - low <= mode_width*high) exit
                 if (number_at(middle) >= k) then
                     high = middle
                 else
