@@ -184,7 +184,7 @@ def is_one_of_several(result: Result) -> bool:
     result : Result
         Of one load or of combinations; of these False.
     """
-    return bool(not result.combinations and result._beam.has_axial_force and result.steps and not result.steps[-1].solution.unique)
+    return bool(not result.combinations and result._beam.has_axial_force and result.steps and not result.steps[-1].unique)
 
 
 def outcome_in_words(result: Result) -> list[str]:

@@ -317,7 +317,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             **({"slip_zones": [_zone_data(one) for one in step.slip_zones]} if result._beam.is_on_axial_ground else {}),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,
-            **({} if step.solution.unique else {"unique": False}),
+            **({} if step.unique else {"unique": False}),
             "certificate": step.certificate,
         }
 

@@ -138,6 +138,11 @@ class Step(Pickled):
         return self.solution.indifferent
 
     @property
+    def unique(self) -> bool:
+        """Whether it is known to be the only state; under compression other stable ones may not be excluded."""
+        return self.solution.unique
+
+    @property
     def reaction(self) -> np.ndarray:
         """Reactions, positive upward; of an axial support positive to the right."""
         return self.solution.at_supports[0]

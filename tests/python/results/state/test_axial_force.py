@@ -114,7 +114,7 @@ def test_a_column_against_a_stop(share, reaction):
     step = result.steps[-1]
     assert step.reaction[2] == pytest.approx(reaction, rel=1e-13)
     # Beyond the Euler load nothing but the stop holds it
-    assert step.solution.unique is (share < 1.0)
+    assert step.unique is (share < 1.0)
 
 
 def test_a_column_closes_its_stop_at_the_load_of_the_closed_form():
@@ -225,7 +225,7 @@ def test_columns_against_stops_beyond_the_euler_load(seed):
     assert result.status == path.status
     if path.status == "solved":
         step = result.steps[-1]
-        assert step.solution.unique is False
+        assert step.unique is False
         exact = [float(value) for value in path.end.reaction]
         np.testing.assert_allclose(step.reaction, exact, rtol=0.0, atol=1e-13 * max(map(abs, exact)))
 
