@@ -56,7 +56,7 @@ def test_all_keys_reach_the_engine():
 
 def test_without_foundations_the_columns_are_empty():
     c = read_beam({"beam": BEAM, "supports": [{"node": 0, "rotation": "fixed"}]})[1].columns
-    assert (c.foundation.shape, c.table.shape, c.ground_law.shape) == ((13, 1), (3, 1), (3, 1))
+    assert (c.foundation.shape, c.table.shape, c.ground_law.shape) == ((14, 1), (3, 1), (3, 1))
 
 
 def test_a_hardening_law_keeps_its_slope():
