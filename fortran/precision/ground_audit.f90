@@ -10,6 +10,7 @@ module gapbeam_ground_audit
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
     use gapbeam_taper, only: softness_at
+    use gapbeam_foundation_taylor, only: transverse_of
     use gapbeam_law, only: force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_ground_laws, only: contact_line, distance_to_breakpoint, push_of_layer
@@ -68,6 +69,7 @@ contains
             if (j == size(ground%pieces)) exit
             do
                 call audit_stretch(ground, factor, solution, i, sizes_of(i), least_of(i), ledger, sums)
+                call audit_shears(i)
                 associate (length => solution%stretches(i)%length)
                     part%moment = part%moment + length*part%force + sums%moment
                     part%moment_size = part%moment_size + length*part%force_size + sums%moment_size
@@ -222,6 +224,21 @@ contains
                                              rounding/epsilon(1.0_wp) + merge(least%shear, least%deflection, by_force))
             end associate
         end subroutine audit_support
+
+        !> Shears and rotations at the ends of a stretch make the transverse forces, which everything else is balanced with
+        subroutine audit_shears(i)
+            integer, intent(in) :: i
+            type(field_type) :: at_end
+            integer :: side
+
+            do side = 1, 2
+                at_end = field_at_end(solution, i, side)
+                call note(ledger, of_equilibrium, forces, &
+                          transverse_of(solution%stretches(i), at_end%rotation, at_end%shear) - force_at_end(solution, i, side), &
+                          sizes_of(i)%shear + least_of(i)%shear + abs(solution%stretches(i)%tension*at_end%rotation), &
+                          solution%piece(i), merge(solution%from(i), solution%to(i), side == 1))
+            end do
+        end subroutine audit_shears
 
         !> Between two stretches of a piece nothing jumps, and zones of ground end there, without a jump of their pressure
         subroutine audit_border(i)

@@ -78,7 +78,7 @@ contains
         products = [l4%faa*l4%fbb - l4%fab**2, l4%gaa*l4%gbb - l4%gab**2, l4%pa*l4%pb - l4%p1*l4%p2, &
                     l4%faa*l4%p2**2 + 2*l4%pa*l4%p2*l4%fab + l4%pa**2*l4%fbb, l4%p2*l4%fab + l4%pa*l4%fbb, &
                     l4%faa*l4%pb + l4%p1*l4%fab, 0.0_qp, 0.0_qp]
-        products(7) = l4%pa*(products(3) + l4%fab*l4%gab) + l4%faa*l4%p2*l4%gab
+        products(7) = l4%gaa*products(6) + l4%pa*(products(3) + l4%fab*l4%gab) + l4%faa*l4%p2*l4%gab
         products(8) = l4%pa*l4%pb + products(3) + l4%fab*l4%gab
         scale(1:8) = [l4%faa*l4%fbb, l4%gaa*l4%gbb, l4%pa*l4%pb, l4%faa*l4%p2**2 + l4%pa**2*l4%fbb, l4%pa*l4%fbb, l4%faa*l4%pb, &
                       l4%pa**3, l4%pa*l4%pb]
