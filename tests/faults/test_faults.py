@@ -479,7 +479,7 @@ def test_beam_that_touches_the_ground_to_a_rounding():
 def test_curves_that_begin_at_nothing(seed):
     """Hyperbolic: pressed far beyond a short stretch in which the force grows; or approached from one side."""
     kind, made = ground.draw_scene(seed)
-    assert kind == "curved"
+    assert kind in ("curved", "tapers")
     assert ground.judge(made).wrong == []
 
 

@@ -51,7 +51,7 @@ static gapbeam_model column(const double *N)
 static void stands(double euler)
 {
     const double compression[] = {0.5, 0.9, 2.0}, force[] = {0.14714005862549203, 0.53807030793317657, 1.6440875059318176};
-    double N, reaction[3], factors[3], x[17], w[17], moment[17][2], share = 7.0, values[2];
+    double N = 0.0, reaction[3], factors[3], x[17], w[17], moment[17][2], share = 7.0, values[2];
     const int quantities[] = {GAPBEAM_OF_TRANSVERSE, GAPBEAM_SHEAR};
     int number, event[4], change[4];
     char message[200];

@@ -29,7 +29,7 @@ def test_all_routines_are_there():
         "gbsget gbcert gbreco gbfind gbvalu gbextr gblarg "
         "gbshar gbroom gbcase gbone gbgget gbgrun gbgpth gbgpte gbcomb gbcext gbccrt "
         "gbtmak gbtget gbtenv gbtcur gbtinf gbtprt gbrmak gbrget gbrext gbrcur gbstop gbtole gblawv gblawp gbslop gbyiel"
-        " gbleas gbpart"
+        " gbleas gbpart gbbuck gbmode gbshap"
     )
     assert set(ROUTINES) == set(names.split())
 

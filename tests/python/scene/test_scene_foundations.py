@@ -109,7 +109,7 @@ def test_columns_with_profiles_and_laws_become_rows():
 
 def test_the_schema_describes_them():
     foundation = scene_schema()["$defs"]["Foundation"]
-    assert list(foundation["properties"]) == ["from", "to", "k", "side", "gap", "profile", "law", "name"]
+    assert list(foundation["properties"]) == ["from", "to", "k", "side", "gap", "profile", "law", "shear", "name"]
     assert foundation["required"] == []
     assert "ot available" not in str(foundation)
     assert [kind["type"] for kind in foundation["properties"]["k"]["anyOf"]] == ["number", "array", "null"]
