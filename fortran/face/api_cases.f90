@@ -48,7 +48,7 @@ contains
         if (allocated(error)) return
         associate (lowered => beam%lowered)
             if (allocated(lowered%layers)) then
-                call fatal_error(error, gapbeam_bad_input, "the beam has "//what_stretches(lowered%model)//", where many "// &
+                call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(lowered%model))//", where many "// &
                                  "cases in one call are not available; use combine_loads and solve_beam for each")
                 return
             end if

@@ -181,7 +181,7 @@ contains
         if (.not. beam%lowered%depends_on_path) return
         if (allocated(beam%lowered%layers)) then
             call fatal_error(error, gapbeam_bad_input, "the law of a support falls, keeps a set, or may let go of the beam: "// &
-                             "beside "//what_stretches(beam%lowered%model)//" that is not available in this version; "// &
+                             "beside "//trim(what_stretches(beam%lowered%model))//" that is not available in this version; "// &
                              "give laws that rise")
         else
             call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
@@ -207,7 +207,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(beam%lowered%layers)) return
-        call fatal_error(error, gapbeam_bad_input, "the beam has "//what_stretches(beam%lowered%model)//": use follow_ground")
+        call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(beam%lowered%model))//": use follow_ground")
     end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status

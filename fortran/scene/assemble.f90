@@ -315,7 +315,7 @@ contains
                 if (.not. is_hinge(point)) then
                     call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
                 else if (in_stretches(assembled%model)) then
-                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside "//what_stretches(assembled%model)// &
+                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside "//trim(what_stretches(assembled%model))// &
                                 " it is not available in this version; put the couple on one side of the hinge")
                 end if
             end associate

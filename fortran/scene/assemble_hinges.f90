@@ -169,7 +169,7 @@ contains
                 else if (hinge > softest_hinge*softness) then
                     call refuse_hinge("it is so far below EI/length of the beam that it is a free hinge; give 0")
                 else if (in_stretches(assembled%model)) then
-                    call refuse_hinge("a hinge with a stiffness beside "//what_stretches(assembled%model)// &
+                    call refuse_hinge("a hinge with a stiffness beside "//trim(what_stretches(assembled%model))// &
                                       " is not available in this version; leave one of them out")
                 end if
             end associate

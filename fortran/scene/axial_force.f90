@@ -42,7 +42,7 @@ contains
     !> What makes it so, in words
     pure function what_stretches(model) result(words)
         type(model_type), intent(in) :: model
-        character(len=:), allocatable :: words
+        character(len=24) :: words
 
         words = "a foundation"
         if (size(model%foundations) > 0) return
@@ -139,10 +139,12 @@ contains
                 p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
                                units%length + units%deflection - units%force)
                 if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then
-                    call refuse_range(error, "N = "//trim(shown(N))//" "//place(j)//" is too far from the stiffnesses of the "// &
+                    call refuse_range(error, "N = "//trim(shown(N))//" "//trim(place(j))// &
+                          " is too far from the stiffnesses of the "// &
                                       "beam", "bring them nearer together, or make it 0")
                 else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
-                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//place(j)//" is not below GA there, "// &
+                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//trim(place(j))// &
+                          " is not below GA there, "// &
                                       "so the beam gives way by shear alone", "give less compression, or leave GA out")
                 end if
             end associate
@@ -162,7 +164,7 @@ contains
         !> Where a piece is
         pure function place(piece) result(words)
             integer, intent(in) :: piece
-            character(len=:), allocatable :: words
+            character(len=100) :: words
 
             words = "from x = "//trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))
         end function place

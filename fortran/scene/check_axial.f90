@@ -95,7 +95,7 @@ contains
             character(len=*), intent(in) :: key, what
 
             if (in_stretches(model)) then
-                call say(key, what//" beside "//what_stretches(model)//in_version//"; leave one of them out")
+                call say(key, what//" beside "//trim(what_stretches(model))//in_version//"; leave one of them out")
             else if (curved) then
                 call say(key, what//" beside a support whose law is a curve"//in_version//"; give the points of the curve")
             end if
