@@ -167,8 +167,8 @@ contains
                 call say(" beside friction of supports, or axial supports that push one way, have a law, a settlement or a "// &
                          "movement,"//in_version//"; leave one of them out")
             else if (in_stretches(model)) then
-                call say(" beside "//trim(what_stretches(model))//in_version// &
-                      "; their effects do not meet, so look at them one by one")
+                call say(" beside "//trim(what_stretches(model))//in_version//"; their effects do not meet, so "// &
+                         "look at them one by one")
             end if
             do j = 1, size(axial%limit)
                 if (allocated(error)) return

@@ -139,13 +139,11 @@ contains
                 p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
                                units%length + units%deflection - units%force)
                 if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then
-                    call refuse_range(error, "N = "//trim(shown(N))//" "//trim(place(j))// &
-                          " is too far from the stiffnesses of the "// &
-                                      "beam", "bring them nearer together, or make it 0")
+                    call refuse_range(error, "N = "//trim(shown(N))//" "//trim(place(j))//" is too far from the stiffnesses of "// &
+                                      "the beam", "bring them nearer together, or make it 0")
                 else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
-                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//trim(place(j))// &
-                          " is not below GA there, "// &
-                                      "so the beam gives way by shear alone", "give less compression, or leave GA out")
+                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//trim(place(j))//" is not below "// &
+                                      "GA there, so the beam gives way by shear alone", "give less compression, or leave GA out")
                 end if
             end associate
             if (allocated(error)) return

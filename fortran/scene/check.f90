@@ -268,8 +268,7 @@ contains
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
         else if (load%kind == gapbeam_linear_curvature .and. in_stretches(model)) then
             call refuse_entry(error, here, "value_to", bad_load, "a curvature that changes along the beam beside "// &
-                              trim(what_stretches(model))// &
-                                    " is not available in this version; give short stretches of one curvature")
+                            trim(what_stretches(model))//" is not available in this version; give short stretches of one curvature")
         else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
                               "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")
