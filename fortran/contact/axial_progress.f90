@@ -179,24 +179,34 @@ contains
         integer :: i
 
         do i = 1, size(tension_rate)
-            associate (bar => ends(1) + i, k => size(chain%flexibility) + 1 + ends(1) + i)
-                chain%value(k) = double_at(chain, k)
-                if (.not. chain%coarse_bar(bar)) chain%value(k) = real(chain%tension(bar), wp) + 0.0_wp
+            associate (bar => ends(1) + i)
+                call note_coarse(chain, size(chain%flexibility) + 1 + bar, (chain%tension(bar)), (chain%coarse_bar(bar)), &
+                                 tension_rate(i))
                 chain%coarse_bar(bar) = .true.
-                chain%rate(k) = tension_rate(i)
-                chain%since(k) = real(chain%clock, wp)
             end associate
         end do
         do i = 1, size(displacement_rate)
-            associate (point => ends(1) + i, k => 1 + ends(1) + i)
-                chain%value(k) = double_at(chain, k)
-                if (.not. chain%coarse(point)) chain%value(k) = real(chain%displacement(point), wp) + 0.0_wp
+            associate (point => ends(1) + i)
+                call note_coarse(chain, 1 + point, (chain%displacement(point)), (chain%coarse(point)), displacement_rate(i))
                 chain%coarse(point) = .true.
-                chain%rate(k) = displacement_rate(i)
-                chain%since(k) = real(chain%clock, wp)
             end associate
         end do
     end subroutine note_part
+
+    !> Note one of them
+    pure subroutine note_coarse(chain, number, fine, coarse, rate)
+        type(chain_type), intent(inout) :: chain
+        integer, intent(in) :: number
+        !> Its value in quadruple precision, and whether it is known in double precision only
+        real(qp), intent(in) :: fine
+        logical, intent(in) :: coarse
+        real(wp), intent(in) :: rate
+
+        chain%value(number) = double_at(chain, number)
+        if (.not. coarse) chain%value(number) = real(fine, wp) + 0.0_wp
+        chain%rate(number) = rate
+        chain%since(number) = real(chain%clock, wp)
+    end subroutine note_coarse
 
     !> Go on in quadruple precision between two points, all of it added up
     pure subroutine make_fine(chain, reach)
