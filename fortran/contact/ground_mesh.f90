@@ -4,10 +4,9 @@ module gapbeam_ground_mesh
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: least_mesh_parts, most_first_parts, most_mesh_parts, mesh_cuts
     use gapbeam_tolerances, only: parts_of_decay, straight_force
-    use gapbeam_foundation, only: stretch_type, decay_lengths
     use gapbeam_layers, only: has_curves
     use gapbeam_ground_laws, only: between, piece_of_deflection, push_of_layer, slope_at
-    use gapbeam_foundation_stretch, only: stretch_between
+    use gapbeam_ground_steps, only: decays_between
     use gapbeam_ground, only: ground_type, steps_of_piece
     implicit none
     private
@@ -42,7 +41,7 @@ contains
             if (ground%first(j + 1) == ground%first(j)) cycle
             associate (p => ground%pieces(j))
                 parts(j) = max(2, merge(parts(j), 1, p%compression > 0.0_wp), &
-                               ceiling(min(max(parts_of_decay*decays(ground, j, 0.0_wp, p%length, first_stiffness(j)), &
+                               ceiling(min(max(parts_of_decay*decays_between(p, 0.0_wp, p%length, first_stiffness(j)), &
                                                least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
             end associate
         end do
@@ -80,20 +79,6 @@ contains
 
     end subroutine begin_mesh
 
-    !> Decay lengths between two places of a piece, as if it were as soft as at the softer one
-    pure function decays(ground, piece, from, to, stiffness) result(number)
-        type(ground_type), intent(in) :: ground
-        integer, intent(in) :: piece
-        real(wp), intent(in) :: from, to, stiffness
-        real(wp) :: number
-        type(stretch_type) :: stretch
-
-        stretch = stretch_between(ground%pieces(piece), from, to)
-        stretch%modulus_a = stiffness
-        stretch%modulus_b = stiffness
-        number = decay_lengths(stretch)
-    end function decays
-
     !> Shorter parts where zones end or curves bend, and where the ground has become stiffer; everywhere where the mesh could not be
     !> solved
     pure subroutine refine_mesh(ground, mesh, only_stiffer, refined)
@@ -113,8 +98,8 @@ contains
             changes(i) = zone_ends(i)
         end do
         do i = 1, m
-            into(i) = max(1, min(mesh_cuts, ceiling(parts_of_decay/2*decays(ground, mesh%piece(i), mesh%from(i), mesh%to(i), &
-                                                                       stiffness_in(i)))))
+            into(i) = max(1, min(mesh_cuts, ceiling(parts_of_decay/2*decays_between(ground%pieces(mesh%piece(i)), mesh%from(i), &
+                                                                                   mesh%to(i), stiffness_in(i)))))
             if ((any(changes(i - 1:i + 1)) .or. bends(i)) .and. .not. only_stiffer) into(i) = mesh_cuts
             ! Where nothing is known, everywhere
             if (.not. mesh%solved) into(i) = mesh_cuts

@@ -10,7 +10,7 @@ module gapbeam_ground_steps
     use gapbeam_ground_laws, only: between
     implicit none
     private
-    public :: steps_on, border_of_step
+    public :: steps_on, border_of_step, decays_between
 
 contains
 
@@ -26,6 +26,7 @@ contains
         integer :: steps, k
         real(wp) :: modulus
         logical :: tapers, varies
+        type(piece_type) :: pressed
 
         modulus = 0.0_wp
         if (present(stiffer)) modulus = stiffer
@@ -53,25 +54,14 @@ contains
         end do
         steps = 1
         if (.not. varies) return
-        steps = max(1, ceiling(decays_between(0.0_wp, piece%length)))
+        pressed = piece
+        if (piece%compression > 0.0_wp) pressed%tension = -piece%compression
+        steps = max(1, ceiling(decays_between(pressed, 0.0_wp, piece%length, modulus)))
         if (.not. tapers) return
         steps = steps_of_taper(piece)
-        steps = steps*max(1, ceiling(maxval([(decays_between(border(k - 1), border(k)), k=1, steps)])))
+        steps = steps*max(1, ceiling(maxval([(decays_between(pressed, border(k - 1), border(k), modulus), k=1, steps)])))
 
     contains
-
-        !> Decay lengths between two places of the piece, as if it were as soft as at the softer one
-        pure function decays_between(from, to) result(number)
-            real(wp), intent(in) :: from, to
-            real(wp) :: number
-            type(stretch_type) :: stretch
-
-            stretch = stretch_between(piece, from, to)
-            stretch%modulus_a = modulus
-            stretch%modulus_b = modulus
-            if (piece%compression > 0.0_wp) stretch%tension = -piece%compression
-            number = decay_lengths(stretch)
-        end function decays_between
 
         !> Where a step of the taper ends
         pure function border(k) result(place)
@@ -82,6 +72,19 @@ contains
         end function border
 
     end function steps_on
+
+    !> Decay lengths between two places of a piece on ground of a modulus, as if it were as soft as at the softer one
+    pure function decays_between(piece, from, to, modulus) result(number)
+        type(piece_type), intent(in) :: piece
+        real(wp), intent(in) :: from, to, modulus
+        real(wp) :: number
+        type(stretch_type) :: stretch
+
+        stretch = stretch_between(piece, from, to)
+        stretch%modulus_a = modulus
+        stretch%modulus_b = modulus
+        number = decay_lengths(stretch)
+    end function decays_between
 
     !> Where a step of a piece ends: equal ones, but where the beam tapers much those of equal factors of its depth
     pure function border_of_step(piece, step, steps) result(place)
