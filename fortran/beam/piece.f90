@@ -3,7 +3,8 @@ module gapbeam_piece
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, greatest_softness, &
+    public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, is_compressed, &
+              greatest_softness, &
               curvature_at
 
     !> A stretch between two points
@@ -56,6 +57,14 @@ contains
 
         yes = .not. (is_tapered(piece) .or. piece%hinge > 0.0_wp)
     end function is_prismatic
+
+    !> Is there compression in it that bending feels
+    elemental function is_compressed(piece) result(yes)
+        type(piece_type), intent(in) :: piece
+        logical :: yes
+
+        yes = piece%tension < piece%slope_stiffness
+    end function is_compressed
 
     !> Is there any load on the pieces of a link; the point load of the last one belongs to its node
     pure function any_load(loads) result(found)

@@ -16,7 +16,7 @@ module gapbeam_ground
     implicit none
     private
     public :: ground_type, moving_type, zones_type, grounded_type
-    public :: move_ground, new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+    public :: move_ground, under_share, new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
     ! For gapbeam_ground_nodes
     public :: condense_both, load_between
     ! For gapbeam_modes
@@ -90,6 +90,18 @@ contains
             layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
         end associate
     end subroutine move_ground
+
+    !> The beam under a share of its axial forces
+    pure function under_share(ground, share) result(changed)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: share
+        type(ground_type) :: changed
+
+        changed = ground
+        associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
+            changed%pieces%tension = of_ground + share*(given - of_ground)
+        end associate
+    end function under_share
 
     !> Room for stretches
     pure subroutine new_zones(stretches, layers, steps, zones)

@@ -8,11 +8,12 @@ module gapbeam_modes
     use gapbeam_limits, only: most_mode_stretches, most_halvings
     use gapbeam_tolerances, only: mode_digits, mode_width
     use gapbeam_band, only: band_ok, count_unstable_pivots
-    use gapbeam_piece, only: no_load
+    use gapbeam_piece, only: no_load, is_compressed
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_ground_laws, only: between
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, under_share, new_zones, stretch_on_layers, &
+        place_stretches
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     implicit none
     private
@@ -43,16 +44,15 @@ contains
         integer :: state, place
 
         number = -1
-        changed = ground
+        if (what == by_axial_force) then
+            changed = under_share(ground, value)
+        else
+            changed = ground
+            changed%frequency_squared = value
+        end if
         ! Modes know no loads, and equal steps are condensed once then
         changed%dead = no_load
         changed%live = no_load
-        if (what == by_axial_force) then
-            changed%pieces%tension = ground%pieces%slope_stiffness &
-                + value*(ground%pieces%tension - ground%pieces%slope_stiffness)
-        else
-            changed%frequency_squared = value
-        end if
         call cut_zones(changed, zones, cut, parts)
         if (size(cut%piece) == 0) return
         call place_stretches(changed, cut, 0.0_wp, grounded)
@@ -202,7 +202,7 @@ contains
         if (what /= by_axial_force) return
         do j = 1, size(ground%pieces)
             associate (p => ground%pieces(j))
-                if (p%tension < p%slope_stiffness .and. p%shear_flexibility > 0.0_wp) then
+                if (is_compressed(p) .and. p%shear_flexibility > 0.0_wp) then
                     limit = min(limit, (1/p%shear_flexibility + p%slope_stiffness)/(p%slope_stiffness - p%tension))
                 end if
             end associate

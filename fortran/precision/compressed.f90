@@ -12,7 +12,8 @@ module gapbeam_compressed
         gapbeam_stopped
     use gapbeam_law, only: always_closed
     use gapbeam_law_energy, only: is_convex
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
+    use gapbeam_piece, only: is_compressed
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, under_share, full_contact
     use gapbeam_layers, only: has_curves
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, count_modes, find_mode_shape
@@ -58,7 +59,7 @@ contains
         type(workspace_type) :: work
         integer :: i, k, number
 
-        unique = .not. any(ground%pieces%tension < ground%pieces%slope_stiffness)
+        unique = .not. any(is_compressed(ground%pieces))
         if (unique) return
         if (.not. is_convex(ground%beam%supports) .or. any(has_curves(ground%layers))) return
         call full_contact(ground, zones)
@@ -99,7 +100,7 @@ contains
             if (is_found() .or. has_ended()) return
             closed(:) = first
         end if
-        call solve_on_ground(forced_by(ground, 0.0_wp), detail, factor, rule, closed, last, outcome, error)
+        call solve_on_ground(under_share(ground, 0.0_wp), detail, factor, rule, closed, last, outcome, error)
         solves = last%solves
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         last_closed(:) = closed
@@ -109,7 +110,7 @@ contains
         do number = 1, most_compressions
             call start_from(last, last_closed, start)
             closed(:) = last_closed
-            call solve_on_ground(forced_by(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, &
+            call solve_on_ground(under_share(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, &
                                  error, start)
             solves = solves + solution%solves
             if (has_ended()) return
@@ -150,18 +151,6 @@ contains
         end function has_ended
 
     end subroutine follow_compression
-
-    !> The beam under a share of its axial forces
-    pure function forced_by(ground, share) result(changed)
-        type(ground_type), intent(in) :: ground
-        real(wp), intent(in) :: share
-        type(ground_type) :: changed
-
-        changed = ground
-        associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
-            changed%pieces%tension = of_ground + share*(given - of_ground)
-        end associate
-    end function forced_by
 
     !> The end of stable states: how the beam gives way there
     subroutine buckle(ground, last, closed, share, solution, outcome, error)

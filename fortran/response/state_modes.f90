@@ -3,6 +3,7 @@
 module gapbeam_state_modes
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_piece, only: is_compressed
     use gapbeam_layers, only: has_curves
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_start, only: ground_start_type, start_from
@@ -77,7 +78,7 @@ contains
         integer, allocatable :: piece(:)
         real(qp), allocatable :: distance(:), w(:), m(:, :)
         real(qp) :: at
-        integer :: i, stat
+        integer :: stat
 
         call check_state(assembled, state, error)
         if (.not. allocated(error) .and. .not. has_any(assembled, what)) then
@@ -98,9 +99,7 @@ contains
             return
         end if
         associate (units => assembled%units)
-            do i = 1, size(piece)
-                x(i) = point_x(assembled, piece(i) - 1) + scale(real(distance(i), wp), units%length)
-            end do
+            x(:) = places_of(assembled, piece, real(distance, wp))
             deflection(:) = real(w, wp)
             moment(:, :) = scale(real(m, wp), units%force + units%length - units%deflection)
         end associate
@@ -115,7 +114,7 @@ contains
         real(wp), allocatable, intent(out) :: x(:), deflection(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
+        integer :: stat
 
         associate (ground => state%ground)
             allocate (x(size(ground%mode_piece)), deflection(size(ground%mode_piece)), stat=stat)
@@ -123,12 +122,24 @@ contains
                 call no_memory(error)
                 return
             end if
-            do i = 1, size(x)
-                x(i) = point_x(assembled, ground%mode_piece(i) - 1) + scale(ground%mode_distance(i), assembled%units%length)
-            end do
+            x(:) = places_of(assembled, ground%mode_piece, ground%mode_distance)
             deflection(:) = ground%mode_deflection
         end associate
     end subroutine shape_of_buckling
+
+    !> Places of the beam
+    pure function places_of(assembled, piece, distance) result(x)
+        type(assembled_type), intent(in) :: assembled
+        !> Pieces, and distances from their left ends in the engine's units
+        integer, intent(in) :: piece(:)
+        real(wp), intent(in) :: distance(:)
+        real(wp) :: x(size(piece))
+        integer :: i
+
+        do i = 1, size(piece)
+            x(i) = point_x(assembled, piece(i) - 1) + scale(distance(i), assembled%units%length)
+        end do
+    end function places_of
 
     !> Has a beam what its modes are of: compression, or mass
     pure function has_any(assembled, what) result(it_has)
@@ -136,13 +147,11 @@ contains
         integer, intent(in) :: what
         logical :: it_has
 
-        associate (p => assembled%pieces)
-            if (what == by_vibration) then
-                it_has = any(p%mass > 0.0_wp)
-            else
-                it_has = any(p%tension < p%slope_stiffness)
-            end if
-        end associate
+        if (what == by_vibration) then
+            it_has = any(assembled%pieces%mass > 0.0_wp)
+        else
+            it_has = any(is_compressed(assembled%pieces))
+        end if
     end function has_any
 
     !> Are there modes of a state in this version
