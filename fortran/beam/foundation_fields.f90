@@ -99,22 +99,22 @@ contains
         real(wp), intent(inout) :: y(5)
         real(wp) :: bent, pressed, f, k, turned_by, borne
 
-        associate (l => stretch%length, g => stretch%shear_flexibility, n => stretch%tension)
+        associate (l => stretch%length, g => stretch%shear_flexibility, n => stretch%tension, s => stretched_shear(stretch))
             f = l**2*stretch%flexibility
             k = l**2*stretch%modulus_a
-            bent = l**2*curvature/stretched_shear(stretch)
-            pressed = l**2*q/stretched_shear(stretch)
+            bent = l**2*curvature/s
+            pressed = l**2*q/s
             y(1) = y(1) + (value%ga*bent + (g*value%ga - f*value%be)*pressed)
             y(3) = y(3) + ((k*value%be - n*value%ga)*bent + value%ga*pressed)
             y(4) = y(4) + ((k*slope%be - n*slope%ga)*bent + slope%ga*pressed)/l
-            ! As stretched al + n f be = stretched ga - k g be: by the lesser of the two terms in be, which may be long
+            ! As s al + n f be = s ga - k g be: by the lesser of the two terms in be, which may be long
             ! where the rest decays
             if (abs(n*f) < k*g) then
-                turned_by = stretched_shear(stretch)*slope%al + n*f*slope%be
-                borne = stretched_shear(stretch)*slope%ga - n*f*slope%be
+                turned_by = s*slope%al + n*f*slope%be
+                borne = s*slope%ga - n*f*slope%be
             else
-                turned_by = stretched_shear(stretch)*slope%ga - k*g*slope%be
-                borne = stretched_shear(stretch)*slope%al + k*g*slope%be
+                turned_by = s*slope%ga - k*g*slope%be
+                borne = s*slope%al + k*g*slope%be
             end if
             y(2) = y(2) + (turned_by*bent - f*slope%be*pressed)/l
             y(5) = y(5) + (k*slope%be*bent + borne*pressed)/l

@@ -344,8 +344,8 @@ contains
                 f = pressed
                 slope = steeper
             case default
-                f = stretched_shear(s)*pressed + s%tension*(p%kappa - s%flexibility*moment)
-                slope = stretched_shear(s)*steeper - l*s%tension*s%flexibility*shear
+                f = stretched_shear(s)*pressed + s%tension*(p%kappa - f_of*moment)
+                slope = stretched_shear(s)*steeper - l*s%tension*f_of*shear
             end select
         end associate
     end subroutine evaluate
