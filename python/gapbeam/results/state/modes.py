@@ -65,7 +65,7 @@ def modes_of(step: Step, kind: str, count: int) -> tuple[float, ...]:
     EngineError
         They are not available for this beam.
     """
-    return tuple(values_of_modes(step.solution.state, KINDS[kind], count).tolist()) if count else ()
+    return tuple(values_of_modes(step.solution.state, KINDS[kind], count).tolist())
 
 
 def mode_of(step: Step, kind: str, value: float) -> Mode:

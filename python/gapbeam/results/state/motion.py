@@ -64,7 +64,7 @@ def describe_buckling(found: Buckling) -> str:
     Returns
     -------
     str
-        For example "with these loads the beam bears 0.87 times its axial forces, and gives way most at x = 3, downward".
+        For example "with these loads the beam bears 0.87 times its axial forces, and gives way most at x = 3".
     """
     k = int(np.abs(found.deflection).argmax())
     return f"with these loads the beam bears {found.share:.6g} times its axial forces, and gives way most at x = {found.x[k]:.6g}"
@@ -78,7 +78,7 @@ def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: B
     beam : Beam
         The beam.
     where : str
-        At or above which load factor.
+        At or above which load factor; empty where that is said elsewhere.
     motion : numpy.ndarray or None
         Displacements of the nodes in the free motion; None where it slides along its axis.
     buckling : Buckling or None
@@ -88,9 +88,10 @@ def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: B
     -------
     status, reason : str
     """
+    at = f" {where}" if where else ""
     if buckling is not None:
-        return "buckles", f"buckles {where}: {describe_buckling(buckling)}"
-    return "no-equilibrium", f"no equilibrium {where}: {SLIDES if motion is None else describe_motion(beam, motion)}"
+        return "buckles", f"buckles{at}: {describe_buckling(buckling)}"
+    return "no-equilibrium", f"no equilibrium{at}: {SLIDES if motion is None else describe_motion(beam, motion)}"
 
 
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:

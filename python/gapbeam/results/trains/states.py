@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...base.errors import WITHOUT_ANSWER, EngineError, Status
-from ...engine.beam import NO_EQUILIBRIUM, SOLVED, Beam
+from ...base.errors import FALLEN, WITHOUT_ANSWER, EngineError, Status
+from ...engine.beam import SOLVED, Beam
 from ...engine.quantities import FIELDS
 from ...engine.trains import NOT_UNIQUE
 from ...scene.columns import BY_X, DISTRIBUTED, FORCE
-from ..state.motion import SLIDES, buckling_of, describe_buckling, describe_motion
+from ..state.motion import buckling_of, describe_fall
 from ..state.schemes import starting_scheme
 from ..state.step import Step
 from .traversals import NO_ANSWER
@@ -52,12 +52,9 @@ class Placed:
             known = error.status == Status.INDETERMINATE
             self.reason = NO_ANSWER[error.status] if known else f"no unique answer: {error}"
             return
-        if solution.status == NO_EQUILIBRIUM:
-            self.status = NO_EQUILIBRIUM
-            self.reason = f"no equilibrium: {SLIDES if solution.slides else describe_motion(beam, solution.motion)}"
-        elif solution.status == Status.BUCKLES:
-            self.status = Status.BUCKLES
-            self.reason = f"buckles: {describe_buckling(buckling_of(solution))}"
+        if solution.status in FALLEN:
+            self.status = solution.status
+            _, self.reason = describe_fall(beam, "", None if solution.slides else solution.motion, buckling_of(solution))
         elif solution.indifferent:
             self.status, self.reason = NOT_UNIQUE, NO_ANSWER[NOT_UNIQUE]
 
