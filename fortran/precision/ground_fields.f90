@@ -68,7 +68,7 @@ contains
             inside%start(:, 1) = sloped_start(inside%stretch, inside%load, inside%ends, 1)
             inside%start(:, 2) = sloped_start(inside%stretch, inside%load, inside%ends, 2)
         end if
-        if (abs(inside%stretch%tension) > 0.0_wp) then
+        if (abs(inside%stretch%tension) > 0.0_wp .and. .not. inside%sloped) then
             inside%off_force = solution%force(:, i) - [force_inside(inside, 0.0_wp), force_inside(inside, 1.0_wp)]
         end if
         if (present(roughly)) then
