@@ -66,7 +66,8 @@ module gapbeam_limits
     !> base/patch
     integer, parameter :: most_waiting_patches = 120
 
-    !> Stretches beyond which modes are not looked for: some 20,000 waves along a beam. Read by contact/modes
+    !> Stretches beyond which modes are not looked for: some 20,000 waves along a beam. Read by contact/modes,
+    !> precision/compressed
     integer, parameter :: most_mode_stretches = 100000
     !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
     !> contact/modes

@@ -10,7 +10,7 @@ module gapbeam_ground_steps
     use gapbeam_ground_laws, only: between
     implicit none
     private
-    public :: steps_on, border_of_step, decays_between
+    public :: steps_on, border_of_step, decays_between, greatest_modulus
 
 contains
 
@@ -36,20 +36,16 @@ contains
             associate (layer => layers(k))
                 if (.not. has_points(layer)) then
                     ! Also where a law is curved
-                    modulus = modulus + stiffest(layer)
-                    varies = varies .or. stiffest(layer) > 0.0_wp
-                    cycle
-                end if
-                if (layer%law_last >= layer%law_first) then
+                    varies = varies .or. greatest_modulus(layer, laws) > 0.0_wp
+                else if (layer%law_last >= layer%law_first) then
                     associate (own => laws(layer%law_first:layer%law_last))
                         if (.not. (tapers .or. any(abs(own%slope_a - own%slope_b) > 0.0_wp))) cycle
-                        modulus = modulus + max(maxval(own%slope_a), maxval(own%slope_b))
-                        varies = .true.
                     end associate
-                    cycle
+                    varies = .true.
+                else
+                    varies = varies .or. abs(layer%modulus_a - layer%modulus_b) > 0.0_wp
                 end if
-                modulus = modulus + max(layer%modulus_a, layer%modulus_b)
-                varies = varies .or. abs(layer%modulus_a - layer%modulus_b) > 0.0_wp
+                modulus = modulus + greatest_modulus(layer, laws)
             end associate
         end do
         steps = 1
@@ -98,13 +94,23 @@ contains
         if (steps_of_taper(piece) > 1) place = piece%length*share_of_taper(piece, real(step, wp)/steps)
     end function border_of_step
 
-    !> Greatest stiffness of a law with parameters, of one that stiffens that at first
-    elemental function stiffest(layer) result(modulus)
+    !> Greatest modulus of a layer, wherever the beam is; of a law that stiffens without end the one at first
+    pure function greatest_modulus(layer, laws) result(modulus)
         type(layer_type), intent(in) :: layer
+        !> Pieces of all laws
+        type(law_piece_type), intent(in) :: laws(:)
         real(wp) :: modulus
 
-        modulus = max(layer%parameter_a(1), layer%parameter_b(1))
-        if (layer%law == law_hardening) modulus = max(modulus, layer%parameter_a(3), layer%parameter_b(3))
-    end function stiffest
+        if (.not. has_points(layer)) then
+            modulus = max(layer%parameter_a(1), layer%parameter_b(1))
+            if (layer%law == law_hardening) modulus = max(modulus, layer%parameter_a(3), layer%parameter_b(3))
+        else if (layer%law_last >= layer%law_first) then
+            associate (own => laws(layer%law_first:layer%law_last))
+                modulus = max(maxval(own%slope_a), maxval(own%slope_b))
+            end associate
+        else
+            modulus = max(layer%modulus_a, layer%modulus_b)
+        end if
+    end function greatest_modulus
 
 end module gapbeam_ground_steps

@@ -4,17 +4,22 @@
 !> positive definite, so the complementarity problem has one solution). Where it is not stable then, the axial forces grow from 0
 !> to what they are with all other loads in full, from state to state near the last one, each of which is stable. Where there is
 !> none nearby any more the beam buckles: other stable states, farther away, are not looked for.
+!>
+!> A beam that gives way even with all that may hold it acting has no stable state in any scheme. The axial forces are let grow to
+!> the share for which that is so first, in stretches that are no shorter than it asks for: hopeless compression costs no more.
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: least_compressions, most_compressions, mode_parts
-    use gapbeam_tolerances, only: same_compression, least_share, little_compression
+    use gapbeam_limits, only: least_compressions, most_compressions, mode_parts, most_mode_stretches
+    use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression
+    use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, gapbeam_no_memory, &
-        gapbeam_stopped
-    use gapbeam_law, only: always_closed
+        gapbeam_stopped, gapbeam_bad_input
+    use gapbeam_law, only: always_closed, both
     use gapbeam_law_energy, only: is_convex
-    use gapbeam_piece, only: is_compressed
+    use gapbeam_piece, only: piece_type, is_compressed
+    use gapbeam_ground_steps, only: greatest_modulus
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, under_share, full_contact
-    use gapbeam_layers, only: has_curves
+    use gapbeam_layers, only: layer_type, has_curves
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, count_modes, find_mode_shape
     use gapbeam_contact_state, only: outcome_type
@@ -41,13 +46,112 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
+        type(ground_type) :: pressed
+        logical :: first(size(closed))
+        real(wp) :: share
 
-        if (.not. is_unique(ground)) then
-            call follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        if (.not. any(is_compressed(ground%pieces))) then
+            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
             return
         end if
-        call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        first(:) = closed
+        share = greatest_share(ground)
+        do while (share < 1.0_wp)
+            pressed = cut_for_share(ground, share)
+            call check_compression(pressed, error)
+            if (allocated(error)) return
+            closed(:) = first
+            call follow_compression(pressed, share, detail, factor, rule, closed, solution, outcome, error)
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) return
+            ! Ground that stiffens without end bears more
+            share = min(1.0_wp, 16*share)
+        end do
+        call check_compression(ground, error)
+        if (allocated(error)) return
+        closed(:) = first
+        if (is_unique(ground)) then
+            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        else
+            call follow_compression(ground, share, detail, factor, rule, closed, solution, outcome, error, near)
+        end if
     end subroutine solve_with_axial_force
+
+    !> Compression that would cut the beam into stretches without end is refused
+    subroutine check_compression(ground, error)
+        type(ground_type), intent(in) :: ground
+        type(error_type), allocatable, intent(out) :: error
+
+        if (sum(compression_lengths(ground%pieces)) <= most_mode_stretches) return
+        call fatal_error(error, gapbeam_bad_input, "the axial force N presses so hard beside EI that states would have to be "// &
+                         "followed in more than "//trim(whole(most_mode_stretches))//" stretches; press less, or give a "// &
+                         "stiffer beam")
+    end subroutine check_compression
+
+    !> Share of the axial forces for which no scheme is stable, if ground does not stiffen without end; 1 where there is none below,
+    !> and where no piece is so long that it matters
+    function greatest_share(ground) result(share)
+        !> The beam and its ground
+        type(ground_type), intent(in) :: ground
+        real(wp) :: share
+        type(ground_type) :: held, pressed
+        type(zones_type) :: zones
+        type(grounded_type) :: grounded
+        type(workspace_type) :: work
+        integer :: number
+
+        share = (long_compression/max(long_compression, maxval(compression_lengths(ground%pieces))))**2
+        if (.not. share < 1.0_wp) return
+        held = all_that_holds(ground)
+        do
+            pressed = cut_for_share(held, share)
+            call full_contact(pressed, zones)
+            call count_modes(pressed, zones, pressed%beam%supports%side == both, by_axial_force, 1.0_wp, number, work, grounded)
+            if (number > 0 .or. share >= 1.0_wp) return
+            share = min(1.0_wp, 4*share)
+        end do
+    end function greatest_share
+
+    !> A beam on which all supports and all ground act both ways at once, as stiff as they ever are
+    pure function all_that_holds(ground) result(held)
+        type(ground_type), intent(in) :: ground
+        type(ground_type) :: held
+        integer :: j, k
+
+        held = ground
+        associate (s => held%beam%supports)
+            s%stiffness = max(s%stiffness, s%before)
+            s%side = both
+            s%breakpoint = 0
+            s%more = .false.
+        end associate
+        held%first = [(j, j=1, size(ground%pieces) + 1)]
+        deallocate (held%layers)
+        allocate (held%layers(size(ground%pieces)))
+        do j = 1, size(ground%pieces)
+            do k = ground%first(j), ground%first(j + 1) - 1
+                held%layers(j)%modulus_a = held%layers(j)%modulus_a + greatest_modulus(ground%layers(k), ground%laws)
+            end do
+            held%layers(j)%modulus_b = held%layers(j)%modulus_a
+        end do
+    end function all_that_holds
+
+    !> A beam under a share of its axial forces that is cut for no more than that share
+    pure function cut_for_share(ground, share) result(changed)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: share
+        type(ground_type) :: changed
+
+        changed = under_share(ground, share)
+        changed%pieces%compression = max(0.0_wp, -changed%pieces%tension)
+    end function cut_for_share
+
+    !> Length of a piece beside the one by which the phase of a wave under its compression grows by 1
+    elemental function compression_lengths(piece) result(number)
+        type(piece_type), intent(in) :: piece
+        real(wp) :: number
+
+        number = piece%length*sqrt(piece%compression)*sqrt(piece%flexibility)
+    end function compression_lengths
 
     !> Is there one state for sure: without compression, or where the beam is stable on what holds it both ways alone
     function is_unique(ground) result(unique)
@@ -60,7 +164,7 @@ contains
         integer :: i, k, number
 
         unique = .not. any(is_compressed(ground%pieces))
-        if (unique) return
+        if (unique .or. sum(compression_lengths(ground%pieces)) > most_mode_stretches) return
         if (.not. is_convex(ground%beam%supports) .or. any(has_curves(ground%layers))) return
         call full_contact(ground, zones)
         do i = 1, size(zones%piece)
@@ -75,9 +179,10 @@ contains
     end function is_unique
 
     !> Let the axial forces grow, with all other loads in full
-    subroutine follow_compression(ground, detail, factor, rule, closed, solution, outcome, error, near)
-        !> As for solve_with_axial_force
+    subroutine follow_compression(ground, given, detail, factor, rule, closed, solution, outcome, error, near)
+        !> As for solve_with_axial_force, under all of the axial forces or a share of them, and that share
         type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: given
         type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: factor
         integer, intent(in) :: rule
@@ -131,7 +236,7 @@ contains
         solution%unique = .false.
         if (reached) return
         if (allocated(error)) deallocate (error)
-        call buckle(ground, last, last_closed, share, solution, outcome, error)
+        call buckle(ground, given, last, last_closed, share, solution, outcome, error)
 
     contains
 
@@ -153,8 +258,10 @@ contains
     end subroutine follow_compression
 
     !> The end of stable states: how the beam gives way there
-    subroutine buckle(ground, last, closed, share, solution, outcome, error)
+    subroutine buckle(ground, given, last, closed, share, solution, outcome, error)
+        !> As for follow_compression
         type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: given
         !> The last state, its supports, and the share of the axial forces in it
         type(ground_solution_type), intent(in) :: last
         logical, intent(in) :: closed(:)
@@ -171,12 +278,12 @@ contains
 
         call start_from(last, closed, start)
         if (.not. gives_way(ground, last, start, share)) then
-            write (text, "(f0.6)") share
-            call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(text)// &
+            write (text, "(es10.3e3)") given*share
+            call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(adjustl(text))// &
                              " times its axial forces, where it is still stable: look for supports or ground far stiffer than it")
             return
         end if
-        solution%axial_share = share
+        solution%axial_share = given*share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
         call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &

@@ -1,6 +1,7 @@
 """Axial force in bending: closed forms, independent solutions in many digits, ground, compression, what is refused."""
 
 import math
+import re
 
 import gapbeam
 import numpy as np
@@ -130,6 +131,25 @@ def test_a_column_buckles_beside_its_stop():
     assert "bears 0.8 times its axial forces" in result.reason
     x, w = np.transpose(result.motion)
     np.testing.assert_allclose(np.abs(w), np.abs(np.sin(2 * math.pi * x)), atol=1e-6)
+
+
+@pytest.mark.parametrize("N", [-1e4, -1e9, -1e300])
+@pytest.mark.parametrize(
+    "ground", [None, {"k": 10.0}, {"law": [[0.1, 1.0], [0.2, 1.1]]}, {"law": {"type": "cubic", "k1": 10.0, "k3": 3.0}}]
+)
+def test_hopeless_compression_is_cut_no_finer_than_what_the_beam_bears(N, ground):
+    """N of a slip of the keyboard once took minutes, or the memory."""
+
+    def beam_under(N):
+        scene = {"beam": {"spans": [6.0], "EI": 1.0, "N": N}, "supports": [{"node": 0}, {"node": 1}]}
+        if ground:
+            scene["foundation"] = [{"side": "below", **ground}]
+        return gapbeam.solve({**scene, "loads": [uniform(1.0)]})
+
+    (share,), (other,) = (re.findall("bears (.*) times", beam_under(value).reason) for value in (N, -1e3))
+    assert float(share) * N == pytest.approx(float(other) * -1e3, rel=2e-5)
+    if not ground:
+        assert float(share) * N == pytest.approx(-((math.pi / 6) ** 2), rel=1e-5)
 
 
 def test_a_beam_without_a_support_at_its_end_buckles_at_a_quarter():
