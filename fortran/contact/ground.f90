@@ -22,12 +22,15 @@ module gapbeam_ground
     ! For gapbeam_modes
     public :: stretch_on_layers
 
-    !> Where supports and ground begin to act at load factor 0 (1), and how far loads move that while it grows by 1 (2)
+    !> Where supports and ground begin to act at load factor 0 (1), and how far loads move that while it grows by 1 (2); and axial
+    !> forces that bending feels, the same
     type :: moving_type
         !> Of the supports, shape (2, size(supports))
         real(wp), allocatable :: supports(:, :)
         !> Of the layers at both ends of their pieces, shape (2, 2, size(layers))
         real(wp), allocatable :: layers(:, :, :)
+        !> Tension of the pieces, shape (2, n); not allocated where it does not grow
+        real(wp), allocatable :: tension(:, :)
     end type moving_type
 
     !> A beam and the ground under it
@@ -77,7 +80,7 @@ module gapbeam_ground
 
 contains
 
-    !> Move supports and ground to where they are at a load factor
+    !> Move supports and ground to where they are at a load factor, with the axial forces there
     pure subroutine move_ground(ground, factor)
         !> As it is at any factor
         type(ground_type), intent(inout) :: ground
@@ -89,7 +92,25 @@ contains
             layers%contact_a = moving%layers(1, 1, :) + factor*moving%layers(2, 1, :)
             layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
         end associate
+        if (.not. allocated(ground%moving%tension)) return
+        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :))
+            ground%pieces%tension = at_zero + factor*growth
+            ground%pieces%compression = max(0.0_wp, -at_zero, -(at_zero + greatest_near(factor)*growth))
+        end associate
     end subroutine move_ground
+
+    !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
+    !> to another stay short enough
+    pure function greatest_near(factor) result(greatest)
+        real(wp), intent(in) :: factor
+        real(wp) :: greatest
+
+        greatest = 1.0_wp
+        do while (greatest < abs(factor))
+            greatest = 4*greatest
+        end do
+        greatest = sign(greatest, factor)
+    end function greatest_near
 
     !> The beam under a share of its axial forces
     pure function under_share(ground, share) result(changed)

@@ -19,7 +19,7 @@ contains
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                        found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
-                       slaw, fric, axial, shear)
+                       slaw, fric, axial, shear, igrow)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
@@ -31,8 +31,9 @@ contains
         real(wp), intent(in), optional :: slaw(parameters_of_law, *)
         !> Friction coefficients of supports, as for GHPRFR
         real(wp), intent(in), optional :: fric(*)
-        !> Axial forces and masses of spans, second parameters of foundations, as for GHPRAF
+        !> Axial forces and masses of spans, second parameters of foundations, whether the axial forces grow, as for GHPRAF
         real(wp), intent(in), optional :: axial(2, *), shear(*)
+        integer, intent(in), optional :: igrow
         type(model_type) :: model
         type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
@@ -93,6 +94,7 @@ contains
                 model%spans%mass = axial(2, 1:nspan)
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
+            if (present(igrow)) model%N_grows = igrow /= 0
             call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then

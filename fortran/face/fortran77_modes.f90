@@ -1,16 +1,17 @@
 ! Axial forces that bending feels, buckling and frequencies in the Fortran 77 interface; all else is said in fortran77.f90 and
 ! fortran77_ground.f90. Marshalling only.
 !
-!     AXIAL(2, NSPAN)   axial force N, tension positive, the same at all load factors; mass per length, for frequencies, 0 or
-!                       more, in the unit of force times the square of that of time over that of length
+!     AXIAL(2, NSPAN)   axial force N, tension positive; mass per length, for frequencies, 0 or more, in the unit of force times
+!                       the square of that of time over that of length
 !     SHEAR(NFOUND)     second parameter of every foundation (force), 0 or more: what resists differences of their deflection; of
 !                       those that hold both ways by a modulus
+!     IGROW             0: N is the same at all load factors; 1: it grows with them, N at load factor 1
 !
 !     KIND              of modes: 1 buckling, 2 vibration, with the supports and the ground that act in a solved state
 
 ! Prepare a beam whose bending feels axial forces, also on foundations, and whose supports may follow laws
 subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
-                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, beam, ientry, info)
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, igrow, beam, ientry, info)
     use gapbeam_fortran77_model, only: prepare
     implicit none
     ! As for GHPRFD
@@ -20,6 +21,7 @@ subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
     ! See above
     double precision, intent(in) :: axial(2, *), shear(*)
+    integer, intent(in) :: igrow
     ! As from GHPREP
     integer(8), intent(out) :: beam
     integer, intent(out) :: ientry
@@ -28,7 +30,7 @@ subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
 
     call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                  found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, &
-                 axial=axial, shear=shear)
+                 axial=axial, shear=shear, igrow=igrow)
 end subroutine ghpraf
 
 ! Is a solved state known to be the only one

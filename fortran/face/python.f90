@@ -27,7 +27,7 @@ end subroutine gbtole
 
 ! Prepare a beam
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
-                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, thread, &
+                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, grows, thread, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, keep_beam, listen, report
     use gapbeam_scene, only: model_type
@@ -41,6 +41,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
+    ! Does N grow with the load factor (1)
+    integer, intent(in) :: grows
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
@@ -65,6 +67,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
                                                              aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
                                                              model, error)
+    model%N_grows = grows /= 0
     if (.not. allocated(error)) call keep_beam(model, handle, error)
     beam = number_of(handle)
     call report(error, status, message)

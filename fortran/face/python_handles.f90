@@ -77,6 +77,7 @@ contains
                 call move_alloc(model%ground, kept%ground)
                 call move_alloc(model%ground_law, kept%ground_law)
                 call move_alloc(model%loads, kept%loads)
+                kept%N_grows = model%N_grows
             end associate
             call assemble_model(handle%beam%lowered, error)
         end if

@@ -36,6 +36,7 @@ contains
         allocate (fine%moving)
         allocate (fine%moving%supports, source=real(ground%moving%supports, qp))
         allocate (fine%moving%layers, source=real(ground%moving%layers, qp))
+        if (allocated(ground%moving%tension)) allocate (fine%moving%tension, source=real(ground%moving%tension, qp))
     end subroutine refine_ground
 
     !> A layer in quadruple precision

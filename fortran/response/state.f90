@@ -181,6 +181,7 @@ contains
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
         type(ground_type) :: ground
+        logical :: grows
 
         ground%beam = assembled%beam
         associate (n => size(assembled%pieces))
@@ -193,7 +194,8 @@ contains
         ground%layers(:) = assembled%layers
         ground%first(:) = assembled%layer_first
         ground%laws(:) = assembled%law_pieces
-        if (.not. (allocated(assembled%growth) .or. allocated(assembled%layer_growth))) return
+        grows = allocated(assembled%growth) .or. allocated(assembled%layer_growth) .or. allocated(assembled%tension_growth)
+        if (.not. grows) return
         allocate (ground%moving)
         associate (moving => ground%moving)
             allocate (moving%supports(2, size(ground%beam%supports)), moving%layers(2, 2, size(ground%layers)), source=0.0_wp)
@@ -202,6 +204,11 @@ contains
             moving%layers(1, 1, :) = ground%layers%contact_a
             moving%layers(1, 2, :) = ground%layers%contact_b
             if (allocated(assembled%layer_growth)) moving%layers(2, :, :) = assembled%layer_growth
+            if (allocated(assembled%tension_growth)) then
+                allocate (moving%tension(2, size(ground%pieces)))
+                moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
+                moving%tension(2, :) = assembled%tension_growth
+            end if
         end associate
         call move_ground(ground, factor)
     end function ground_of

@@ -46,6 +46,7 @@ contains
         call check_state(assembled, state, error)
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor)
+        if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
         call find_mode_values(ground, start%zones, start%closed, what, first, values, known)

@@ -104,6 +104,9 @@ module gapbeam_assembled_model
         real(wp), allocatable :: given_settlement(:), growth(:)
         !> How far loads move both ends of layers at load factor 1, in units of these, shape (2, size(layers)); if they do at all
         real(wp), allocatable :: layer_growth(:, :)
+        !> What of the tension of the pieces (at load factor 1) grows with the load factor, in the engine's units, shape (npiece);
+        !> not allocated where nothing does
+        real(wp), allocatable :: tension_growth(:)
         !> Does a state depend on the loading history to it (gapbeam_assemble_laws), or are there loads that move supports
         logical :: depends_on_path = .false.
         !> Stiffness of the rotational restraint of every node in the user's units, shape (0:nlink), and the share that every
@@ -305,6 +308,7 @@ contains
         if (ground > 0) copy%ground(:) = source%ground
         if (ground_law > 0) copy%ground_law(:) = source%ground_law
         if (loads > 0) copy%loads(:) = source%loads
+        copy%N_grows = source%N_grows
     end subroutine copy_model
 
     !> A number that another model, or one with other loads, hardly ever has: results are known by it
@@ -321,6 +325,7 @@ contains
                 call mix(all_bits, [s%length, s%EI, s%GA, s%EA, s%N, s%mass])
             end associate
         end do
+        if (model%N_grows) call mix(all_bits, [1.0_wp])
         call mix(all_bits, model%hinges)
         if (any(model%hinge_stiffness > 0.0_wp)) call mix(all_bits, model%hinge_stiffness)
         if (allocated(model%sections)) then

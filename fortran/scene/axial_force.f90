@@ -124,6 +124,10 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: i, j
 
+        if (allocated(assembled%tension_growth)) deallocate (assembled%tension_growth)
+        if (assembled%model%N_grows .and. has_axial_force(assembled%model)) then
+            allocate (assembled%tension_growth(size(assembled%pieces)))
+        end if
         assembled%pieces%slope_stiffness = 0.0_wp
         do i = 1, size(assembled%model%foundations)
             if (.not. assembled%model%foundations(i)%shear > 0.0_wp) cycle
@@ -135,6 +139,7 @@ contains
         do j = 1, size(assembled%pieces)
             associate (p => assembled%pieces(j), N => stiffness_of(assembled, j, axial_force_in), units => assembled%units)
                 p%tension = p%slope_stiffness + in_units(N)
+                if (allocated(assembled%tension_growth)) assembled%tension_growth(j) = in_units(N)
                 p%compression = max(0.0_wp, -p%tension)
                 p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
                                units%length + units%deflection - units%force)

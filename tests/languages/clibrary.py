@@ -99,6 +99,7 @@ class Model(c.Structure):
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
+        ("N_grows", c.c_int),
     )
 
 
@@ -223,6 +224,7 @@ def columns(scene):
         "length": np.array(spans, dtype=float),
         **{key: spread(key) for key in ("EI", "GA", "EA")},
         **{key: spread(key, 0.0) for key in ("N", "mass")},
+        "N_grows": int(scene.get("analysis", {}).get("N_with") == "live"),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -317,7 +319,7 @@ class Library:
         made = Model()
         assert self.c.gapbeam_model_init(c.byref(made), c.c_size_t(c.sizeof(made))) == 0
         for name, array in arrays.items():
-            setattr(made, name, pointer(array))
+            setattr(made, name, array if isinstance(array, int) else pointer(array))
         sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force",
                  "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force",
                  "table_points": "table_x"}  # fmt: skip
@@ -595,7 +597,7 @@ class F77Beam:
             tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
-            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"]]
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], a["N_grows"]]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0

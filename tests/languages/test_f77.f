@@ -970,7 +970,7 @@ C     a gap of 0.02: its states, how it buckles; two spans that vibrate
       CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD, 0,
      +            ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF, APROF,
      +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
-     +            SHEAR, BEAM, IENT, INFO)
+     +            SHEAR, 0, BEAM, IENT, INFO)
       CALL EXPECT(INFO, -29, 'a negative mass')
       CALL EXPECT(IENT, 1, 'of span 1')
       AXIAL(2,1) = 0.0D0
@@ -981,7 +981,7 @@ C     a gap of 0.02: its states, how it buckles; two spans that vibrate
          CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
      +               0, ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF,
      +               APROF, 0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB,
-     +               ATAB, AXIAL, SHEAR, BEAM, IENT, INFO)
+     +               ATAB, AXIAL, SHEAR, 0, BEAM, IENT, INFO)
          CALL EXPECT(INFO, 0, 'prepared')
          CALL GHUNIQ(STATE, IUNIQ, INFO)
          IF (K .EQ. 1) CALL EXPECT(INFO, -1, 'nothing solved')
@@ -1030,7 +1030,7 @@ C     More than four times Euler's load
       CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD, 0,
      +            ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF, APROF,
      +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
-     +            SHEAR, BEAM, IENT, INFO)
+     +            SHEAR, 0, BEAM, IENT, INFO)
       CALL GHSOLV(BEAM, 1.0D0, 0, 0, STATE, INFO)
       CALL EXPECT(INFO, 2, 'it buckles')
       CALL GHINFO(STATE, Q(1), NINFO, INFO)
@@ -1080,14 +1080,14 @@ C     second parameter
       CALL GHPRAF(1, SPAN, 0, HINGE, 2, ISUP, SUP, 1, ILOAD, ALOAD, 0,
      +            ILAW, ALAW, IUNL, 3, IFOUND, FOUND, 0, IPROF, APROF,
      +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
-     +            SHEAR, BEAM, IENT, INFO)
+     +            SHEAR, 0, BEAM, IENT, INFO)
       CALL EXPECT(INFO, -30, 'a negative SHEAR')
       CALL EXPECT(IENT, 3, 'of foundation 3')
       SHEAR(3) = 5.0D0
       CALL GHPRAF(1, SPAN, 0, HINGE, 2, ISUP, SUP, 1, ILOAD, ALOAD, 0,
      +            ILAW, ALAW, IUNL, 3, IFOUND, FOUND, 0, IPROF, APROF,
      +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
-     +            SHEAR, BEAM, IENT, INFO)
+     +            SHEAR, 0, BEAM, IENT, INFO)
       CALL GHSOLV(BEAM, 1.0D0, 0, 0, STATE, INFO)
       CALL EXPECT(INFO, 0, 'on ground')
       CALL GHMODE(BEAM, STATE, 2, 2, FACT, N, INFO)

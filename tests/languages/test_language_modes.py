@@ -98,10 +98,11 @@ def test_columns_with_stops_agree(library):
 
 
 def test_load_paths_agree(library):
-    """From event to event with axial forces that stay what they are."""
+    """From event to event with axial forces that stay what they are, or grow."""
     events = 0
     for seed in range(12):
-        scene = {**column(seed, share=0.7), "analysis": {"rule": "block", "follow": "events"}}
+        analysis = {"rule": "block", "follow": "events", "N_with": ("dead", "live")[seed % 2]}
+        scene = {**column(seed, share=0.7), "analysis": analysis}
         result = gapbeam.solve(scene)
         beam, f77, _ = both(library, scene)
         status, found = beam.follow_ground(1.0)

@@ -91,7 +91,7 @@ class Beam(Layout):
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
             c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load,
-            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law,
+            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law, c.N_grows,
         )  # fmt: skip
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())

@@ -106,8 +106,9 @@ def axial_forces_in_words(scene: Scene) -> str:
         + (ends or f"from x = {fmt.number(from_, fmt.DIGITS)} to {fmt.number(to, fmt.DIGITS)}")
         for from_, to, N in runs[:MOST_STRETCHES]
     ]
+    growth = "It grows with the load factor" if scene.analysis.N_with == "live" else "It acts in full at every load factor"
     more = f"; and so on, {len(runs)} stretches" if len(runs) > MOST_STRETCHES else ""
-    return f"N = {'; '.join(texts)}{more}. It acts in full at every load factor."
+    return f"N = {'; '.join(texts)}{more}. {growth}."
 
 
 def some_of(motion: list[tuple[float, float]]) -> list[tuple[float, float]]:

@@ -34,6 +34,9 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
         ground that act at the end; default 0.
     frequencies : int
         How many circular frequencies (rad per unit of time) are found likewise, with `beam.mass`; default 0.
+    N_with : {"dead", "live"}
+        What the given axial forces N belong to: dead (default), they are the same at all load factors; live, they grow with the
+        load factor, from 0.
     """
 
     steps: Count = 1
@@ -44,6 +47,7 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     first_order: bool = False
     buckling: Modes = 0
     frequencies: Modes = 0
+    N_with: Literal["dead", "live"] = "dead"
 
     @property
     def has_history(self) -> bool:
