@@ -138,13 +138,15 @@ subroutine ghshap(beam, state, kind, value, nparts, maxx, nx, x, w, xmom, info)
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     double precision, allocatable :: places(:), deflections(:), moments(:, :)
+    ! (Written where they are used, gfortran keeps their addresses in writable storage)
+    character(len=6), parameter :: names(3) = ["kind  ", "value ", "parts "]
     integer :: n
 
     call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. maxx < 0) info = -6
     if (info /= 0) return
     call get_mode_shape(prepared%beam, solved%result, kind, value, nparts, places, deflections, moments, error)
-    info = info_of(error, 2, ["kind ", "value", "parts"], [3, 4, 5])
+    info = info_of(error, 2, names, [3, 4, 5])
     if (info /= 0) return
     nx = size(places)
     n = min(maxx, nx)
