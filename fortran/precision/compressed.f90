@@ -320,18 +320,39 @@ contains
         end do
     end function gives_way
 
-    !> Are two states farther apart than one grows out of the other: by more than the smaller one of them
+    !> Are two states farther apart than one grows out of the other: by more than the smaller one of them. Deflections with slopes
+    !> beside them, and moments with shears: one of them alone passes zero at all places looked at
     pure function jumps(one, other) result(far)
         type(ground_solution_type), intent(in) :: one, other
         logical :: far
 
-        if (size(one%ends) == size(other%ends)) then
-            far = apart(one%ends%w_a, other%ends%w_a) .or. apart(one%ends%moment_a, other%ends%moment_a)
-        else
+        if (size(one%ends) /= size(other%ends)) then
             far = apart(one%deflection, other%deflection)
+            return
         end if
+        far = apart(motion(one), motion(other)) .or. apart(forces(one), forces(other))
 
     contains
+
+        !> Deflections, and rotations times lengths, at the ends of all stretches
+        pure function motion(solution) result(values)
+            type(ground_solution_type), intent(in) :: solution
+            real(wp) :: values(4*size(solution%ends))
+
+            associate (e => solution%ends, length => solution%stretches%length)
+                values(:) = [e%w_a, e%w_b, solution%rotation(1, :)*length, solution%rotation(2, :)*length]
+            end associate
+        end function motion
+
+        !> Moments, and shears times lengths, there
+        pure function forces(solution) result(values)
+            type(ground_solution_type), intent(in) :: solution
+            real(wp) :: values(4*size(solution%ends))
+
+            associate (e => solution%ends, length => solution%stretches%length)
+                values(:) = [e%moment_a, e%moment_b, solution%shear(1, :)*length, solution%shear(2, :)*length]
+            end associate
+        end function forces
 
         !> Is a difference greater than the smaller one of two
         pure function apart(a, b)

@@ -133,6 +133,19 @@ def test_a_column_buckles_beside_its_stop():
     np.testing.assert_allclose(np.abs(w), np.abs(np.sin(2 * math.pi * x)), atol=1e-6)
 
 
+def test_a_deflection_that_passes_zero_is_no_jump():
+    """At the only place of the left span that was looked at: the path was not followed beyond that, though nothing happens there."""
+    scene = {
+        "beam": {"spans": [5.0, 5.0], "EI": 100.0, "N": [-20.04545455, 0.95454545]},
+        "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}],
+        "loads": [uniform(2.1), force(4.4152043928831635, -5.0)],
+    }
+    (step,) = gapbeam.solve(scene).steps
+    assert not step.unique
+    two_sided = {**scene, "supports": [{"node": 0}, {"node": 1}, {"node": 2}]}
+    np.testing.assert_allclose(step.reaction, gapbeam.solve(two_sided).steps[-1].reaction, rtol=1e-14)
+
+
 @pytest.mark.parametrize("N", [-1e4, -1e9, -1e300])
 @pytest.mark.parametrize(
     "ground", [None, {"k": 10.0}, {"law": [[0.1, 1.0], [0.2, 1.1]]}, {"law": {"type": "cubic", "k1": 10.0, "k3": 3.0}}]
