@@ -2,6 +2,7 @@
 module gapbeam_assemble_supports
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
+    use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
         gapbeam_normal, gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed
@@ -269,6 +270,9 @@ contains
                 call no_memory(error)
                 return
             end if
+            ! Copies of supports that the compiler makes, and order_supports
+            call reserve_memory(for_assembling, n, 3*size(supports), 0, error)
+            if (allocated(error)) return
             assembled%turning(:) = 0.0_wp
             clamped(:) = .false.
             assembled%beam_support(:) = 0
