@@ -16,7 +16,7 @@ module gapbeam_ground
     implicit none
     private
     public :: ground_type, moving_type, zones_type, grounded_type
-    public :: move_ground, under_share, new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+    public :: new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
     ! For gapbeam_ground_nodes
     public :: condense_both, load_between
     ! For gapbeam_modes
@@ -79,50 +79,6 @@ module gapbeam_ground
     end type grounded_type
 
 contains
-
-    !> Move supports and ground to where they are at a load factor, with the axial forces there
-    pure subroutine move_ground(ground, factor)
-        !> As it is at any factor
-        type(ground_type), intent(inout) :: ground
-        real(wp), intent(in) :: factor
-
-        if (.not. allocated(ground%moving)) return
-        associate (moving => ground%moving, layers => ground%layers)
-            ground%beam%supports%contact = moving%supports(1, :) + factor*moving%supports(2, :)
-            layers%contact_a = moving%layers(1, 1, :) + factor*moving%layers(2, 1, :)
-            layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
-        end associate
-        if (.not. allocated(ground%moving%tension)) return
-        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :))
-            ground%pieces%tension = at_zero + factor*growth
-            ground%pieces%compression = max(0.0_wp, -at_zero, -(at_zero + greatest_near(factor)*growth))
-        end associate
-    end subroutine move_ground
-
-    !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
-    !> to another stay short enough
-    pure function greatest_near(factor) result(greatest)
-        real(wp), intent(in) :: factor
-        real(wp) :: greatest
-
-        greatest = 1.0_wp
-        do while (greatest < abs(factor))
-            greatest = 4*greatest
-        end do
-        greatest = sign(greatest, factor)
-    end function greatest_near
-
-    !> The beam under a share of its axial forces
-    pure function under_share(ground, share) result(changed)
-        type(ground_type), intent(in) :: ground
-        real(wp), intent(in) :: share
-        type(ground_type) :: changed
-
-        changed = ground
-        associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
-            changed%pieces%tension = of_ground + share*(given - of_ground)
-        end associate
-    end function under_share
 
     !> Room for stretches
     pure subroutine new_zones(stretches, layers, steps, zones)

@@ -12,8 +12,8 @@ module gapbeam_modes
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_ground_laws, only: between
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, under_share, new_zones, stretch_on_layers, &
-        place_stretches
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
+    use gapbeam_moved_ground, only: under_share
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     implicit none
     private

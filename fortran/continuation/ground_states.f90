@@ -8,7 +8,8 @@ module gapbeam_ground_states
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, move_ground
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type
+    use gapbeam_moved_ground, only: move_ground
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin

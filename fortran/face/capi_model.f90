@@ -43,7 +43,7 @@ module gapbeam_capi_model
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
         type(c_ptr) :: hinge_stiffness = c_null_ptr
         type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
-        integer(c_int) :: N_grows = 0
+        integer(c_int) :: N_grows = 0, first_order = 0
     end type c_model
 
 contains
@@ -100,6 +100,7 @@ contains
         sizes(:) = sizes_of_model()
         with_laws = c%size >= sizes(2)
         with_all = c%size == sizes(1)
+        model%first_order = .not. with_all
         points = 0
         if (with_laws) then
             points = c%law_points
@@ -136,6 +137,7 @@ contains
             if (has_reals(c%N, c%spans, reals)) model%spans%N = reals
             if (has_reals(c%mass, c%spans, reals)) model%spans%mass = reals
             model%N_grows = c%N_grows /= 0
+            model%first_order = c%first_order /= 0
             allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
             if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
         end if

@@ -94,7 +94,9 @@ contains
                 model%spans%mass = axial(2, 1:nspan)
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
-            if (present(igrow)) model%N_grows = igrow /= 0
+            if (present(igrow)) model%N_grows = modulo(igrow, 2) /= 0
+            model%first_order = .not. present(igrow)
+            if (present(igrow)) model%first_order = igrow > 1
             call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then

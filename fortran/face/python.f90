@@ -27,7 +27,7 @@ end subroutine gbtole
 
 ! Prepare a beam
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
-                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, grows, thread, &
+                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, forces, thread, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, keep_beam, listen, report
     use gapbeam_scene, only: model_type
@@ -41,8 +41,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
-    ! Does N grow with the load factor (1)
-    integer, intent(in) :: grows
+    ! Does N grow with the load factor (1); do axial loads have no effect on bending (1)
+    integer, intent(in) :: forces(2)
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
@@ -67,7 +67,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
                                                              aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
                                                              model, error)
-    model%N_grows = grows /= 0
+    model%N_grows = forces(1) /= 0
+    model%first_order = forces(2) /= 0
     if (.not. allocated(error)) call keep_beam(model, handle, error)
     beam = number_of(handle)
     call report(error, status, message)
@@ -141,7 +142,8 @@ subroutine gbsize(beam, sizes, units)
     integer(8), intent(in) :: beam
     ! NP, NL, NS, NM, NB (-1 without an axial system), and whether there are hinges, rotational restraints, shear
     ! flexibility, one-sided supports that can carry, laws, laws on whose path the state depends, links along
-    ! the beam (1) or ground (2); layers of ground, -1 where it is not solved in stretches; does bending feel axial forces
+    ! the beam (1) or ground (2); layers of ground, -1 where it is not solved in stretches; does bending feel axial forces that
+    ! are given (1), and those of loads (2)
     integer, intent(out) :: sizes(14)
     ! Exponents of two: length, force, deflection
     integer, intent(out) :: units(3)
@@ -154,7 +156,7 @@ subroutine gbsize(beam, sizes, units)
                  merge(1, 0, any(lowered%pieces%shear_flexibility > 0.0d0)), merge(1, 0, any(lowered%beam%supports%side /= 0)), &
                  merge(1, 0, size(lowered%law) > 0), merge(1, 0, lowered%depends_on_path), &
                  merge(1, 0, allocated(lowered%axial%laws)) + merge(2, 0, allocated(lowered%axial%limit)), -1, &
-                 merge(1, 0, any(abs(lowered%pieces%tension) > 0.0d0))]
+                 merge(1, 0, any(abs(lowered%pieces%tension) > 0.0d0)) + merge(2, 0, lowered%model%axial_loads_bend)]
         if (allocated(lowered%layers)) sizes(13) = size(lowered%layers)
         units = [lowered%units%length, lowered%units%force, lowered%units%deflection]
         if (allocated(lowered%axial%point)) sizes(5) = ubound(lowered%axial%point, 1)

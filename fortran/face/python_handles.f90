@@ -78,6 +78,7 @@ contains
                 call move_alloc(model%ground_law, kept%ground_law)
                 call move_alloc(model%loads, kept%loads)
                 kept%N_grows = model%N_grows
+                kept%first_order = model%first_order
             end associate
             call assemble_model(handle%beam%lowered, error)
         end if

@@ -70,7 +70,7 @@ contains
                              "the ground a stiffness")
             return
         end if
-        if (any(assembled%pieces%compression > 0.0_wp)) then
+        if (any(assembled%pieces%compression > 0.0_wp) .or. assembled%model%axial_loads_bend) then
             if (.not. is_unique(ground_of(assembled, 1.0_wp))) then
                 call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports "// &
                                  "(N below 0), which is not available in this version; give its axles as forces at places")

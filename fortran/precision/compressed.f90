@@ -10,7 +10,7 @@
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: least_compressions, most_compressions, mode_parts, most_mode_stretches
-    use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression
+    use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression, no_jump
     use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, gapbeam_no_memory, &
         gapbeam_stopped, gapbeam_bad_input
@@ -18,7 +18,8 @@ module gapbeam_compressed
     use gapbeam_law_energy, only: is_convex
     use gapbeam_piece, only: piece_type, is_compressed
     use gapbeam_ground_steps, only: greatest_modulus
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, under_share, full_contact
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
+    use gapbeam_moved_ground, only: under_share
     use gapbeam_layers, only: layer_type, has_curves
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, count_modes, find_mode_shape
@@ -325,12 +326,17 @@ contains
     pure function jumps(one, other) result(far)
         type(ground_solution_type), intent(in) :: one, other
         logical :: far
+        !> How far stretches bend under a force
+        real(wp) :: compliance(size(one%stretches))
 
         if (size(one%ends) /= size(other%ends)) then
-            far = apart(one%deflection, other%deflection)
+            far = apart(one%deflection, other%deflection, 0.0_wp)
             return
         end if
-        far = apart(motion(one), motion(other)) .or. apart(forces(one), forces(other))
+        compliance(:) = one%stretches%flexibility*one%stretches%length**2
+        far = apart(motion(one), motion(other), no_jump*maxval(compliance)*maxval(abs(forces(one))))
+        if (far .or. .not. any(compliance > 0.0_wp)) return
+        far = apart(forces(one), forces(other), no_jump/minval(compliance, compliance > 0.0_wp)*maxval(abs(motion(one))))
 
     contains
 
@@ -354,12 +360,12 @@ contains
             end associate
         end function forces
 
-        !> Is a difference greater than the smaller one of two
-        pure function apart(a, b)
-            real(wp), intent(in) :: a(:), b(:)
+        !> Is a difference greater than the smaller one of two, and than what is rounding beside the other kind
+        pure function apart(a, b, rounding)
+            real(wp), intent(in) :: a(:), b(:), rounding
             logical :: apart
 
-            apart = maxval(abs(a - b)) > min(maxval(abs(a)), maxval(abs(b)))
+            apart = maxval(abs(a - b)) > max(rounding, min(maxval(abs(a)), maxval(abs(b))))
         end function apart
 
     end function jumps

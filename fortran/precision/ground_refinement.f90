@@ -5,10 +5,12 @@
 module gapbeam_ground_refinement
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_ground, only: ground_type, move_ground
+    use gapbeam_ground, only: ground_type
+    use gapbeam_moved_ground, only: move_ground
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, move_finely => move_ground
+        fine_grounded_type => grounded_type
+    use gapbeam_moved_ground_quad, only: move_finely => move_ground
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_zones_quad, only: polish_zones

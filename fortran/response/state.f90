@@ -12,7 +12,9 @@ module gapbeam_state
     use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
-    use gapbeam_ground, only: ground_type, move_ground
+    use gapbeam_ground, only: ground_type
+    use gapbeam_moved_ground, only: move_ground
+    use gapbeam_axial_tension, only: tensions_of_loads, check_tensions
     use gapbeam_compressed, only: solve_with_axial_force
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type, words_for
@@ -47,6 +49,7 @@ contains
         !> On the ground: where to begin, before the search starts as ever
         type(ground_start_type), intent(in), optional :: near
         type(beam_type) :: changed
+        type(ground_type) :: ground
 
         call forget(state)
         state%factor = factor
@@ -58,7 +61,9 @@ contains
         if (allocated(assembled%layers)) then
             call check_room(assembled, state, error)
             if (allocated(error)) return
-            call settle_on_ground(assembled, ground_of(assembled, factor), rule, state, error, near)
+            ground = ground_of(assembled, factor)
+            if (assembled%model%axial_loads_bend) call check_tensions(assembled, ground, error)
+            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
         else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
             changed%supports(:) = laws_in(assembled, state)
@@ -194,7 +199,8 @@ contains
         ground%layers(:) = assembled%layers
         ground%first(:) = assembled%layer_first
         ground%laws(:) = assembled%law_pieces
-        grows = allocated(assembled%growth) .or. allocated(assembled%layer_growth) .or. allocated(assembled%tension_growth)
+        grows = allocated(assembled%growth) .or. allocated(assembled%layer_growth) .or. allocated(assembled%tension_growth) &
+            .or. assembled%model%axial_loads_bend
         if (.not. grows) return
         allocate (ground%moving)
         associate (moving => ground%moving)
@@ -204,10 +210,15 @@ contains
             moving%layers(1, 1, :) = ground%layers%contact_a
             moving%layers(1, 2, :) = ground%layers%contact_b
             if (allocated(assembled%layer_growth)) moving%layers(2, :, :) = assembled%layer_growth
-            if (allocated(assembled%tension_growth)) then
+            if (allocated(assembled%tension_growth) .or. assembled%model%axial_loads_bend) then
                 allocate (moving%tension(2, size(ground%pieces)))
-                moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
-                moving%tension(2, :) = assembled%tension_growth
+                moving%tension(1, :) = ground%pieces%tension
+                moving%tension(2, :) = 0.0_wp
+                if (allocated(assembled%tension_growth)) then
+                    moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
+                    moving%tension(2, :) = assembled%tension_growth
+                end if
+                if (assembled%model%axial_loads_bend) moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
             end if
         end associate
         call move_ground(ground, factor)

@@ -151,7 +151,7 @@ contains
         if (what == by_vibration) then
             it_has = any(assembled%pieces%mass > 0.0_wp)
         else
-            it_has = any(is_compressed(assembled%pieces))
+            it_has = any(is_compressed(assembled%pieces)) .or. assembled%model%axial_loads_bend
         end if
     end function has_any
 

@@ -6,12 +6,12 @@
 module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, no_memory, gapbeam_no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
-    use gapbeam_scene, only: gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_movement, &
-        gapbeam_dead, gapbeam_right_end
+    use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, &
+        gapbeam_movement, gapbeam_dead, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, is_stretch, is_movement, is_of_support
-    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force
+    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force, axial_loads_may_bend
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
@@ -42,6 +42,33 @@ contains
         type(assembled_type), intent(inout) :: assembled
         !> Bad input, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
+        type(model_type), allocatable :: given
+        type(assembled_type), allocatable :: other
+        integer :: stat
+
+        call assemble_once(assembled, given, error)
+        if (.not. assembled%model%axial_loads_bend .or. .not. (allocated(error) .or. assembled%depends_on_path)) return
+        if (allocated(error)) then
+            if (error%code == gapbeam_no_memory) return
+        end if
+        ! Beside what else there is bending cannot feel axial loads in this version: then of first order, as in the first versions
+        allocate (other, stat=stat)
+        if (stat /= 0) return
+        other%model = given
+        other%model%first_order = .true.
+        if (allocated(error)) deallocate (error)
+        deallocate (given)
+        call assemble_once(other, given, error)
+        assembled = other
+    end subroutine assemble_model
+
+    !> The same, with axial loads that bend the beam if they may
+    subroutine assemble_once(assembled, given, error)
+        !> As for assemble_model
+        type(assembled_type), intent(inout) :: assembled
+        !> The model as it was given, if axial loads bend
+        type(model_type), allocatable, intent(out) :: given
+        type(error_type), allocatable, intent(out) :: error
         integer :: stat, n
 
         associate (model => assembled%model)
@@ -69,6 +96,12 @@ contains
                 return
             end if
             assembled%with_law(:) = have_laws(model, assembled%law)
+            model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
+            if (model%axial_loads_bend) allocate (given, source=model, stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
             call check_rest(model, assembled%with_law, assembled%ends, error)
             if (.not. allocated(error)) call check_along(model, assembled%law, assembled%with_law, error)
             if (allocated(error)) return
@@ -85,7 +118,7 @@ contains
         call assemble_supports(assembled, error)
         if (allocated(error)) return
         call assemble_loads(assembled, error)
-    end subroutine assemble_model
+    end subroutine assemble_once
 
     !> Movements of supports: those with the dead loads are settlements, the others grow with the load factor
     subroutine take_movements(assembled, error)

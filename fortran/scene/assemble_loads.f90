@@ -7,7 +7,8 @@ module gapbeam_assemble_loads
     use gapbeam_range, only: first_lost_link
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_linear_curvature, &
         gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
-    use gapbeam_assembled_model, only: assembled_type, fingerprint, is_along, is_movement, is_stretch
+    use gapbeam_fingerprint, only: fingerprint
+    use gapbeam_assembled_model, only: assembled_type, is_along, is_movement, is_stretch
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations

@@ -7,14 +7,16 @@ module gapbeam_axial_force
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
     use gapbeam_words, only: shown
-    use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points
+    use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_axial, &
+        force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
+    use gapbeam_laws, only: is_smooth
     use gapbeam_units, only: rotation_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
     private
-    public :: has_axial_force, in_stretches, what_stretches, check_axial_force, assign_axial_force
+    public :: has_axial_force, axial_loads_may_bend, in_stretches, what_stretches, check_axial_force, assign_axial_force
 
 contains
 
@@ -24,9 +26,39 @@ contains
         type(model_type), intent(in) :: model
         logical :: it_has
 
-        it_has = any(abs(model%spans%N) > 0.0_wp) &
+        it_has = any(abs(model%spans%N) > 0.0_wp) .or. model%axial_loads_bend &
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function has_axial_force
+
+    !> Are there forces of axial loads, temperatures and settlements that bending might feel: those of a chain of bars and springs,
+    !> constant from place to place
+    pure function axial_loads_may_bend(model, with_law) result(they_may)
+        !> With all its arrays allocated
+        type(model_type), intent(in) :: model
+        !> Which supports have a law
+        logical, intent(in) :: with_law(:)
+        logical :: they_may
+        integer :: i
+
+        they_may = .false.
+        if (model%first_order) return
+        associate (s => model%supports, loads => model%loads)
+            ! One support lets temperatures and settlements pass
+            they_may = any(s%direction == gapbeam_axial) .and. any(loads%kind == force_along) &
+                .or. count(s%direction == gapbeam_axial) > 1 &
+                .and. (any(s%direction == gapbeam_axial .and. abs(s%settlement) > 0.0_wp) &
+                       .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp))
+            if (.not. they_may) return
+            they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
+                              .or. any(s%friction > 0.0_wp) .or. any(model%sections%friction > 0.0_wp) .or. any(is_smooth(s%law)) &
+                              .or. any(loads%kind == gapbeam_axial_distributed))
+            do i = 1, size(loads)
+                if (loads(i)%kind /= gapbeam_movement) cycle
+                if (loads(i)%node < 1 .or. loads(i)%node > size(s)) cycle
+                they_may = they_may .and. s(loads(i)%node)%direction /= gapbeam_axial
+            end do
+        end associate
+    end function axial_loads_may_bend
 
     !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or
     !> with mass

@@ -212,8 +212,8 @@ module gapbeam_scene
         type(ground_point_type), allocatable :: ground(:)
         type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)
-        !> Does N of spans and sections grow with the load factor, or is it the same at all of them
-        logical :: N_grows = .false.
+        !> Does N grow with the load factor; are axial loads not to bend the beam; do they (found where a beam is prepared)
+        logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false.
     end type model_type
 
 contains

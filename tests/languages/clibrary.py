@@ -99,7 +99,7 @@ class Model(c.Structure):
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
-        ("N_grows", c.c_int),
+        *((name, c.c_int) for name in ("N_grows", "first_order")),
     )
 
 
@@ -225,6 +225,7 @@ def columns(scene):
         **{key: spread(key) for key in ("EI", "GA", "EA")},
         **{key: spread(key, 0.0) for key in ("N", "mass")},
         "N_grows": int(scene.get("analysis", {}).get("N_with") == "live"),
+        "first_order": int(scene.get("analysis", {}).get("first_order", False)),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -581,7 +582,8 @@ class F77Beam:
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
-        feels = a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
+        pressed = not a["first_order"] and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
+        feels = pressed or a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
         if len(ilaw) or len(sides) or named or feels:
@@ -597,7 +599,7 @@ class F77Beam:
             tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
-            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], a["N_grows"]]
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], a["N_grows"] + 2 * a["first_order"]]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0

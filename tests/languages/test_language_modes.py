@@ -97,6 +97,26 @@ def test_columns_with_stops_agree(library):
     assert {"solved", "buckles"} <= set(seen)
 
 
+def test_axial_loads_agree(library):
+    """That bending feels, and of first order where that is asked for."""
+    pressed = 0
+    for seed in range(16):
+        scene = column(seed, share=0.8)
+        force = scene["beam"].pop("N")
+        scene["supports"].append({"node": 0, "direction": "axial"})
+        scene["loads"].append({"type": "axial", "node": 1, "F": force, "case": ("dead", "live")[seed % 2]})
+        scene["analysis"] = {"rule": "block", "first_order": seed % 4 == 3}
+        result = python_result(scene)
+        assert result._beam.feels_axial_loads is (seed % 4 < 3)
+        beam, f77, _ = both(library, scene)
+        status, _ = beam.solve(1.0)
+        assert f77.solve(1.0) == status == 0
+        assert_same_state(beam, f77, result, scene, random.Random(seed))
+        pressed += result._beam.feels_axial_loads
+        beam.close()
+    assert pressed == 12
+
+
 def test_load_paths_agree(library):
     """From event to event with axial forces that stay what they are, or grow."""
     events = 0

@@ -41,8 +41,8 @@ class Columns(Record):
         Points of the tables of foundations: number of the foundation, from 1; x, value, and of what, as in gapbeam_scene, 3 rows.
     ground_law_foundations, ground_law : numpy.ndarray
         Points of the laws of foundations: number of the foundation, from 1; displacement, force per length, and place, 3 rows.
-    N_grows : bool
-        Whether the axial forces N grow with the load factor.
+    axial_forces : numpy.ndarray of int
+        Whether the axial forces N grow with the load factor; whether axial loads have no effect on bending.
     """
 
     span: np.ndarray
@@ -60,7 +60,7 @@ class Columns(Record):
     table: np.ndarray
     ground_law_foundations: np.ndarray
     ground_law: np.ndarray
-    N_grows: bool
+    axial_forces: np.ndarray
 
     def of_tables(self, quantity: int) -> tuple[np.ndarray, np.ndarray]:
         """Give the points of the tables of one quantity.

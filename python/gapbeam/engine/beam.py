@@ -68,8 +68,9 @@ class Beam(Layout):
         What of that there is; a one-sided support that can carry.
     ground_layers : int
         Layers of ground under all its pieces; 0 without foundations.
-    in_stretches, has_axial_force : bool
-        Whether it is solved stretch by stretch, as on the ground; whether bending feels axial forces, as it does then.
+    in_stretches, has_axial_force, feels_axial_loads : bool
+        Whether it is solved stretch by stretch, as on the ground; whether bending feels axial forces, as it does then; whether it
+        feels those of axial loads.
     has_laws, depends_on_path : bool
         A support with a law; one whose force may fall, or that does not unload along its law.
 
@@ -91,7 +92,7 @@ class Beam(Layout):
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
             c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load,
-            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law, c.N_grows,
+            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law, c.axial_forces,
         )  # fmt: skip
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())
@@ -105,7 +106,8 @@ class Beam(Layout):
         self.spare: deque[np.ndarray] = deque(maxlen=1)
         sizes, units = _engine.gbsize(handle)
         self.pieces, self.links, self.supports, self.scene_supports, self.bars, *has, layers, forced = sizes.tolist()
-        self.in_stretches, self.ground_layers, self.has_axial_force = layers >= 0, max(layers, 0), bool(forced)
+        self.in_stretches, self.ground_layers, self.has_axial_force = layers >= 0, max(layers, 0), forced > 0
+        self.feels_axial_loads = forced > 1
         (
             self.has_hinges, self.has_restraints, self.has_shear, self.is_one_sided, self.has_laws, self.depends_on_path,
             self.has_links_along,

@@ -27,7 +27,7 @@ LEFT_OUT = {
 }
 """By the words of `System.left_out`."""
 FIRST_ORDER = "Equilibrium is that of the undeformed beam (first order). Deflections and rotations are small."
-SECOND_ORDER = "Equilibrium is that of the deflected beam under the axial forces N that are given (second order). Slopes are small."
+SECOND_ORDER = "Equilibrium is that of the deflected beam under its axial forces (second order). Slopes are small."
 ALWAYS = (
     "The material is linear elastic. Supports and ground do what their keys in the input say, and nothing else.",
     "Loads act slowly: there are no inertia forces. Weight, impact and partial factors count only where the input has them.",

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 from ..base.errors import EngineError, SceneError
 from ..results import formatting as fmt
 from ..results.answer import is_one_of_several
-from ..results.equilibrium import axial_forces
+from ..results.equilibrium import acting_axial_forces, axial_forces
 from ..results.stepping import solve
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.step import Step
-    from ..scene.structs import Scene
     from .writer import Writer
 
 MOST_STRETCHES = 4
@@ -43,10 +42,10 @@ def write_axial_force(say: Writer, result: Result, at: str) -> None:
     at : str
         Which state it is.
     """
-    analysis, scene = result.scene.analysis, result.scene
+    analysis = result.scene.analysis
     if result._beam.has_axial_force:
         say.heading(f"Axial force in bending {at}")
-        say.line(axial_forces_in_words(scene))
+        say.line(axial_forces_in_words(result, result.steps[-1]))
         say.line("shear = dM/dx, normal to the deflected axis: sections are designed for it. transverse = shear + N w': loads and "
                  "reactions balance it.", "dim")  # fmt: skip
         if words := _beside_first_order(result):
@@ -86,20 +85,26 @@ def write_modes_of_combinations(say: Writer, result: Result) -> None:
         say.line(f"Under compression other stable states are not excluded in {', '.join(several)}.", "red")
 
 
-def axial_forces_in_words(scene: Scene) -> str:
+def axial_forces_in_words(result: Result, step: Step | None) -> str:
     """Say where which axial force acts.
 
     Parameters
     ----------
-    scene : Scene
-        With axial forces.
+    result : Result
+        Of one load, with axial forces that bending feels.
+    step : Step or None
+        The state; None: the beam buckles.
 
     Returns
     -------
     str
-        A sentence.
+        Sentences.
     """
-    runs = axial_forces(scene)
+    scene = result.scene
+    of_loads = "Forces of axial loads, temperatures and settlements act on bending (second order)."
+    if result._beam.feels_axial_loads and step is None:
+        return of_loads
+    runs = axial_forces(scene) if step is None else acting_axial_forces(result, step)
     ends = "all along the beam" if len(runs) == 1 else ""
     texts = [
         f"{fmt.value(scene, 'axial_force', N)}{'' if not N else ' (tension)' if N > 0.0 else ' (compression)'} "
@@ -108,7 +113,7 @@ def axial_forces_in_words(scene: Scene) -> str:
     ]
     growth = "It grows with the load factor" if scene.analysis.N_with == "live" else "It acts in full at every load factor"
     more = f"; and so on, {len(runs)} stretches" if len(runs) > MOST_STRETCHES else ""
-    return f"N = {'; '.join(texts)}{more}. {growth}."
+    return f"N = {'; '.join(texts)}{more}. {of_loads if result._beam.feels_axial_loads else growth + '.'}"
 
 
 def some_of(motion: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -133,7 +138,7 @@ def _beside_first_order(result: Result) -> str:
     if result._beam.pieces > MOST_PIECES:
         return ""
     data = result.scene.to_dict()
-    data["beam"]["N"], data["analysis"] = 0.0, {"rule": result._rule}
+    data["beam"]["N"], data["analysis"] = 0.0, {"rule": result._rule, "first_order": True}
     data["sections"] = [kept for one in data.get("sections", ()) if {*(kept := _without(one, "N"))} - {"from", "to"}]
     data.pop("combinations", None)
     try:

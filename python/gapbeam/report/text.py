@@ -146,7 +146,7 @@ def _no_solution(say: "Writer", result: "Result") -> None:
         say.line()
         motion = result.motion
         if result.status == "buckles":
-            say.line(axial_forces_in_words(scene))
+            say.line(axial_forces_in_words(result, None))
             say.line("The mode (sign and scale arbitrary):")
             motion = some_of(motion)
         else:

@@ -161,6 +161,34 @@ def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
     return list(zip(cuts[first].tolist(), cuts[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
 
 
+def acting_axial_forces(result: Result, step: Step) -> list[tuple[float, float, float]]:
+    """Give the axial forces that bending feels in a state: those given, as far as they have grown, and those of axial loads.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+    step : Step
+        One of its states.
+
+    Returns
+    -------
+    list of (float, float, float)
+        As from `axial_forces`.
+    """
+    scene, beam = result.scene, result._beam
+    share = step.factor if scene.analysis.N_with == "live" else 1.0
+    runs = [(from_, to, share * N) for from_, to, N in axial_forces(scene)]
+    if not beam.feels_axial_loads:
+        return runs
+    x = beam.places.point_x
+    middle = (x[:-1] + x[1:]) / 2.0
+    given = np.array([N for *_, N in runs])[np.searchsorted([to for _, to, _ in runs[:-1]], middle)]
+    force = given + result.at_state(step, middle).axial_force
+    first = np.flatnonzero(np.append(True, np.diff(force) != 0.0))
+    return list(zip(x[first].tolist(), x[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
+
+
 class Turning(NamedTuple):
     """A moment about x = 0, clockwise, of a force along the deflected beam."""
 
@@ -186,7 +214,7 @@ def moments_on_deflected_axis(result: Result, step: Step) -> list[Turning]:
     """
     scene, changes = result.scene, []
     if result._beam.has_axial_force:
-        runs = axial_forces(scene)
+        runs = acting_axial_forces(result, step)
         places, inner = [0.0, *(to for _, to, _ in runs)], [0.0, *(N for *_, N in runs), 0.0]
         changes += [("axial force N", x, right - left) for x, left, right in zip(places, inner[:-1], inner[1:], strict=True)]
     for one in scene.foundation:

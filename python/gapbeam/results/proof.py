@@ -118,8 +118,13 @@ def _one_load(scene: Scene, combination: str | None) -> Scene:
 def _at_factor(scene: Scene, factor: float) -> Scene:
     """The scene whose state in full is that of the load factor, reached in one step."""
     loads = [load if load.case == "dead" or factor == 1.0 else times(load, factor) for load in scene.loads]
-    once = msgspec.structs.replace(scene.analysis, steps=1, follow="steps", history=[1.0], at_limit="stop")
-    return as_curvatures(settle_movements(msgspec.structs.replace(scene, loads=loads, analysis=once)), those_that_bend_only=True)
+    once = msgspec.structs.replace(scene.analysis, steps=1, follow="steps", history=[1.0], at_limit="stop", N_with="dead")
+    grown = scene
+    if scene.analysis.N_with == "live":
+        N = (factor * np.asarray(scene.beam.N)).tolist()
+        sections = [one if one.N is None else msgspec.structs.replace(one, N=factor * one.N) for one in scene.sections]
+        grown = msgspec.structs.replace(scene, beam=msgspec.structs.replace(scene.beam, N=N), sections=sections)
+    return as_curvatures(settle_movements(msgspec.structs.replace(grown, loads=loads, analysis=once)), those_that_bend_only=True)
 
 
 def _on_path(result: Result, factor: float) -> Step | None:

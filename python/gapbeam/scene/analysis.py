@@ -27,8 +27,8 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     history : list of float
         Load factors (no unit) gone through in turn, from event to event; default [1.0].
     first_order : bool
-        True: axial forces are meant to have no effect on bending, also where compression is beyond the Euler load. Default
-        false: such a scene is refused, since that effect is left out.
+        True: axial loads are meant to have no effect on bending, also where compression is beyond the Euler load. Default
+        false: bending feels them; where that is not available, a scene with such compression is refused.
     buckling : int
         How many factors by which all axial forces N must be multiplied for the beam to buckle are found, with the supports and the
         ground that act at the end; default 0.

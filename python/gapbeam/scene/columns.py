@@ -110,8 +110,14 @@ def columns(scene: Scene) -> Columns:
     return Columns(
         span, hinge, _sections(scene.sections, scene.axial_ground), codes, values, law_supports, law, load_codes, load_values,
         *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
-        scene.analysis.N_with == "live",
+        np.array([scene.analysis.N_with == "live", _is_of_first_order(scene)], np.int32),
     )  # fmt: skip
+
+
+def _is_of_first_order(scene: Scene) -> bool:
+    """Whether axial loads have no effect on bending: where that is asked for, and beside what is followed without it."""
+    asked = scene.analysis
+    return asked.first_order or asked.has_history or asked.at_limit != "stop" or bool(scene.trains)
 
 
 def curves(scene: Scene, taken: Columns) -> tuple[tuple[int, Curve], ...]:

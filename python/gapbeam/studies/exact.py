@@ -24,6 +24,7 @@ from ..results.equilibrium import axial_forces
 from ..scene.ground_tables import at_both_ends
 from ..scene.loads import CurvatureLoad, ForceLoad, MomentLoad
 from ..scene.places import locate
+from ..scene.reading import read_beam
 from ..scene.rotations import which_turn
 from ..scene.sides import SIDES
 from ..scene.structs import Scene
@@ -66,6 +67,9 @@ class Reference:
             raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
         if any(force for *_, force in axial_forces(scene)):
             raise SceneError("beam.N", "the exact solution of the study does not know axial forces in bending; leave them out")
+        if read_beam(scene)[1].feels_axial_loads:
+            what = "axial loads that bend the beam; say analysis.first_order = true"
+            raise SceneError("loads", f"the exact solution of the study does not know {what}")
         if which_turn(scene.supports).any():
             what = "restraints and hinges with laws, a slack or a side"
             raise SceneError("supports", f"the exact solution of the study does not know {what}; leave them out")

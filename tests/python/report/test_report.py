@@ -83,7 +83,7 @@ def test_csv_has_axial_columns_only_with_axial_loads():
     scene["loads"].append({"type": "axial", "node": 2, "F": 3.0})
     result = gapbeam.solve(scene)
     header = to_csv(result).partition("\n")[0]
-    assert header.endswith("shear [kN],axial_force [kN],axial_displacement [m],curvature [1/m]")
+    assert header.endswith("shear [kN],axial_force [kN],axial_displacement [m],curvature [1/m],transverse [kN]")
     text = report_text(result)
     assert "axial force [kN]" in text
     assert "axial forces" not in text.partition("left out")[2].partition("\n\n")[0]

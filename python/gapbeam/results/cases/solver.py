@@ -64,7 +64,7 @@ class CaseSolver(Pickled):
         self._carries = None if np.array_equal(beam.numbers, self.supports) else np.searchsorted(self.supports, beam.numbers)
         # What its effect on bending is, is left out: cases whose compression is beyond the Euler load are refused
         axial = len(beam.bends) - int(beam.bends.sum())
-        self.may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order
+        self.may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order and not beam.feels_axial_loads
         self.one = self._condense()
 
     def __getstate__(self) -> dict[str, Any]:

@@ -57,7 +57,7 @@ def compression_of(result: Result, step: Step, struts: Struts | None = None) -> 
         None where nothing is compressed.
     """
     beam = result._beam
-    if beam.bars < 0:
+    if beam.bars < 0 or beam.feels_axial_loads:
         return None
     struts, tension = struts_of(beam) if struts is None else struts, tensions(beam, step)
     if not tension.min() < 0.0:
@@ -78,7 +78,7 @@ def check_compression(result: Result) -> None:
     SceneError
         It is, and ``analysis.first_order`` does not let it pass.
     """
-    if result._beam.bars < 0:
+    if result._beam.bars < 0 or result._beam.feels_axial_loads:
         return
     struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
     is_straight = not (result._beam.is_on_axial_ground or any(isinstance(load, AxialUniformLoad) for load in result.scene.loads))

@@ -6,6 +6,8 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.report import report_text
+from gapbeam.results.equilibrium import acting_axial_forces
+from gapbeam.results.proof import proof_data
 from mpmath import mp, mpf
 from scenes import force, uniform
 
@@ -108,6 +110,16 @@ def test_factors_of_buckling_are_those_of_the_axial_force_there():
     scene["combinations"] = [{"name": "A", "factors": {"q": 1.0}}]
     alone = gapbeam.solve(column(0.8)).steps[-1].reaction
     np.testing.assert_array_equal(gapbeam.solve(scene).combinations["A"].steps[-1].reaction, alone)
+
+
+def test_sums_and_proofs_have_what_has_grown():
+    """Half of the axial force at half of the loads."""
+    result = gapbeam.solve(column(0.8, N_with="live", steps=2))
+    for step, share in zip(result.steps, (0.4, 0.8), strict=True):
+        assert acting_axial_forces(result, step) == [(0.0, 1.0, -share * PE)]
+    scene = proof_data(column(0.8, N_with="live"), factor=0.5)["scene"]
+    assert scene["beam"]["N"] == -0.4 * PE
+    assert scene["loads"][0]["q"] == 0.5
 
 
 def test_the_report_says_so():

@@ -11,10 +11,17 @@ import pytest
 from gapbeam import SceneError
 from gapbeam.cli import main
 from gapbeam.report.text import report_text
+from gapbeam.scene import columns
 from scenes import at, force, scene, uniform
 
 EULER = math.pi**2
 AXIAL = {"node": 0, "direction": "axial"}
+
+
+@pytest.fixture(autouse=True)
+def first_order(monkeypatch):
+    """As beside all that axial loads that bend are not available with."""
+    monkeypatch.setattr(columns, "_is_of_first_order", lambda scene: True)
 
 
 def push(P, **keys):

@@ -134,7 +134,7 @@ def test_a_column_buckles_beside_its_stop():
 
 
 def test_a_deflection_that_passes_zero_is_no_jump():
-    """At the only place of the left span that was looked at: the path was not followed beyond that, though nothing happens there."""
+    """At the only place of the left span that was looked at: the path ended there, though nothing happens."""
     scene = {
         "beam": {"spans": [5.0, 5.0], "EI": 100.0, "N": [-20.04545455, 0.95454545]},
         "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}],
@@ -144,6 +144,17 @@ def test_a_deflection_that_passes_zero_is_no_jump():
     assert not step.unique
     two_sided = {**scene, "supports": [{"node": 0}, {"node": 1}, {"node": 2}]}
     np.testing.assert_allclose(step.reaction, gapbeam.solve(two_sided).steps[-1].reaction, rtol=1e-14)
+
+
+@pytest.mark.parametrize(("N", "status"), [(-1.99, "solved"), (-2.01, "buckles"), (-3.9, "buckles")])
+def test_moments_that_are_rounding_are_no_jump(N, status):
+    """A long beam with free ends under a uniform load on even ground only sinks; it buckles from an end, at sqrt(k EI)."""
+    beam = {"spans": [30.0], "EI": 1.0, "N": N}
+    result = gapbeam.solve({"beam": beam, "supports": [], "foundation": [{"k": 4.0}], "loads": [uniform(1.0)]})
+    assert result.status == status
+    if result.status == "buckles":
+        (share,) = re.findall("bears (.*) times", result.reason)
+        assert float(share) * N == pytest.approx(-2.0, rel=1e-5)
 
 
 @pytest.mark.parametrize("N", [-1e4, -1e9, -1e300])

@@ -1,0 +1,55 @@
+!> A beam on the ground at a load factor, which moves supports and ground and lets axial forces grow, and under a share of these.
+module gapbeam_moved_ground
+    use gapbeam_kinds, only: wp
+    use gapbeam_ground, only: ground_type
+    implicit none
+    private
+    public :: move_ground, under_share
+
+contains
+
+    !> Move supports and ground to where they are at a load factor, with the axial forces there
+    pure subroutine move_ground(ground, factor)
+        !> As it is at any factor
+        type(ground_type), intent(inout) :: ground
+        real(wp), intent(in) :: factor
+
+        if (.not. allocated(ground%moving)) return
+        associate (moving => ground%moving, layers => ground%layers)
+            ground%beam%supports%contact = moving%supports(1, :) + factor*moving%supports(2, :)
+            layers%contact_a = moving%layers(1, 1, :) + factor*moving%layers(2, 1, :)
+            layers%contact_b = moving%layers(1, 2, :) + factor*moving%layers(2, 2, :)
+        end associate
+        if (.not. allocated(ground%moving%tension)) return
+        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :))
+            ground%pieces%tension = at_zero + factor*growth
+            ground%pieces%compression = max(0.0_wp, -at_zero, -(at_zero + greatest_near(factor)*growth))
+        end associate
+    end subroutine move_ground
+
+    !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
+    !> to another stay short enough
+    pure function greatest_near(factor) result(greatest)
+        real(wp), intent(in) :: factor
+        real(wp) :: greatest
+
+        greatest = 1.0_wp
+        do while (greatest < abs(factor))
+            greatest = 4*greatest
+        end do
+        greatest = sign(greatest, factor)
+    end function greatest_near
+
+    !> The beam under a share of its axial forces
+    pure function under_share(ground, share) result(changed)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: share
+        type(ground_type) :: changed
+
+        changed = ground
+        associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
+            changed%pieces%tension = of_ground + share*(given - of_ground)
+        end associate
+    end function under_share
+
+end module gapbeam_moved_ground

@@ -1,0 +1,97 @@
+!> Axial forces of loads, temperatures and settlements along the beam, where bending feels them.
+!>
+!> The chain of bars and springs is solved for itself: slopes are small, so bending does not change its forces. These grow straight
+!> with the load factor.
+module gapbeam_axial_tension
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type
+    use gapbeam_words, only: shown
+    use gapbeam_units, only: rotation_unit
+    use gapbeam_axial_quad, only: solve_axial
+    use gapbeam_axial, only: axial_ok
+    use gapbeam_ground, only: ground_type
+    use gapbeam_input_error, only: refuse_range
+    use gapbeam_assembled_model, only: assembled_type, point_x
+    implicit none
+    private
+    public :: tensions_of_loads, check_tensions
+
+contains
+
+    !> Forces in the bars at load factor 0 and by how much they grow with it, in the engine's units of forces across the beam that
+    !> slopes make of them
+    pure function tensions_of_loads(assembled) result(tension)
+        !> Whose bending feels axial loads
+        type(assembled_type), intent(in) :: assembled
+        !> Of every piece, shape (2, npiece); 0 where nothing holds the beam along its axis
+        real(wp) :: tension(2, size(assembled%pieces))
+        real(qp) :: at(2, size(assembled%axial%flexibility))
+        integer :: bar, case, piece
+
+        at(:, :) = 0.0_qp
+        do case = 1, 2
+            call solve_chain(real(case - 1, qp), at(case, :))
+        end do
+        at(2, :) = at(2, :) - at(1, :)
+        bar = 1
+        do piece = 1, size(assembled%pieces)
+            if (piece > assembled%axial%point(bar)) bar = bar + 1
+            tension(:, piece) = scale(real(at(:, bar), wp), &
+                                      assembled%axial%units%force + rotation_unit(assembled%units) - assembled%units%force)
+        end do
+
+    contains
+
+        !> Forces at a load factor
+        pure subroutine solve_chain(factor, tension)
+            real(qp), intent(in) :: factor
+            real(qp), intent(inout) :: tension(:)
+            real(qp) :: longer(size(tension)), force(0:size(tension)), reaction(0:size(tension)), displacement(0:size(tension)), &
+                        found_tension(size(tension))
+            integer :: found, place
+
+            associate (axial => assembled%axial)
+                longer(:) = 0.0_qp
+                if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + factor*axial%elongation(2, :)
+                force(:) = axial%force(1, :) + factor*axial%force(2, :)
+                call solve_axial(real(axial%flexibility, qp), longer, force, real(axial%stiffness, qp), &
+                                 real(axial%settlement, qp), displacement, found_tension, reaction, found, place)
+            end associate
+            if (found == axial_ok) tension(:) = found_tension
+        end subroutine solve_chain
+
+    end function tensions_of_loads
+
+    !> Refuse axial forces that are out of range, or so great a compression that the beam bends by shear alone
+    pure subroutine check_tensions(assembled, ground, error)
+        type(assembled_type), intent(in) :: assembled
+        !> At the load factor at hand
+        type(ground_type), intent(in) :: ground
+        type(error_type), allocatable, intent(out) :: error
+        integer :: piece
+
+        do piece = 1, size(ground%pieces)
+            associate (p => ground%pieces(piece))
+                if (.not. abs(p%tension) <= huge(1.0_wp)) then
+                    call refuse_range(error, "the axial force "//trim(place())//" is too far from the stiffnesses of the beam", &
+                                      "bring them nearer together")
+                else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
+                    call refuse_range(error, "the compression "//trim(place())//" is not below GA there, so the beam gives way "// &
+                                      "by shear alone", "give smaller axial loads, or leave GA out")
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+
+    contains
+
+        !> Where a piece is
+        pure function place() result(words)
+            character(len=100) :: words
+
+            words = "from x = "//trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))
+        end function place
+
+    end subroutine check_tensions
+
+end module gapbeam_axial_tension
