@@ -49,7 +49,8 @@ contains
         associate (lowered => beam%lowered)
             if (allocated(lowered%layers)) then
                 call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(lowered%model))//", where many "// &
-                                 "cases in one call are not available; use combine_loads and solve_beam for each")
+                                 "cases in one call are not available; use combine_loads and solve_beam for each"// &
+                                 trim(merge(", or set first_order", "                    ", lowered%model%axial_loads_bend)))
                 return
             end if
             n = size(lowered%node_point)

@@ -207,7 +207,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(beam%lowered%layers)) return
-        call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(beam%lowered%model))//": use follow_ground")
+        call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(beam%lowered%model))// &
+                         ": use follow_ground"//trim(merge(", or set first_order", "                    ", &
+                                                           beam%lowered%model%axial_loads_bend)))
     end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status

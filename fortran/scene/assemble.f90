@@ -10,7 +10,7 @@ module gapbeam_assemble
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_movement, gapbeam_dead, gapbeam_right_end
-    use gapbeam_assembled_model, only: assembled_type, is_stretch, is_movement, is_of_support
+    use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
     use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force, axial_loads_may_bend
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
@@ -42,7 +42,7 @@ contains
         type(assembled_type), intent(inout) :: assembled
         !> Bad input, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
-        type(model_type), allocatable :: given
+        type(model_type) :: given
         type(assembled_type), allocatable :: other
         integer :: stat
 
@@ -53,13 +53,19 @@ contains
         end if
         ! Beside what else there is bending cannot feel axial loads in this version: then of first order, as in the first versions
         allocate (other, stat=stat)
-        if (stat /= 0) return
-        other%model = given
+        if (stat == 0) call copy_model(given, other%model, stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         other%model%first_order = .true.
-        if (allocated(error)) deallocate (error)
-        deallocate (given)
         call assemble_once(other, given, error)
+        if (.not. allocated(error)) call reserve_memory(for_assembling, 4*size(other%pieces), 4*size(other%model%supports), &
+                                                        2*size(other%pieces), error)
+        if (allocated(error)) return
         assembled = other
+        ! With other loads it may be available
+        assembled%model%first_order = .false.
     end subroutine assemble_model
 
     !> The same, with axial loads that bend the beam if they may
@@ -67,7 +73,7 @@ contains
         !> As for assemble_model
         type(assembled_type), intent(inout) :: assembled
         !> The model as it was given, if axial loads bend
-        type(model_type), allocatable, intent(out) :: given
+        type(model_type), intent(out) :: given
         type(error_type), allocatable, intent(out) :: error
         integer :: stat, n
 
@@ -97,7 +103,7 @@ contains
             end if
             assembled%with_law(:) = have_laws(model, assembled%law)
             model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
-            if (model%axial_loads_bend) allocate (given, source=model, stat=stat)
+            if (model%axial_loads_bend) call copy_model(model, given, stat)
             if (stat /= 0) then
                 call no_memory(error)
                 return

@@ -26,9 +26,17 @@ contains
         type(model_type), intent(in) :: model
         logical :: it_has
 
-        it_has = any(abs(model%spans%N) > 0.0_wp) .or. model%axial_loads_bend &
-            .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
+        it_has = is_given(model) .or. model%axial_loads_bend
     end function has_axial_force
+
+    !> Is one given for spans or sections
+    pure function is_given(model) result(it_is)
+        type(model_type), intent(in) :: model
+        logical :: it_is
+
+        it_is = any(abs(model%spans%N) > 0.0_wp) &
+            .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
+    end function is_given
 
     !> Are there forces of axial loads, temperatures and settlements that bending might feel: those of a chain of bars and springs,
     !> constant from place to place
@@ -76,10 +84,10 @@ contains
         type(model_type), intent(in) :: model
         character(len=24) :: words
 
-        words = "a foundation"
-        if (size(model%foundations) > 0) return
-        words = "an axial force N"
-        if (.not. has_axial_force(model)) words = "a mass for frequencies"
+        words = "a mass for frequencies"
+        if (model%axial_loads_bend) words = "axial loads that bend it"
+        if (is_given(model)) words = "an axial force N"
+        if (size(model%foundations) > 0) words = "a foundation"
     end function what_stretches
 
     !> Axial forces of spans, and what resists slopes of the beam on the ground
