@@ -7,7 +7,8 @@ program test_api_modes
         get_supports, get_fields, get_quantities, get_quantity_extremes, get_motion, get_modes, get_mode_shape, get_buckling, &
         get_pressure, follow_ground, follow_load, follow_history, prepare_cases, gapbeam_buckling, gapbeam_vibration, &
         gapbeam_of_transverse, gapbeam_of_shear, gapbeam_below, gapbeam_closes, gapbeam_dead, gapbeam_limit_stop, &
-        gapbeam_solved, gapbeam_buckles, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_status_message
+        gapbeam_solved, gapbeam_buckles, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_status_message, &
+        gapbeam_axial, axial_force, axial_uniform_load, replace_loads, count_supports
     implicit none
     real(wp), parameter :: euler = acos(-1.0_wp)**2
     integer :: status
@@ -18,6 +19,7 @@ program test_api_modes
     call column_with_a_spring()
     call it_buckles()
     call along_the_load()
+    call axial_loads()
     call frequencies()
     call refused()
     call finish(status)
@@ -100,14 +102,14 @@ contains
         if (allocated(error)) call check(.false., error%message)
     end subroutine solve_model
 
-    !> Reactions of three supports
+    !> Reactions of the supports
     function reactions(beam, result) result(reaction)
         type(prepared_type), intent(in) :: beam
         type(result_type), intent(in) :: result
-        real(wp) :: reaction(3)
+        real(wp) :: reaction(count_supports(beam))
         type(error_type), allocatable :: error
-        real(wp) :: deflection(3), opening(3), couple(3)
-        integer :: condition(3)
+        real(wp), dimension(size(reaction)) :: deflection, opening, couple
+        integer :: condition(size(reaction))
 
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         if (allocated(error)) call check(.false., error%message)
@@ -227,6 +229,59 @@ contains
         call check_close(share, 0.5_wp, "share", relative=1e-9_wp)
         call check_close(abs(deflection), sin(acos(-1.0_wp)*x), "in one wave", absolute=1e-8_wp)
     end subroutine along_the_load
+
+    !> That bending feels, of first order where that is asked for and where they cannot; and a given force that grows
+    subroutine axial_loads()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(cases_type) :: cases
+        type(event_type), allocatable :: events(:)
+        type(ground_event_type), allocatable :: changes(:)
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(4)
+
+        call column(0.0_wp, model)
+        model%supports = [model%supports, support_type(node=0, direction=gapbeam_axial)]
+        model%loads = [model%loads, axial_force(-2*euler, node=1)]
+        call solve_model(model, beam, result)
+        reaction = reactions(beam, result)
+        call check_close(reaction(2), 1.6440875059318176_wp, "stop", relative=1e-13_wp)
+        call check(.not. result%unique, "the load of the stop bends it")
+        call prepare_cases(beam, cases, error)
+        call check(error%message == "the beam has axial loads that bend it, where many cases in one call are not available; "// &
+                   "use combine_loads and solve_beam for each, or set first_order", "cases are refused")
+        call follow_load(beam, 1.0_wp, options_type(), events, result, error)
+        call check(error%message == "the beam has axial loads that bend it: use follow_ground, or set first_order", "the path too")
+        call follow_ground(beam, 1.0_wp, options_type(), changes, result, error)
+        call check(.not. allocated(error) .and. size(changes) == 1, "the other one is not")
+        call check_close(changes(1)%factor, 0.37694943478542292_wp, "where it touches", relative=1e-13_wp)
+        ! Other loads, and none that presses
+        model%loads(2)%value = -5*euler
+        call replace_loads(beam, model%loads, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(result%status == gapbeam_buckles, "it buckles")
+        call replace_loads(beam, model%loads(:1), error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        reaction = reactions(beam, result)
+        call check_close(reaction(1), 0.5_wp, "without", relative=1e-14_wp)
+        ! Of first order: where that is asked for, and beside what is not available
+        model%first_order = .true.
+        call solve_model(model, beam, result)
+        reaction = reactions(beam, result)
+        call check_close([reaction(1), reaction(2), reaction(4)], [0.5_wp, 0.0_wp, 5*euler], "first order", relative=1e-14_wp)
+        model%first_order = .false.
+        model%loads = [model%loads, axial_uniform_load(1.0_wp, from=0.0_wp, to=1.0_wp)]
+        call solve_model(model, beam, result)
+        reaction = reactions(beam, result)
+        call check_close(reaction(1), 0.5_wp, "beside a load along the beam", relative=1e-14_wp)
+        ! What is given may grow
+        call column(2.0_wp, model)
+        model%N_grows = .true.
+        call solve_model(model, beam, result)
+        call follow_ground(beam, 1.0_wp, options_type(), changes, result, error)
+        call check_close(changes(1)%factor, 0.37694943478542292_wp, "where it touches", relative=1e-13_wp)
+    end subroutine axial_loads
 
     !> Two spans with the middle support closed and open; a free span between ground
     subroutine frequencies()
