@@ -582,7 +582,7 @@ class F77Beam:
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
-        pressed = not a["first_order"] and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
+        pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
         feels = pressed or a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain

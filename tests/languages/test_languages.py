@@ -190,7 +190,7 @@ def test_events_agree(library, first):
     for seed in range(first, first + 100):
         scene = scene_of(seed)
         rule = scene["analysis"]["rule"]
-        scene["analysis"] = {"follow": "events", "rule": rule}
+        scene["analysis"] = {"follow": "events", "rule": rule, "first_order": True}
         result = python_result(scene)
         beam, _ = library.prepare(scene)
         if isinstance(result, SceneError):

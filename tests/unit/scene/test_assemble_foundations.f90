@@ -10,7 +10,8 @@ program test_assemble_foundations
         gapbeam_law_cubic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_layers, only: layer_type
     use gapbeam_input_error, only: of_foundations, not_expected, off_beam, no_stretch, bad_law
-    use gapbeam_assembled_model, only: assembled_type, copy_model, fingerprint, point_x
+    use gapbeam_fingerprint, only: fingerprint
+    use gapbeam_assembled_model, only: assembled_type, copy_model, point_x
     use gapbeam_assemble, only: assemble_model
     use gapbeam_assemble_loads, only: assemble_loads
     implicit none

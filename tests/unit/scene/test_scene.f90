@@ -16,7 +16,8 @@ program test_scene
         lost_length, at_end, off_beam, no_place, no_node, no_stretch, not_axial, no_gap, not_held, twice, no_room, at_hinge, idle, &
         bad_law
     use gapbeam_check, only: check_spans
-    use gapbeam_assembled_model, only: assembled_type, copy_model, fingerprint, point_x, piece_length, in_bending, in_shear, &
+    use gapbeam_fingerprint, only: fingerprint
+    use gapbeam_assembled_model, only: assembled_type, copy_model, point_x, piece_length, in_bending, in_shear, &
         along_axis
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_assemble, only: assemble_model
