@@ -12,7 +12,7 @@ module gapbeam_foundation_pieces
     implicit none
     private
     public :: question_type, piece_type, over_line, slope_of_transverse, slope_of_curvature
-    public :: has_middle, fading, piece_between, middle_piece, evaluate
+    public :: has_middle, is_string, fading, piece_between, middle_piece, string_piece, evaluate
 
     !> The functions whose zeros are sought, numbered as the fields whose slopes they are
     integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4, &
@@ -55,6 +55,16 @@ contains
                 .and. is_of_one_stiffness(s) .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
         end associate
     end function has_middle
+
+    !> Is a stretch a string but near its ends: in tension, off the ground
+    pure function is_string(stretch) result(it_is)
+        type(stretch_type), intent(in) :: stretch
+        logical :: it_is
+
+        associate (s => stretch)
+            it_is = s%tension > 0.0_wp .and. .not. max(abs(s%modulus_a), abs(s%modulus_b)) > 0.0_wp .and. is_of_one_stiffness(s)
+        end associate
+    end function is_string
 
     !> The function on a piece, from the fields in its middle
     pure subroutine piece_between(question, left, right, piece, in_middle)
@@ -289,6 +299,35 @@ contains
             end select
         end associate
     end subroutine middle_piece
+
+    !> The function on the string between the ends of a stretch in tension: a polynomial of the third degree at most
+    pure subroutine string_piece(question, left, right, piece)
+        type(question_type), intent(in) :: question
+        real(wp), intent(in) :: left, right
+        type(piece_type), intent(out) :: piece
+        real(wp), parameter :: places(4) = [-1.0_wp, -0.5_wp, 0.5_wp, 1.0_wp]
+        real(wp) :: f(4), slope, share, even(2), odd(2)
+        integer :: k
+
+        ! What its rounding is near the middle
+        share = 1/(4*decay_lengths(question%stretch))
+        call piece_between(question, left + (right - left)/2 - share, left + (right - left)/2 + share, piece)
+        piece%half = (right - left)/2
+        do k = 1, 4
+            call evaluate(question, piece%middle + places(k)*piece%half, f(k), slope)
+        end do
+        even(:) = [f(1) + f(4), f(2) + f(3)]/2
+        odd(:) = [f(4) - f(1), f(3) - f(2)]/2
+        piece%a = 0.0_wp
+        piece%a(2) = (even(1) - even(2))*4/3
+        piece%a(0) = even(1) - piece%a(2)
+        piece%a(3) = (odd(1) - 2*odd(2))*4/3
+        piece%a(1) = odd(1) - piece%a(3)
+        piece%degree = 3
+        do while (piece%degree > 1 .and. abs(piece%a(piece%degree)) <= piece%noise/16)
+            piece%degree = piece%degree - 1
+        end do
+    end subroutine string_piece
 
     !> The function and its slope in xi
     pure subroutine evaluate(question, xi, f, slope)

@@ -8,8 +8,8 @@ module gapbeam_foundation_roots
     use gapbeam_tolerances, only: no_decay_left, root_piece_length, most_root_pieces, root_place
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
     use gapbeam_curved, only: curved_type, cut_into_steps
-    use gapbeam_foundation_pieces, only: question_type, piece_type, over_line, has_middle, fading, &
-        piece_between, middle_piece, evaluate
+    use gapbeam_foundation_pieces, only: question_type, piece_type, over_line, has_middle, is_string, fading, &
+        piece_between, middle_piece, string_piece, evaluate
     implicit none
     private
     public :: find_crossings, find_limits, find_peaks
@@ -131,13 +131,17 @@ contains
                 call piece_between(question, places(i - 1), places(i), piece, middles(:, i))
                 call add_zeros(question, piece, zeros)
             end do
-        else if (length > 2*no_decay_left + 4*root_piece_length .and. decays(question)) then
+        else if (length > 2*no_decay_left + 4*root_piece_length .and. (decays(question) .or. is_string(question%stretch))) then
             part = no_decay_left/length
             n = ceiling(no_decay_left/root_piece_length)
             do i = 1, n
                 call add_piece(question, (i - 1)*part/n, i*part/n, zeros)
             end do
-            call middle_piece(question, part, 1 - part, piece)
+            if (is_string(question%stretch)) then
+                call string_piece(question, part, 1 - part, piece)
+            else
+                call middle_piece(question, part, 1 - part, piece)
+            end if
             call add_zeros(question, piece, zeros)
             do i = n, 1, -1
                 call add_piece(question, 1 - i*part/n, 1 - (i - 1)*part/n, zeros)

@@ -220,8 +220,8 @@ contains
         real(wp), intent(in) :: value
         !> Stretches between places at least, of every zone
         integer, intent(in) :: parts
-        !> Places along the beam, with distances from the left ends of their pieces; deflection there, the largest 1, and moment
-        !> left and right of them, shape (2, ...)
+        !> Places along the beam, with distances from the left ends of their pieces, none where stiffnesses are too far apart;
+        !> deflection there, the largest 1, and moment left and right of them, shape (2, ...)
         integer, allocatable, intent(out) :: piece(:)
         real(wp), allocatable, intent(out) :: distance(:), deflection(:), moment(:, :)
         type(workspace_type) :: work
@@ -230,8 +230,10 @@ contains
 
         call count_modes(ground, zones, acting, what, value, number, work, grounded, parts)
         if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, parts)
-        n = size(grounded%stretches)
+        n = -1
+        if (number >= 0) n = size(grounded%stretches)
         allocate (piece(n + 1), distance(n + 1), deflection(n + 1), moment(2, n + 1))
+        if (number < 0) return
         ! Forces that no mode is without work of
         do i = 0, n
             work%rhs(i)%shear = 1 + modulo(i*0.6180339887498949_wp, 1.0_wp)

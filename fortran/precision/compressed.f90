@@ -289,6 +289,11 @@ contains
         allocate (outcome%motion(0:size(ground%pieces)))
         call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &
                              solution%mode_distance, solution%mode_deflection, moment)
+        if (size(solution%mode_piece) == 0) then
+            call fatal_error(error, gapbeam_not_converged, "the beam buckles under its axial forces, but its stiffnesses are "// &
+                             "too far apart to tell how; bring them nearer together, or make them infinite or 0")
+            return
+        end if
         outcome%motion(0) = solution%mode_deflection(1)
         do i = 2, size(solution%mode_piece)
             outcome%motion(solution%mode_piece(i)) = solution%mode_deflection(i)

@@ -94,6 +94,10 @@ contains
         at = value
         if (what == by_vibration) at = at**2
         call find_fine_shape(fine, zones, start%closed, what, at, parts, piece, distance, w, m)
+        if (size(piece) == 0) then
+            call fatal_error(error, gapbeam_bad_input, "modes: the stiffnesses of the beam are too far apart to tell a shape")
+            return
+        end if
         allocate (x(size(piece)), deflection(size(piece)), moment(2, size(piece)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)

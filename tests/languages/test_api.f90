@@ -630,6 +630,7 @@ contains
         model%supports = [support_type(node=0), support_type(node=2), support_type(node=0, direction=gapbeam_axial), &
                           support_type(node=2, direction=gapbeam_axial), support_type(node=1, side=gapbeam_below, stiffness=0.0_wp)]
         model%loads = [temperature_load(-2e-4_wp, 1e-5_wp*40, 0.0_wp, 4.0_wp)]
+        model%first_order = .true.
         call prepare_model(model, beam, error)
         call solve_beam(beam, 0.5_wp, options_type(), result, error)
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
