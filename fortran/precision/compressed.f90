@@ -105,6 +105,8 @@ contains
         held = all_that_holds(ground)
         do
             pressed = cut_for_share(held, share)
+            ! Where stiffnesses lie so far apart that nothing is counted
+            if (sum(compression_lengths(pressed%pieces)) > most_mode_stretches) return
             call full_contact(pressed, zones)
             call count_modes(pressed, zones, pressed%beam%supports%side == both, by_axial_force, 1.0_wp, number, work, grounded)
             if (number > 0 .or. share >= 1.0_wp) return

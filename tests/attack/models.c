@@ -237,7 +237,8 @@ static int documented(const char *function, int status, const char *message, con
 }
 #define CHECKED(function, call, message, allowed) documented(function, (feclearexcept(FE_ALL_EXCEPT), (call)), message, allowed)
 #define ALLOWED(...) ((const int[]){__VA_ARGS__, -1})
-#define SOLVING ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NO_EQUILIBRIUM, GAPBEAM_BAD_INPUT, GAPBEAM_INDETERMINATE, GAPBEAM_NOT_CONVERGED, \
+#define SOLVING ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NO_EQUILIBRIUM, GAPBEAM_BUCKLES, GAPBEAM_BAD_INPUT, GAPBEAM_INDETERMINATE, \
+                        GAPBEAM_NOT_CONVERGED, \
                         GAPBEAM_NOT_FINITE, GAPBEAM_NO_MEMORY)
 
 static void all_finite(const char *name, int n, const double *values)
@@ -280,7 +281,8 @@ static void ask(const gapbeam_beam *beam, gapbeam_state *state, int solved)
     char message[200] = "";
     int from_left = below(2);
     int status = CHECKED("get_info", gapbeam_get_info(state, &info), NULL, ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_PREPARED));
-    if (status == GAPBEAM_SOLVED && info.status != GAPBEAM_SOLVED && info.status != GAPBEAM_NO_EQUILIBRIUM)
+    if (status == GAPBEAM_SOLVED && info.status != GAPBEAM_SOLVED && info.status != GAPBEAM_NO_EQUILIBRIUM
+        && info.status != GAPBEAM_BUCKLES)
         complain("status of a state", info.status);
     status = CHECKED("get_supports", gapbeam_get_supports(beam, state, reaction, NULL, opening, NULL, condition), NULL,
                         ALLOWED(GAPBEAM_SOLVED, GAPBEAM_NOT_PREPARED, GAPBEAM_NO_MEMORY));
