@@ -12,7 +12,7 @@ module gapbeam_api_cases
     use gapbeam_scene, only: load_type, gapbeam_axial, gapbeam_both, gapbeam_movement
     use gapbeam_assemble_laws, only: laws_depend_on_path
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_axial_force, only: what_stretches
+    use gapbeam_axial_force, only: what_stretches, or_first_order
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
@@ -50,7 +50,7 @@ contains
             if (allocated(lowered%layers)) then
                 call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(lowered%model))//", where many "// &
                                  "cases in one call are not available; use combine_loads and solve_beam for each"// &
-                                 trim(merge(", or set first_order", "                    ", lowered%model%axial_loads_bend)))
+                                 trim(or_first_order(lowered%model)))
                 return
             end if
             n = size(lowered%node_point)

@@ -8,7 +8,7 @@ module gapbeam_api_objects
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_axial_force, only: what_stretches
+    use gapbeam_axial_force, only: what_stretches, or_first_order
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_events, only: event_type
@@ -208,8 +208,7 @@ contains
 
         if (.not. allocated(beam%lowered%layers)) return
         call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(beam%lowered%model))// &
-                         ": use follow_ground"//trim(merge(", or set first_order", "                    ", &
-                                                           beam%lowered%model%axial_loads_bend)))
+                         ": use follow_ground"//trim(or_first_order(beam%lowered%model)))
     end subroutine require_no_ground
 
     !> Refuse a result of another beam or of another status

@@ -94,9 +94,11 @@ contains
                 model%spans%mass = axial(2, 1:nspan)
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
-            if (present(igrow)) model%N_grows = modulo(igrow, 2) /= 0
-            model%first_order = .not. present(igrow)
-            if (present(igrow)) model%first_order = igrow > 1
+            model%first_order = .true.
+            if (present(igrow)) then
+                model%N_grows = modulo(igrow, 2) /= 0
+                model%first_order = igrow > 1
+            end if
             call new_beam(model, handle, error)
         end if
         if (.not. allocated(error)) then

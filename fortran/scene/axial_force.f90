@@ -16,7 +16,8 @@ module gapbeam_axial_force
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
     private
-    public :: has_axial_force, axial_loads_may_bend, in_stretches, what_stretches, check_axial_force, assign_axial_force
+    public :: has_axial_force, axial_loads_may_bend, in_stretches, what_stretches, or_first_order, check_axial_force, &
+        assign_axial_force
 
 contains
 
@@ -89,6 +90,15 @@ contains
         if (is_given(model)) words = "an axial force N"
         if (size(model%foundations) > 0) words = "a foundation"
     end function what_stretches
+
+    !> A way out of what is refused for that, in words behind others; none but beside axial loads
+    pure function or_first_order(model) result(words)
+        type(model_type), intent(in) :: model
+        character(len=20) :: words
+
+        words = ""
+        if (model%axial_loads_bend) words = ", or set first_order"
+    end function or_first_order
 
     !> Axial forces of spans, and what resists slopes of the beam on the ground
     subroutine check_axial_force(model, error)

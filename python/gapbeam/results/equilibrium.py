@@ -157,6 +157,11 @@ def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
     force = np.broadcast_to(np.asarray(scene.beam.N, dtype=float), len(ends) - 1)[np.searchsorted(ends, middle) - 1].copy()
     for from_, to, N in sections:
         force[(from_ <= middle) & (middle <= to)] = N
+    return _runs(cuts, force)
+
+
+def _runs(cuts: np.ndarray, force: np.ndarray) -> list[tuple[float, float, float]]:
+    """Stretches of one force each, from those between the cuts."""
     first = np.flatnonzero(np.append(True, np.diff(force) != 0.0))
     return list(zip(cuts[first].tolist(), cuts[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
 
@@ -184,9 +189,7 @@ def acting_axial_forces(result: Result, step: Step) -> list[tuple[float, float, 
     x = beam.places.point_x
     middle = (x[:-1] + x[1:]) / 2.0
     given = np.array([N for *_, N in runs])[np.searchsorted([to for _, to, _ in runs[:-1]], middle)]
-    force = given + result.at_state(step, middle).axial_force
-    first = np.flatnonzero(np.append(True, np.diff(force) != 0.0))
-    return list(zip(x[first].tolist(), x[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
+    return _runs(x, given + result.at_state(step, middle).axial_force)
 
 
 class Turning(NamedTuple):
