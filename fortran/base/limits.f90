@@ -22,6 +22,7 @@ module gapbeam_limits
     public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings
     public :: least_compressions, most_compressions, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
+    public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
     !> continuation/smooth_events, response/smooth_state
@@ -260,6 +261,16 @@ module gapbeam_limits
     integer, parameter :: kept_columns = 48
     !> Steps of Newton's method kept inside a bracket by bisection. Read by cases/lane_roots
     integer, parameter :: most_lane_root_steps = 200
+    !> Schemes whose responses are kept for cases of a beam in stretches; a beam of ten spans has some tens that matter; tuned.
+    !> Read by cases/stretch_cases
+    integer, parameter :: most_schemes = 256
+    !> Changes of scheme by which a case is looked for among them: from one case to the next few do; tuned. Read by
+    !> cases/stretch_cases
+    integer, parameter :: most_scheme_changes = 8
+    !> Numbers that all of these responses may hold: 256 MB; tuned. Read by cases/stretch_cases
+    integer, parameter :: most_response_numbers = 32000000
+    !> A sum of responses may be so much less than its terms: four of its 53 bits are lost then. Read by cases/scheme_responses
+    integer, parameter :: most_cancelled = 16
     !> Cases that a call from Fortran solves in one go, so that what they need stays in the cache; tuned. Read by face/api_cases
     integer, parameter :: case_batch = 256
 

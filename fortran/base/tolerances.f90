@@ -28,9 +28,9 @@ module gapbeam_tolerances
 
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time. Read by
-    !> cases/lane_reactions, cases/lane_shared, cases/segment_finish, contact/contact_state, contact/evaluation, contact/rules,
-    !> continuation/affine_response, moving_load/train_margins, precision/extended_precision, precision/ground_solution,
-    !> precision/undecided
+    !> cases/lane_reactions, cases/lane_shared, cases/scheme_responses, cases/segment_finish, contact/contact_state,
+    !> contact/evaluation, contact/rules, continuation/affine_response, moving_load/train_margins, precision/extended_precision,
+    !> precision/ground_solution, precision/undecided
     real(wp), parameter :: sign_width = 32.0_wp
     !> Rounding error of a reaction, relative to the largest, from which on quadruple precision is worth its time: half of the
     !> digits of a double. Read by cases/lane_reactions, cases/segment_finish, precision/extended_precision

@@ -51,6 +51,11 @@ contains
         real(wp), allocatable :: work(:)
         integer :: i, k, first, last, node, shares, at_nodes, stat
 
+        if (allocated(assembled%layers)) then
+            ! In stretches they do not add up
+            allocate (loads%of_links(0), loads%of_nodes(0))
+            return
+        end if
         allocate (on_pieces(size(assembled%pieces)), work(size(assembled%pieces)), link_of(size(assembled%pieces)), stat=stat)
         if (stat /= 0) then
             call no_memory(error)

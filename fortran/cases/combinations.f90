@@ -50,11 +50,12 @@ contains
         !> Supports that leave no room for each other, numbers out of range, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(varied_type), intent(in), optional :: varied
-        logical :: moves
+        logical :: moves, vary
         integer :: stat
 
-        moves = any(abs(settlements) > 0.0_wp) .or. allocated(base%given_settlement)
-        if (present(varied)) moves = moves .or. associated(varied%supports)
+        vary = .false.
+        if (present(varied)) vary = associated(varied%supports)
+        moves = any(abs(settlements) > 0.0_wp) .or. allocated(base%given_settlement) .or. vary
         stat = 0
         if (moves .or. combined%moved) then
             if (allocated(combined%assembled)) deallocate (combined%assembled)
@@ -72,7 +73,9 @@ contains
             assembled%model%loads%value_to = factors*loads%value_to
             if (present(varied)) call take_varied(varied, assembled%model)
             if (moves .or. combined%moved) then
-                if (allocated(base%given_settlement)) assembled%model%supports%settlement = base%given_settlement
+                if (allocated(base%given_settlement) .and. .not. vary) then
+                    assembled%model%supports%settlement = base%given_settlement
+                end if
                 assembled%model%supports%settlement = assembled%model%supports%settlement + settlements
                 call assemble_model(assembled, error)
             else
@@ -153,7 +156,7 @@ contains
         real(wp), intent(in) :: distance(:)
         !> Reaction, deflection, opening and couple of the supports, shape (nsupport, 4)
         real(wp), intent(out) :: at_supports(:, :)
-        !> Maximum and minimum of every quantity along the beam, and where they are, shape (2, quantity_count)
+        !> Maximum and minimum of every quantity along the beam, and where they are, shape (2, quantity_count); or none, (2, 0)
         real(wp), intent(inout) :: extremes(:, :), places(:, :)
         !> The same at the places, shape (quantity_count, n)
         real(wp), intent(inout) :: fields(:, :)
@@ -163,8 +166,11 @@ contains
 
         call support_values(assembled, state, at_supports(:, 1), at_supports(:, 2), at_supports(:, 3), at_supports(:, 4), &
                             conditions)
-        call extremes_of_fields(assembled, state, [(i, i=1, quantity_count)], extremes, places, error)
-        if (allocated(error) .or. size(piece) == 0) return
+        if (size(extremes, 2) > 0) then
+            call extremes_of_fields(assembled, state, [(i, i=1, quantity_count)], extremes, places, error)
+            if (allocated(error)) return
+        end if
+        if (size(piece) == 0) return
         if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
         call fields_in_pieces(assembled, 1.0_wp, state%starts, state%displacement, state%tension, [(i, i=1, quantity_count)], &

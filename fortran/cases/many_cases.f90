@@ -1,6 +1,7 @@
 !> Many cases of a beam: each in the widest way that holds it, what is doubtful there in the next one.
 !> The ways: eight segments of a long beam side by side (gapbeam_segment_cases), eight cases side by side (gapbeam_lane_cases), one
-!> by one (gapbeam_single_cases). All give the same digits
+!> by one (gapbeam_single_cases). All give the same digits. Beams that are solved stretch by stretch have a way of their own
+!> (gapbeam_stretch_cases)
 module gapbeam_many_cases
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
@@ -14,6 +15,7 @@ module gapbeam_many_cases
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
     use gapbeam_single_cases, only: single_room_type, solve_one_by_one
+    use gapbeam_stretch_cases, only: stretch_room_type, solve_stretch_cases
     use gapbeam_limits, only: least_cases
     implicit none
     private
@@ -25,13 +27,13 @@ module gapbeam_many_cases
         type(lane_room_type) :: lanes, lanes_with_own_spans
         type(segments_type) :: segments
         type(single_room_type) :: single
+        type(stretch_room_type) :: stretches
     end type case_room_type
 
 contains
 
     !> Solve cases
     subroutine solve_cases(assembled, loads, numbers, room, solutions)
-        !> A beam without ground
         type(assembled_type), intent(in) :: assembled
         !> By split_loads
         type(case_loads_type), intent(in) :: loads
@@ -53,6 +55,11 @@ contains
             room%fits = fits_lanes(assembled)
             room%fits_with_own_spans = room%fits .and. fits_spans(assembled, loads)
             room%made = .true.
+        end if
+        if (allocated(assembled%layers)) then
+            call solve_stretch_cases(assembled, numbers, room%stretches, solutions)
+            if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
+            return
         end if
         allocate (done(cases), stat=stat)
         if (stat /= 0) return

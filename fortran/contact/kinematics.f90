@@ -1,9 +1,9 @@
 !> Free motions of a beam, found by counting bodies and constraints, not by numbers.
 !>
 !> Hinges cut the beam into bodies that move rigidly in a free motion, since bending resists. A body is described by
-!> the displacements of its two ends. Each support that acts in it is one condition on them, a clamp or
-!> rotational spring one more; two conditions at different places fix the body. Going from left to
-!> right this gives every independent motion of the chain.
+!> the displacements of its two ends. Each support that acts in it is one condition on them, a clamp, a
+!> rotational spring or tension, which keeps its direction, one more; two conditions at different places fix the body.
+!> Going from left to right this gives every independent motion of the chain.
 module gapbeam_kinematics
     use gapbeam_kinds, only: wp
     use gapbeam_nodes, only: restrained, hinge_left, hinge_right, is_hinge
@@ -27,6 +27,8 @@ module gapbeam_kinematics
         !> Places of the nodes and how they move, shape (0:n), and which of them are held, shape (0:n + r)
         real(wp), allocatable :: x(:), y(:)
         logical, allocatable :: fixed(:)
+        !> Sums of tension times length from the left end to the nodes: what resists a rotation of what lies between, shape (0:n)
+        real(wp), allocatable :: pull(:)
         !> Kinds of the nodes in the scheme at hand, shape (0:n)
         integer, allocatable :: kind(:)
         !> Does the left end of the body at hand move, by y there; node from which on y is that of this motion
@@ -61,7 +63,7 @@ contains
                     if (is_hinge(followed%kind(i))) exit
                 end do
                 clamp = any(followed%kind(start:i) == restrained) .or. followed%kind(start) == hinge_right &
-                    .or. followed%kind(i) == hinge_left
+                    .or. followed%kind(i) == hinge_left .or. followed%pull(i) - followed%pull(start) > 0.0_wp
                 conditions = count(fixed(start:i)) + merge(1, 0, clamp)
                 if (conditions == 0) then
                     ! The right end is free whatever the left end does
@@ -110,9 +112,15 @@ contains
         end do
         followed%fixed(:) = .false.
         call mark_held(beam%supports, acting, followed%fixed)
+        allocate (followed%pull(0:n), source=0.0_wp)
         if (allocated(beam%ground)) then
             do i = 1, n
-                if (beam%ground(i)%grounded) followed%fixed(i - 1:i) = .true.
+                followed%pull(i) = followed%pull(i - 1)
+                if (beam%ground(i)%grounded) then
+                    followed%fixed(i - 1:i) = .true.
+                else
+                    followed%pull(i) = followed%pull(i) + beam%ground(i)%gaa*beam%links(i)%length**2
+                end if
             end do
         end if
         followed%y(:) = 0.0_wp

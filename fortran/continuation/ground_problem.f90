@@ -53,7 +53,7 @@ contains
 
         problem%assembled => assembled
         problem%ground = ground_of(assembled, 0.0_wp)
-        call refine_ground(problem%ground, detail_of(assembled), problem%fine)
+        call refine_ground(problem%ground, problem%fine)
         problem%rule = rule
         problem%parameter = "load factor"
         problem%last = last

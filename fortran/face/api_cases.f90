@@ -12,7 +12,6 @@ module gapbeam_api_cases
     use gapbeam_scene, only: load_type, gapbeam_axial, gapbeam_both, gapbeam_movement
     use gapbeam_assemble_laws, only: laws_depend_on_path
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_axial_force, only: what_stretches, or_first_order
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
@@ -28,10 +27,9 @@ module gapbeam_api_cases
 
 contains
 
-    !> Make ready for many cases of a beam: what every load does alone is worked out once
+    !> Make ready for many cases of a beam: what every load does alone is worked out once, where it adds up
     subroutine prepare_cases(beam, cases, error)
-        !> Prepared, without foundations, axial forces and mass of spans, and laws that make the state depend on the loading
-        !> history. Loads may move supports that have no law
+        !> Prepared, without laws that make the state depend on the loading history. Loads may move supports that have no law
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases
@@ -47,12 +45,6 @@ contains
         if (.not. allocated(error)) call require_no_curves(beam, error)
         if (allocated(error)) return
         associate (lowered => beam%lowered)
-            if (allocated(lowered%layers)) then
-                call fatal_error(error, gapbeam_bad_input, "the beam has "//trim(what_stretches(lowered%model))//", where many "// &
-                                 "cases in one call are not available; use combine_loads and solve_beam for each"// &
-                                 trim(or_first_order(lowered%model)))
-                return
-            end if
             n = size(lowered%node_point)
             m = size(lowered%beam%supports)
             allocate (cases%start(m), cases%closed(m, case_batch), cases%solves(case_batch), cases%w(n, case_batch), &
@@ -106,7 +98,7 @@ contains
         type(case_solutions_type) :: solutions
         integer, allocatable, target :: codes(:)
         integer :: supports, nodes, first, last, n, i, stat
-        logical :: given
+        logical :: given, alone
 
         call require_beam(beam, error)
         if (allocated(error)) return
@@ -117,7 +109,10 @@ contains
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
         supports = size(beam%lowered%model%supports)
         nodes = size(beam%lowered%node_point)
-        given = present(settlement) .or. present(gap) .or. present(stiffness) .or. allocated(beam%lowered%given_settlement)
+        ! Beams in stretches are assembled for each case, their loads with them
+        alone = allocated(beam%lowered%layers)
+        given = present(settlement) .or. present(gap) .or. present(stiffness) &
+            .or. (allocated(beam%lowered%given_settlement) .and. .not. alone)
         if (given) call require_own_supports(beam%lowered, error)
         if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
         if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
@@ -143,7 +138,7 @@ contains
                     if (present(settlement)) values(1, :) = settlement(:, c)
                     if (present(gap)) values(2, :) = gap(:, c)
                     if (present(stiffness)) values(3, :) = stiffness(:, c)
-                    call move_supports(beam%lowered%model%loads, factors(:, c), values(1, :))
+                    if (.not. alone) call move_supports(beam%lowered%model%loads, factors(:, c), values(1, :))
                 end associate
             end do
             cases%closed(:, :n) = spread(cases%start, 2, n)

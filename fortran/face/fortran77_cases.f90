@@ -8,7 +8,7 @@ subroutine ghcase(beam, cases, info)
     integer(8), intent(in) :: beam
     ! For GHMANY; it keeps nothing of the beam, and is of no use after GHLOAD. Threads take one each
     integer(8), intent(out) :: cases
-    ! -1, also of a beam that is not taken: on a foundation, or whose state depends on the loading history; 15
+    ! -1, also of a beam that is not taken: one whose state depends on the loading history; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, room
     type(error_type), allocatable :: error

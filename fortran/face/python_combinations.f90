@@ -1,8 +1,8 @@
 ! Combinations for Python, in the manner of face/python.f90, which says what the arguments BEAM, NS and NM are
 
 ! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
-subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp, span, modul, rule, closed, piece, dist, value, &
-                  extr, place, field, solves, status)
+subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, ne, factor, settle, supp, span, modul, rule, closed, piece, dist, &
+                  value, extr, place, field, solves, status)
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use gapbeam_python_handles, only: error_type, handle_type, behind
     use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
@@ -20,6 +20,8 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     integer, intent(in) :: np, nf
     ! All quantities along the beam (fortran/beam/quantities.f90)
     integer, intent(in) :: nq
+    ! NQ where the extremes of all of them are wanted, else 0
+    integer, intent(in) :: ne
     ! Factor of every load, further movement of every support; settlement, gap and stiffness of every support
     double precision, intent(in) :: factor(nd, nc), settle(nm, nc)
     double precision, intent(in), target :: supp(3, nv, nc)
@@ -34,7 +36,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, factor, settle, supp
     ! Reaction, deflection, opening, couple of the supports
     double precision, intent(out) :: value(nm, 4, nc)
     ! Maximum and minimum of the quantities, and where they are; the quantities at the places
-    double precision, intent(out) :: extr(2, nq, nc), place(2, nq, nc), field(nq, nx, nc)
+    double precision, intent(out) :: extr(2, ne, nc), place(2, ne, nc), field(nq, nx, nc)
     integer, intent(out) :: solves(nc), status(nc)
     !f2py threadsafe
     type(handle_type), pointer :: handle

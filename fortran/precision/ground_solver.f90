@@ -22,7 +22,7 @@ module gapbeam_ground_solver
     use gapbeam_law, only: both
     use gapbeam_law_kinematics, only: is_blocked
     use gapbeam_refined, only: detail_type
-    use gapbeam_refined_ground, only: refine_ground, refine_zones
+    use gapbeam_refined_ground, only: refine_ground, refine_links, refine_zones
     use gapbeam_layers_quad, only: has_curves
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
         fine_grounded_type => grounded_type
@@ -73,7 +73,7 @@ contains
         if (allocated(error)) return
         allocate (start(size(closed)))
         start(:) = closed
-        call refine_ground(ground, detail, fine)
+        call refine_ground(ground, fine)
         if (any(ground%layers%rigid)) then
             call solve_on_rigid_ground(ground, fine, factor, rule, closed, grounded, work, solution, outcome, error)
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
@@ -200,6 +200,7 @@ contains
         subroutine weigh()
             if (weighed) return
             weighed = .true.
+            call refine_links(detail, fine)
             call find_collapse(fine, real(factor, qp), collapses, tied, stands, motion)
             ! What the last digits of the data decide no finer mesh does
             if (tied) last = last_if_tied
@@ -252,7 +253,8 @@ contains
         logical, intent(out) :: found
         type(fine_ground_type) :: fine
 
-        call refine_ground(ground, detail, fine)
+        call refine_ground(ground, fine)
+        call refine_links(detail, fine)
         call find_limit(fine, low, high, found)
     end subroutine limit_on_ground
 

@@ -145,7 +145,10 @@ contains
         end do
         if (.not. (any(idle) .or. any(closed .and. undecided))) return
         beam = grounded%beam
-        where (idle) beam%ground%grounded = .false.
+        where (idle)
+            beam%ground%grounded = .false.
+            beam%ground%gaa = grounded%stretches%tension/grounded%stretches%length
+        end where
         call free_motions(beam, closed .and. .not. undecided, motions)
         do m = 1, size(motions)
             do sense = -1, 1, 2

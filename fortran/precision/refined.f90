@@ -11,7 +11,7 @@ module gapbeam_refined
     use gapbeam_polyline_quad, only: join_pieces
     implicit none
     private
-    public :: detail_type, refine_beam, refine_loaded_beam, fine_piece, fine_load
+    public :: detail_type, refine_beam, refine_loaded_beam, condense_again, fine_piece, fine_load
 
     !> What links are made of: the scene's own numbers
     type :: detail_type

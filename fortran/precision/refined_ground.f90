@@ -8,20 +8,20 @@ module gapbeam_refined_ground
     use gapbeam_layers_quad, only: fine_layer_type => layer_type, fine_law_piece_type => law_piece_type
     use gapbeam_ground, only: ground_type, zones_type
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, new_zones
-    use gapbeam_refined, only: detail_type, refine_beam, fine_piece, fine_load
+    use gapbeam_refined, only: detail_type, refine_beam, condense_again, fine_piece, fine_load
     implicit none
     private
-    public :: refine_ground, refine_zones, rounded_stretch, rounded_load, rounded_ends
+    public :: refine_ground, refine_links, refine_zones, rounded_stretch, rounded_load, rounded_ends
 
 contains
 
-    !> The beam and its ground in quadruple precision
-    subroutine refine_ground(ground, detail, fine)
+    !> The beam and its ground in quadruple precision, but for its links without ground, which refine_links condenses where they are
+    !> needed
+    subroutine refine_ground(ground, fine)
         type(ground_type), intent(in) :: ground
-        type(detail_type), intent(in) :: detail
         type(fine_ground_type), intent(out) :: fine
 
-        call refine_beam(ground%beam, detail, fine%beam)
+        call refine_beam(ground%beam, detail_type(), fine%beam)
         associate (n => size(ground%pieces))
             allocate (fine%pieces(n), fine%dead(n), fine%live(n), fine%layers(size(ground%layers)), fine%first(n + 1), &
                       fine%laws(size(ground%laws)))
@@ -38,6 +38,15 @@ contains
         allocate (fine%moving%layers, source=real(ground%moving%layers, qp))
         if (allocated(ground%moving%tension)) allocate (fine%moving%tension, source=real(ground%moving%tension, qp))
     end subroutine refine_ground
+
+    !> Its links without ground
+    subroutine refine_links(detail, fine)
+        !> What they are made of
+        type(detail_type), intent(in) :: detail
+        type(fine_ground_type), intent(inout) :: fine
+
+        call condense_again(detail, fine%beam%links)
+    end subroutine refine_links
 
     !> A layer in quadruple precision
     elemental function fine_layer(layer) result(fine)

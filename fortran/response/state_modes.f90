@@ -51,7 +51,7 @@ contains
         first = first_step(ground, what)
         call find_mode_values(ground, start%zones, start%closed, what, first, values, known)
         if (known == 0) return
-        call refine_ground(ground, detail_of(assembled), fine)
+        call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)
         call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, real(values(:known), qp))
         if (what == by_vibration) fine_values(:found) = sqrt(fine_values(:found))
@@ -89,7 +89,7 @@ contains
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor)
         call start_from(state%ground, state%closed, start)
-        call refine_ground(ground, detail_of(assembled), fine)
+        call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)
         at = value
         if (what == by_vibration) at = at**2

@@ -107,16 +107,28 @@ def test_cases_agree(library):
     assert moving > 9
 
 
-def test_cases_on_foundations_are_refused(library):
-    scene = {"beam": {"spans": [6.0], "EI": 1e4}, "supports": [], "foundation": [{"k": 1e3}],
-             "loads": [{"type": "uniform", "q": 1.0}]}  # fmt: skip
-    beam, _ = library.prepare(scene)
-    status, message, _ = solve_in_c(beam, np.ones((1, 1)), [None] * 3, "block")
-    assert status == 11
-    like = [np.zeros(1, np.int32), *(np.zeros((1, n)) for n in (0, 2, 2, 2))]
-    assert solve_in_f77(library, scene, np.ones((1, 1)), [None] * 3, "block", like)[0] == -1
-    assert message.startswith("the beam has a foundation, where many cases in one call are not available; use combine_loads")
-    beam.close()
+@pytest.mark.parametrize("keys", [{"foundation": [{"k": 1e3, "side": "below"}]}, {"N": 500.0}, {"N": -3.0}])
+def test_cases_in_stretches(library, keys):
+    """On ground, and with axial forces that bending feels; with other gaps too, and with loads that move supports."""
+    scene = {"beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}],
+             "loads": [{"type": "uniform", "q": 1.0}, {"type": "force", "x": 9.0, "F": -5.0},
+                       {"type": "movement", "support": 0, "value": 0.01}]}  # fmt: skip
+    (scene["beam"] if "N" in keys else scene).update(keys)
+    rng = np.random.default_rng(1)
+    factors, gaps = rng.uniform(0.0, 2.0, (40, 3)), np.zeros((40, 3))
+    gaps[:, 1] = rng.uniform(0.0, 0.01, 40)
+    for loads, given in ((2, None), (2, gaps), (3, None), (3, gaps)):
+        some = {**scene, "loads": scene["loads"][:loads]}
+        beam, _ = library.prepare(some)
+        status, message, found = solve_in_c(beam, factors[:, :loads].copy(), [None, given, None], "block")
+        assert status == 0, message
+        expected = gapbeam.prepare(some).solve(factors[:, :loads], gap=given)
+        assert found[0].tolist() == expected.status.tolist() == [0] * 40
+        for name, values in zip(("reaction", "deflection", "moment_left", "moment_right"), found[1:], strict=True):
+            np.testing.assert_allclose(values, getattr(expected, name), rtol=0, atol=1e-13 * np.abs(values).max())
+        info, in_f77 = solve_in_f77(library, some, factors[:, :loads].copy(), [None, given, None], "block", found)
+        assert (info, [one.tobytes() for one in in_f77]) == (0, [one.tobytes() for one in found])
+        beam.close()
 
 
 @pytest.mark.parametrize("spans", [3, 40])

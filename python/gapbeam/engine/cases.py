@@ -24,9 +24,7 @@ NONE = np.zeros((1, 1, 3)).T
 
 
 def split_loads(beam: Beam) -> None:
-    """Condense the loads of a beam one by one, for what follows; on the ground, where they do not add up, nothing follows."""
-    if beam.in_stretches:
-        return
+    """Condense the loads of a beam one by one, for what follows."""
     check_status(_engine.gbshar(beam.handle, beam.pieces + beam.columns.load.shape[1]))
 
 
@@ -50,7 +48,7 @@ def solve_cases(
     Parameters
     ----------
     beam : Beam
-        Without ground; its loads are split.
+        Its loads are split.
     factors : numpy.ndarray
         Factor of every load, cases by loads.
     rule : {"block", "single"}

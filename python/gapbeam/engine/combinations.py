@@ -65,7 +65,7 @@ class Combined(Record):
     at_supports : numpy.ndarray
         Reaction, deflection, opening and couple (rows) of the scene's supports, combinations by 4 by supports.
     extremes, places : numpy.ndarray
-        Maximum and minimum of every field in the order of `FIELDS`, and where they are, combinations by fields by 2.
+        Maximum and minimum of every field in the order of `FIELDS`, and where they are, combinations by fields by 2; or by 0 by 2.
     fields : numpy.ndarray
         The fields at the places asked for, combinations by places by fields.
     solves : numpy.ndarray of int
@@ -83,7 +83,7 @@ class Combined(Record):
 
 def solve_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None, extremes: bool = True,
 ) -> Iterator[tuple[slice, Combined]]:  # fmt: skip
     """Solve combinations, so many at a time that each call is a short one.
 
@@ -103,6 +103,8 @@ def solve_combinations(
         Places at which fields are wanted, as for `Solution.values`.
     varied : Varied, optional
         Numbers that differ from those of the beam.
+    extremes : bool
+        Whether they are wanted, which may take longer than all else.
 
     Yields
     ------
@@ -133,12 +135,12 @@ def solve_combinations(
         own = (varied or Varied()).part(part)
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
-        values, extremes, places, fields_at, solves, status = _engine.gbcomb(
-            beam.handle, len(FIELDS), np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
+        values, largest, places, fields_at, solves, status = _engine.gbcomb(
+            beam.handle, len(FIELDS), len(FIELDS) if extremes else 0, np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
         )
         check_ended(status)
         yield part, Combined(
-            status, scheme.T[:, :-1], values.T[:, :, :-1], extremes.T, places.T, fields_at.T[:, :-1], solves
+            status, scheme.T[:, :-1], values.T[:, :, :-1], largest.T, places.T, fields_at.T[:, :-1], solves
         )
         some = min(max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1), most)
         first = part.stop
@@ -146,13 +148,13 @@ def solve_combinations(
 
 def all_combinations(
     beam: Beam, factors: np.ndarray, settlements: np.ndarray | None, rule: str, closed: np.ndarray,
-    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None,
+    piece: np.ndarray | None = None, distance: np.ndarray | None = None, varied: Varied | None = None, extremes: bool = True,
 ) -> Combined:  # fmt: skip
     """Solve combinations, and keep all results.
 
     Parameters
     ----------
-    beam, factors, settlements, rule, closed, piece, distance, varied
+    beam, factors, settlements, rule, closed, piece, distance, varied, extremes
         As for `solve_combinations`.
 
     Returns
@@ -162,9 +164,10 @@ def all_combinations(
     """
     if not len(factors):  # no rows, of the length that those of one combination have
         nothing = np.zeros((1, factors.shape[1]))
-        one = all_combinations(beam, nothing, None, rule, np.zeros(beam.supports, np.int32), piece, distance)
+        one = all_combinations(beam, nothing, None, rule, np.zeros(beam.supports, np.int32), piece, distance, None, extremes)
         return Combined(*(getattr(one, part.name)[:0] for part in fields(Combined)))
-    parts = [found for _, found in solve_combinations(beam, factors, settlements, rule, closed, piece, distance, varied)]
+    asked = beam, factors, settlements, rule, closed, piece, distance, varied, extremes
+    parts = [found for _, found in solve_combinations(*asked)]
     if len(parts) == 1:
         return parts[0]
     joined = (np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(Combined))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -33,12 +33,12 @@ class Asked(Record):
         Contact states that were found, or where the searches start: cases by supports of the engine.
     varied : Varied
         Numbers of the scene that differ from case to case, settlements included.
-    states : Combined or None
-        What is known of them already, but for fields at places.
     start : numpy.ndarray of int or None
         Where the searches for the schemes that were found had started, supports of the engine; None if not known.
     scene : Scene or None
         The prepared scene.
+    states : list of Combined
+        What is known of them, but for fields at places: nothing, or one entry.
     """
 
     beam: Beam
@@ -46,9 +46,14 @@ class Asked(Record):
     factors: np.ndarray
     closed: np.ndarray
     varied: Varied
-    states: Combined | None = None
     start: np.ndarray | None = None
     scene: Scene | None = None
+    states: list[Combined] = field(default_factory=list, compare=False)
+
+    @property
+    def is_anew(self) -> bool:
+        """Whether each case is another beam, with all that is asked of it: what is in contact, or the breakpoints of laws vary."""
+        return self.beam.in_stretches or (self.beam.has_laws and self.varied.supports is not None)
 
     def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
         """Solve all cases.
@@ -60,10 +65,13 @@ class Asked(Record):
         side : {"right", "left"}
             Which value is taken where a field jumps.
         """
-        if x is None and self.states is not None:
-            return self.states
-        where = (None, None) if x is None else find_places(self.beam, x, side)
-        return all_combinations(self.beam, self.factors, None, self.rule, self.closed, *where, self.varied)
+        asked = self.beam, self.factors, None, self.rule, self.closed
+        if x is not None:
+            return all_combinations(*asked, *find_places(self.beam, x, side), self.varied, extremes=False)
+        found = self.states[0] if self.states else all_combinations(*asked, varied=self.varied)
+        if self.is_anew and not self.states:
+            self.states.append(found)
+        return found
 
     def once_more(self, status: np.ndarray, want: tuple[str, ...]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Solve all cases for what was not wanted at first, from the same start, as another one may lead to other last digits.
@@ -101,7 +109,7 @@ class Asked(Record):
         tuple or None
             As `case_extremes` takes it; None where each case was solved with all that is asked of it.
         """
-        if self.states is not None:
+        if self.is_anew:
             return None
         at_nodes = WANTED[:3]
         if not set(at_nodes) <= set(known):
@@ -124,7 +132,7 @@ class Asked(Record):
             Cases by supports.
         """
         about = self.beam, self.rule, self.factors, self.closed
-        if self.states is not None:
+        if self.is_anew:
             return case_certificates(*about, status, self.varied, None), self.solve().at_supports[:, 0]
         # Reactions of the engine's supports, which those of the scene are without laws, and if all of them can carry
         is_whole = set(WANTED) <= set(known) and not self.beam.has_laws and known["reaction"].shape[1] == self.beam.supports

@@ -151,9 +151,7 @@ class CaseVerbs(Shown):
             one = isinstance(key, int | np.integer)
             raise IndexError(f"there is no case {key}; {there}" if one else f"cases: {error}; {there}") from None
         single, rows = np.ndim(rows) == 0, np.atleast_1d(rows)
-        states = asked.states
-        if states is not None:
-            states = replace(states, **{one.name: getattr(states, one.name)[rows] for one in fields(states)})
+        states = [replace(there, **{one.name: getattr(there, one.name)[rows] for one in fields(there)}) for there in asked.states]
         varied = Varied(*(None if (part := getattr(asked.varied, one.name)) is None else part[rows] for one in fields(Varied)))
         part = replace(asked, factors=asked.factors[rows], closed=asked.closed[rows], varied=varied, states=states)
         return self._made({name: getattr(self, name)[rows] for name in self._wanted}, part, single)

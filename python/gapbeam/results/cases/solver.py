@@ -13,7 +13,7 @@ from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
 from ...engine.calls import FEW_NODES
 from ...engine.cases import OneCase, solve_cases, split_loads
-from ...engine.combinations import Combined, Varied, all_combinations
+from ...engine.combinations import Varied, all_combinations
 from ...scene.held import hold
 from ...scene.movements import Movements
 from ...scene.structs import Scene
@@ -25,11 +25,6 @@ from .asked import Asked
 from .case_result import result_of_case
 from .solved_cases import Cases, cases_of
 from .varied import base_values
-
-STATES = ("at_supports", "extremes", "places", "fields")
-"""Values of `Combined`."""
-Found = tuple[dict[str, np.ndarray], Combined | None]
-"""Arrays as of `solve_cases`, and all else where it is known."""
 
 
 class CaseSolver(Pickled):
@@ -152,9 +147,9 @@ class CaseSolver(Pickled):
         out : Cases, optional
             Earlier ones to be filled again.
         """
-        found, states = self._find(factors, closed, varied, want, out)
-        again = found if states is None else None
-        asked = Asked(self.beam, self.rule, factors, found["closed"], varied, states, closed, self.scene)
+        found = self._find(factors, closed, varied, want, out)
+        asked = Asked(self.beam, self.rule, factors, found["closed"], varied, closed, self.scene)
+        again = None if asked.is_anew else found
         if self._carries is not None:
             found = self._by_scene(found)
         if self.may_buckle:
@@ -165,10 +160,10 @@ class CaseSolver(Pickled):
 
     def _find(
         self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
-    ) -> Found:
+    ) -> dict[str, np.ndarray]:
         """Find the contact states and solve for what is wanted."""
         into = None if out is None else out._take_arrays()
-        return solve_cases(self.beam, factors, self.rule, closed, varied, want, into), None
+        return solve_cases(self.beam, factors, self.rule, closed, varied, want, into)
 
     def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
         """Which of the solved cases have a compression beyond the Euler load."""
@@ -185,13 +180,7 @@ class CaseSolver(Pickled):
             values[refused] = Status.BAD_INPUT if name == "status" else 0 if values.dtype.kind == "i" else np.nan
         factors = asked.factors.copy()
         factors[refused] = np.nan
-        states = asked.states
-        if states is not None:
-            states = replace(
-                states, status=np.where(refused, Status.BAD_INPUT, states.status).astype(np.int32),
-                **{name: np.where(refused[:, None, None], np.nan, getattr(states, name)) for name in STATES},
-            )  # fmt: skip
-        return replace(asked, factors=factors, states=states), found
+        return replace(asked, factors=factors), found
 
     def _by_scene(self, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """The same with columns for the supports of the scene across the beam."""
@@ -239,16 +228,16 @@ class WithLaws(CaseSolver):
 
     def _find(
         self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
-    ) -> Found:
+    ) -> dict[str, np.ndarray]:
         if varied.supports is None:
             return super()._find(factors, closed, varied, want, out)
         return self._find_anew(factors, closed, varied, want)
 
-    def _find_anew(self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...]) -> Found:
-        """Solve each case from its numbers on, as `solve_cases` gives it, but for reactions; and all else."""
+    def _find_anew(self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...]) -> dict[str, np.ndarray]:
+        """Solve each case from its numbers on, as `solve_cases` gives it, but for reactions."""
         piece, distance = self._sides_of_nodes
         nodes = len(self.beam.node_x)
-        found = all_combinations(self.beam, factors, None, self.rule, closed, piece, distance, varied)
+        found = all_combinations(self.beam, factors, None, self.rule, closed, piece, distance, varied, extremes=False)
         left, right = found.fields[:, :nodes, 2].copy(), found.fields[:, nodes:, 2].copy()
         solved = found.status == Status.SOLVED
         left[solved, 0] = right[solved, -1] = 0.0  # beside the beam
@@ -257,8 +246,7 @@ class WithLaws(CaseSolver):
             "reaction": found.at_supports[:, 0][:, self.supports],
         }  # fmt: skip
         arrays = {name: arrays[name] for name in want}
-        arrays |= {"closed": found.closed.copy(), "solves": found.solves.copy(), "status": found.status.copy()}
-        return arrays, replace(found, fields=found.fields[:, :0].copy())
+        return arrays | {"closed": found.closed.copy(), "solves": found.solves.copy(), "status": found.status.copy()}
 
     @cached_property
     def _sides_of_nodes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -267,12 +255,14 @@ class WithLaws(CaseSolver):
         return tuple(np.concatenate(parts) for parts in zip(*sides, strict=True))
 
 
-class OnGround(WithLaws):
-    """Cases of a beam on the ground, each anew: its zones of contact are another beam in every case."""
+class InStretches(WithLaws):
+    """Cases of a beam on the ground or with an axial force that bending feels, most of them another beam each."""
 
     def _find(
         self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
-    ) -> Found:
+    ) -> dict[str, np.ndarray]:
+        if varied.is_nothing:
+            return CaseSolver._find(self, factors, closed, varied, want, out)
         return self._find_anew(factors, closed, varied, want)
 
     def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
@@ -293,5 +283,5 @@ def solver_of(scene: Scene, beam: Beam, rule: str, movements: Movements | None =
     scene, beam, rule, movements
         As for `CaseSolver`.
     """
-    kind = OnGround if beam.in_stretches else WithLaws if beam.has_laws else CaseSolver
+    kind = InStretches if beam.in_stretches else WithLaws if beam.has_laws else CaseSolver
     return kind(scene, beam, rule, movements)

@@ -150,7 +150,7 @@ def refused_cases(
     """
     refused, struts = np.zeros(len(factors), dtype=bool), Struts(beam)
     pieces, distances = map(np.concatenate, zip(*ends_of_pieces(beam), strict=True))
-    for part, found in solve_combinations(beam, factors, None, rule, closed, pieces, distances, varied):
+    for part, found in solve_combinations(beam, factors, None, rule, closed, pieces, distances, varied, False):
         for row in np.flatnonzero(found.status == SOLVED).tolist():
             k, tension = part.start + row, found.fields[row, :, TENSION].reshape(2, -1).min(axis=0)
             if tension.min() < 0.0:

@@ -1,6 +1,7 @@
 """Axial force in bending: closed forms, independent solutions in many digits, ground, compression, what is refused."""
 
 import math
+import random
 import re
 
 import gapbeam
@@ -147,6 +148,23 @@ def test_a_beam_in_great_tension_is_a_string_but_near_its_ends(N):
     # Near its ends it bends until it has the curvature of the string
     assert found["moment"]["max"].value == pytest.approx(3.0 / N, rel=1e-3)
     assert found["transverse"]["max"].value == pytest.approx(700 / 6, rel=1e-6)
+
+
+def test_tension_holds_what_turns_about_one_support():
+    """On one support a beam turns until N balances the loads, also where the search passes the beam without any, which moves."""
+    draw = random.Random(0)
+    for _ in range(300):
+        forces, N = [(draw.uniform(0.0, 1.0), draw.uniform(-30.0, 30.0)) for _ in range(3)], 10.0 ** draw.uniform(-1, 1)
+        about_left, about_right = sum(x * F for x, F in forces), sum((1.0 - x) * F for x, F in forces)
+        ends = [{"node": 0, "side": "below"}, {"node": 1, "side": "above"}]
+        result = gapbeam.solve(beam(N, supports=ends, loads=[force(x, F) for x, F in forces]))
+        on_left, on_right = about_left + about_right > 0.0 < about_left, about_left + about_right < 0.0 > about_right
+        assert on_left or on_right or about_right > 0.0 > about_left
+        assert result.status == "solved"
+        if on_left:
+            assert result.at(1.0).deflection == pytest.approx(about_left / N, rel=1e-12)
+        if on_right:
+            assert result.at(0.0).deflection == pytest.approx(about_right / N, rel=1e-12)
 
 
 def test_a_deflection_that_passes_zero_is_no_jump():
