@@ -6,9 +6,9 @@ program test_api_modes
         ground_event_type, event_type, cases_type, history_type, point_force, uniform_load, prepare_model, solve_beam, &
         get_supports, get_fields, get_quantities, get_quantity_extremes, get_motion, get_modes, get_mode_shape, get_buckling, &
         get_pressure, follow_ground, follow_load, follow_history, prepare_cases, solve_cases, gapbeam_buckling, &
-        gapbeam_vibration, gapbeam_of_transverse, gapbeam_of_shear, gapbeam_below, gapbeam_closes, gapbeam_dead, gapbeam_limit_stop, &
-        gapbeam_solved, gapbeam_buckles, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_status_message, &
-        gapbeam_axial, axial_force, axial_uniform_load, replace_loads, count_supports
+        gapbeam_vibration, gapbeam_of_transverse, gapbeam_of_shear, gapbeam_below, gapbeam_closes, gapbeam_dead, &
+        gapbeam_limit_stop, gapbeam_solved, gapbeam_buckles, gapbeam_bad_input, gapbeam_not_prepared, &
+        gapbeam_status_message, gapbeam_axial, axial_force, axial_uniform_load, replace_loads, count_supports
     implicit none
     real(wp), parameter :: euler = acos(-1.0_wp)**2
     integer :: status

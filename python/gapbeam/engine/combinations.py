@@ -136,7 +136,8 @@ def solve_combinations(
         scheme = np.asfortranarray(schemes[part].T)
         begin = perf_counter()
         values, largest, places, fields_at, solves, status = _engine.gbcomb(
-            beam.handle, len(FIELDS), len(FIELDS) if extremes else 0, np.asfortranarray(shares), np.asfortranarray(moves), *own, RULES[rule], scheme, *about
+            beam.handle, len(FIELDS), len(FIELDS) if extremes else 0, np.asfortranarray(shares), np.asfortranarray(moves), *own,
+            RULES[rule], scheme, *about,
         )
         check_ended(status)
         yield part, Combined(

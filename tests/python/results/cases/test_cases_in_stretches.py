@@ -81,7 +81,7 @@ def test_what_is_asked_later():
     scene, rows = drawn(3)
     cases = gapbeam.prepare(scene).solve(rows[:20])
     again = pickle.loads(pickle.dumps(cases))
-    values, places = (cases._pairs_of_extremes()["moment"]["max"])
+    values, places = cases._pairs_of_extremes()["moment"]["max"]
     for k in (0, 7, 19):
         if cases.status[k] == Status.SOLVED:
             result = cases.result(k)
@@ -115,7 +115,8 @@ def test_axial_loads_by_case():
     rows = np.array([[1.0 + 0.1 * k, 2.0 if k % 3 == 2 else 1.0] for k in range(30)])
     cases = prepared.solve(rows)
     assert (cases.solves == 0).sum() == 17  # of 20 beside those by which the responses came
-    given = gapbeam.prepare({**scene, "beam": {**scene["beam"], "N": 40.0}, "supports": scene["supports"][:3], "loads": scene["loads"][:1]})
+    given = {"beam": {**scene["beam"], "N": 40.0}, "supports": scene["supports"][:3], "loads": scene["loads"][:1]}
+    given = gapbeam.prepare(given)
     assert cases.reaction[2::3] == pytest.approx(given.solve(rows[2::3, :1]).reaction, rel=1e-13)
     turned = prepared.solve(rows[::-1])
     assert turned.reaction == pytest.approx(cases.reaction[::-1], rel=1e-13)
