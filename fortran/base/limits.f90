@@ -22,7 +22,7 @@ module gapbeam_limits
     public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings
     public :: least_compressions, most_compressions, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
-    public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled
+    public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled, most_stretchings
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
     !> continuation/smooth_events, response/smooth_state
@@ -267,6 +267,9 @@ module gapbeam_limits
     !> Changes of scheme by which a case is looked for among them: from one case to the next few do; tuned. Read by
     !> cases/stretch_cases
     integer, parameter :: most_scheme_changes = 8
+    !> States of a beam by which the tension of its own stretching is looked for; ten do, and a bracket that is halved takes as many
+    !> as a double has bits. Read by response/stretching
+    integer, parameter :: most_stretchings = 80
     !> Numbers that all of these responses may hold: 256 MB; tuned. Read by cases/stretch_cases
     integer, parameter :: most_response_numbers = 32000000
     !> A sum of responses may be so much less than its terms: four of its 53 bits are lost then. Read by cases/scheme_responses

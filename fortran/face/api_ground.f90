@@ -73,6 +73,9 @@ contains
             if (.not. allocated(beam%lowered%layers)) then
                 call fatal_error(error, gapbeam_bad_input, "the beam has no foundation, no axial force N and no "// &
                                  "mass: use follow_load")
+            else if (beam%lowered%model%stretching) then
+                call fatal_error(error, gapbeam_bad_input, "events of a beam that its deflections stretch are not available in "// &
+                                 "this version; use solve_beam at several factors")
             else if (.not. factor > 0.0_wp) then
                 call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))
             end if

@@ -43,7 +43,7 @@ module gapbeam_capi_model
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
         type(c_ptr) :: hinge_stiffness = c_null_ptr
         type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
-        integer(c_int) :: N_grows = 0, first_order = 0
+        integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0
     end type c_model
 
 contains
@@ -138,6 +138,7 @@ contains
             if (has_reals(c%mass, c%spans, reals)) model%spans%mass = reals
             model%N_grows = c%N_grows /= 0
             model%first_order = c%first_order /= 0
+            model%stretching = c%stretching /= 0
             allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
             if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
         end if

@@ -97,7 +97,8 @@ contains
             model%first_order = .true.
             if (present(igrow)) then
                 model%N_grows = modulo(igrow, 2) /= 0
-                model%first_order = igrow > 1
+                model%first_order = modulo(igrow/2, 2) /= 0
+                model%stretching = modulo(igrow/4, 2) /= 0
             end if
             call new_beam(model, handle, error)
         end if

@@ -5,8 +5,8 @@
 !                       the square of that of time over that of length
 !     SHEAR(NFOUND)     second parameter of every foundation (force), 0 or more: what resists differences of their deflection; of
 !                       those that hold both ways by a modulus
-!     IGROW             0: N is the same at all load factors; 1: it grows with them, N at load factor 1; 2 and 3 the same, and axial
-!                       loads have no effect on bending, as in beams of the other routines
+!     IGROW             0: N is the same at all load factors; 1: it grows with them, N at load factor 1; 2 more: axial loads have no
+!                       effect on bending, as in beams of the other routines; 4 more: what deflections lengthen the beam by pulls it
 !
 !     KIND              of modes: 1 buckling, 2 vibration, with the supports and the ground that act in a solved state
 

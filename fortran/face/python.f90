@@ -41,8 +41,8 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
-    ! Does N grow with the load factor (1); do axial loads have no effect on bending (1)
-    integer, intent(in) :: forces(2)
+    ! Does N grow with the load factor (1); do axial loads have no effect on bending (1); do deflections stretch the beam (1)
+    integer, intent(in) :: forces(3)
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
@@ -69,6 +69,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
                                                              model, error)
     model%N_grows = forces(1) /= 0
     model%first_order = forces(2) /= 0
+    model%stretching = forces(3) /= 0
     if (.not. allocated(error)) call keep_beam(model, handle, error)
     beam = number_of(handle)
     call report(error, status, message)

@@ -79,6 +79,7 @@ contains
                 call move_alloc(model%loads, kept%loads)
                 kept%N_grows = model%N_grows
                 kept%first_order = model%first_order
+                kept%stretching = model%stretching
             end associate
             call assemble_model(handle%beam%lowered, error)
         end if

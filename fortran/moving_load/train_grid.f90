@@ -70,6 +70,11 @@ contains
                              "the ground a stiffness")
             return
         end if
+        if (assembled%model%stretching) then
+            call fatal_error(error, gapbeam_bad_input, "goes over a beam that its deflections stretch, which is not available "// &
+                             "in this version; give its axles as forces at places")
+            return
+        end if
         if (any(assembled%pieces%compression > 0.0_wp) .or. assembled%model%axial_loads_bend) then
             if (.not. is_unique(ground_of(assembled, 1.0_wp))) then
                 call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports "// &

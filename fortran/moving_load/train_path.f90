@@ -20,7 +20,7 @@ module gapbeam_train_path
     use gapbeam_workspace, only: new_workspace
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state, close_all
-    use gapbeam_state, only: solve_along_axis
+    use gapbeam_along_axis, only: solve_along_axis
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: find_intervals, enter_interval
     use gapbeam_train_traversal, only: traversal_type, lengthen

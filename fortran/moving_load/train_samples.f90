@@ -20,7 +20,7 @@ module gapbeam_train_samples
     use gapbeam_system, only: solve_and_refine
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_along_axis
+    use gapbeam_along_axis, only: solve_along_axis
     use gapbeam_support_values, only: support_values
     use gapbeam_train, only: train_type, track_type, degree_of
     use gapbeam_train_intervals, only: interval_type, enter_interval

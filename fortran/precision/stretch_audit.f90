@@ -21,7 +21,7 @@ module gapbeam_stretch_audit
         moments, forces, beyond, pulls
     implicit none
     private
-    public :: sums_type, audit_stretch
+    public :: sums_type, audit_stretch, rates_of
 
     !> Samples of stretches in which ground acts by curves: their series are taken from end to end, not integrated by points
     integer, parameter :: samples = 3

@@ -1,7 +1,7 @@
 !> Axial forces of loads, temperatures and settlements along the beam, where bending feels them.
 !>
-!> The chain of bars and springs is solved for itself: slopes are small, so bending does not change its forces. These grow straight
-!> with the load factor.
+!> The chain of bars and springs is solved for itself. Slopes are small, so bending does not change its forces, but where what
+!> deflections lengthen it by pulls it (gapbeam_stretching). They grow straight with the load factor.
 module gapbeam_axial_tension
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type
@@ -20,9 +20,11 @@ contains
 
     !> Forces in the bars at load factor 0 and by how much they grow with it, in the engine's units of forces across the beam that
     !> slopes make of them
-    pure function tensions_of_loads(assembled) result(tension)
+    pure function tensions_of_loads(assembled, stretched) result(tension)
         !> Whose bending feels axial loads
         type(assembled_type), intent(in) :: assembled
+        !> By what deflections lengthen the bars (state_type)
+        real(wp), intent(in), optional :: stretched(:)
         !> Of every piece, shape (2, npiece); 0 where nothing holds the beam along its axis
         real(wp) :: tension(2, size(assembled%pieces))
         real(qp) :: at(2, size(assembled%axial%flexibility))
@@ -53,6 +55,7 @@ contains
             associate (axial => assembled%axial)
                 longer(:) = 0.0_qp
                 if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + factor*axial%elongation(2, :)
+                if (present(stretched)) longer(:) = longer - stretched
                 force(:) = axial%force(1, :) + factor*axial%force(2, :)
                 call solve_axial(real(axial%flexibility, qp), longer, force, real(axial%stiffness, qp), &
                                  real(axial%settlement, qp), displacement, found_tension, reaction, found, place)

@@ -10,6 +10,7 @@ module gapbeam_query
         of_pressure, of_transverse, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
+    use gapbeam_stretched_displacement, only: displacement_in, extremes_of_displacement
     use gapbeam_axial_fields, only: axial_fields, extremes_along
     use gapbeam_ground_along, only: ground_along_type
     use gapbeam_ordered, only: last_not_above
@@ -178,6 +179,10 @@ contains
             all_of_them(of_transverse) = across(i)
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement), along_ground)
+            if (assembled%model%stretching .and. present(ground) .and. any(quantities == of_axial_displacement)) then
+                all_of_them(of_axial_displacement) = displacement_in(assembled, ground, displacement, piece(i), &
+                                                                     scale(distance(i), -assembled%units%length))
+            end if
             found(:, i) = all_of_them(quantities)
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
             if (k == 0) cycle
@@ -320,6 +325,10 @@ contains
                 call extremes_along(assembled, state%factor, state%displacement, state%tension, &
                                     found(:, of_axial_force:of_axial_displacement), &
                                     places(:, of_axial_force:of_axial_displacement), state%along_ground)
+            end if
+            if (assembled%model%stretching .and. any(quantities == of_axial_displacement)) then
+                call extremes_of_displacement(assembled, state%ground, state%displacement, found(:, of_axial_displacement), &
+                                              places(:, of_axial_displacement))
             end if
         end if
         powers = units_of_fields(assembled, quantities)

@@ -45,6 +45,8 @@ module gapbeam_solution
         real(wp), allocatable :: reaction(:)
         !> Displacements and reactions of the axial system's points, forces in its bars; of size 0 without one
         real(wp), allocatable :: displacement(:), axial_reaction(:), tension(:)
+        !> By what deflections lengthen the bars, where that pulls the beam
+        real(wp), allocatable :: stretched(:)
         !> With links along the beam: their scheme, and the force on the beam, to the right, of every support of the model
         logical, allocatable :: along(:)
         real(wp), allocatable :: along_force(:)

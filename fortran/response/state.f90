@@ -1,9 +1,9 @@
 !> The state of a beam at one load factor: solved, recovered and certified.
 module gapbeam_state
-    use gapbeam_kinds, only: wp, qp
+    use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_indeterminate, gapbeam_not_finite, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
+        gapbeam_not_finite, gapbeam_not_converged, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_element, only: field_type
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -17,20 +17,18 @@ module gapbeam_state
     use gapbeam_axial_tension, only: tensions_of_loads, check_tensions
     use gapbeam_compressed, only: solve_with_axial_force
     use gapbeam_ground_start, only: ground_start_type
-    use gapbeam_ledger, only: ledger_type, words_for
-    use gapbeam_audit, only: audit_axial
+    use gapbeam_ledger, only: ledger_type
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
-    use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
-    use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
-    use gapbeam_words, only: shown
-    use gapbeam_assembled_model, only: assembled_type, growth_of, point_x, find_length_errors
+    use gapbeam_assembled_model, only: assembled_type, growth_of, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range, check_room, has_own_laws, laws_in
+    use gapbeam_along_axis, only: solve_along_axis, name_fault
+    use gapbeam_stretching, only: stretching_type, lengthening, begin_stretching, bound_stretching, guess_stretching
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
-    public :: solve_state, solve_along_axis, ground_of, recover_state, certify_state, detail_of, name_range
+    public :: solve_state, ground_of, recover_state, certify_state, detail_of, name_range
 
 contains
 
@@ -52,6 +50,7 @@ contains
         type(ground_type) :: ground
 
         call forget(state)
+        if (allocated(state%stretched)) deallocate (state%stretched)
         state%factor = factor
         state%fingerprint = assembled%fingerprint
         call reserve_for(for_solving, assembled%beam, detail_of(assembled), error)
@@ -61,9 +60,13 @@ contains
         if (allocated(assembled%layers)) then
             call check_room(assembled, state, error)
             if (allocated(error)) return
-            ground = ground_of(assembled, factor)
-            if (assembled%model%axial_loads_bend) call check_tensions(assembled, ground, error)
-            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
+            if (assembled%model%stretching) then
+                call settle_stretched(assembled, rule, state, error)
+            else
+                ground = ground_of(assembled, factor)
+                if (assembled%model%axial_loads_bend) call check_tensions(assembled, ground, error)
+                if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
+            end if
         else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
             changed%supports(:) = laws_in(assembled, state)
@@ -114,6 +117,54 @@ contains
         state%shear(:) = work%shear
         state%reaction(:) = work%reaction
     end subroutine settle
+
+    !> The same of a beam that is pulled by what its deflections lengthen it by
+    subroutine settle_stretched(assembled, rule, state, error)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: rule
+        type(state_type), intent(inout) :: state
+        type(error_type), allocatable, intent(out) :: error
+        type(stretching_type) :: stretching
+        type(ground_type) :: ground
+        logical, allocatable :: start(:)
+        integer :: solves
+
+        start = state%closed
+        solves = 0
+        call begin_stretching(assembled, stretching)
+        do
+            state%closed(:) = start
+            if (allocated(state%ground)) deallocate (state%ground)
+            state%status = -1
+            state%stretched = stretching%stretched
+            ground = ground_of(assembled, state%factor, state%stretched)
+            call check_tensions(assembled, ground, error)
+            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
+            if (allocated(state%ground)) solves = solves + state%ground%solves
+            if (allocated(error)) then
+                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+            end if
+            if (.not. allocated(error) .and. state%status == gapbeam_solved) then
+                call guess_stretching(stretching, lengthening(assembled, state%ground))
+            else
+                if (state%status == gapbeam_buckles .and. .not. any(state%stretched > 0.0_wp)) then
+                    call bound_stretching(assembled, state%factor, state%ground%axial_share, stretching)
+                end if
+                call guess_stretching(stretching)
+            end if
+            if (stretching%ends) exit
+            if (allocated(error)) deallocate (error)
+        end do
+        state%solves = solves
+        if (allocated(error) .or. state%status /= gapbeam_solved) return
+        if (stretching%jumps) then
+            call fatal_error(error, gapbeam_not_converged, "the beam jumps from one shape to another while it is stretched, "// &
+                             "and none was found that fits its tension: look for supports or loads that press it into two waves")
+            return
+        end if
+        state%stretched = stretching%stretched
+        call solve_along_axis(assembled, state, error)
+    end subroutine settle_stretched
 
     !> The same on the ground
     subroutine settle_on_ground(assembled, ground, rule, state, error, near)
@@ -182,9 +233,11 @@ contains
     end subroutine take_outcome
 
     !> The beam with the ground under it, where they are at a load factor
-    function ground_of(assembled, factor) result(ground)
+    function ground_of(assembled, factor, stretched) result(ground)
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
+        !> By what deflections lengthen the bars along the axis (state_type)
+        real(wp), intent(in), optional :: stretched(:)
         type(ground_type) :: ground
         logical :: grows
 
@@ -218,7 +271,8 @@ contains
                     moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
                     moving%tension(2, :) = assembled%tension_growth
                 end if
-                if (assembled%model%axial_loads_bend) moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
+                if (assembled%model%axial_loads_bend) moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, &
+                                                                                                                      stretched)
             end if
         end associate
         call move_ground(ground, factor)
@@ -233,94 +287,6 @@ contains
         if (.not. allocated(error)) return
         if (error%code == gapbeam_not_finite) call name_farthest(assembled, error)
     end subroutine name_range
-
-    !> Refuse a state that does not stand its audit, in the user's words
-    subroutine name_fault(assembled, ledger, error)
-        type(assembled_type), intent(in) :: assembled
-        type(ledger_type), intent(in) :: ledger
-        !> What is wrong, and where
-        type(error_type), allocatable, intent(out) :: error
-
-        if (ledger%wrong == 0) return
-        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at x = " &
-                         //trim(shown(point_x(assembled, ledger%piece - 1) + scale(ledger%distance, assembled%units%length))) &
-                         //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
-                         //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
-    end subroutine name_fault
-
-    !> Solve the axial system, if there is one
-    subroutine solve_along_axis(assembled, state, error)
-        type(assembled_type), intent(in) :: assembled
-        !> With its load factor in, displacements and forces along the axis out, or that the beam slides
-        type(state_type), intent(inout) :: state
-        !> Supports that hold a rigid stretch at both ends
-        type(error_type), allocatable, intent(out) :: error
-        type(ledger_type) :: ledger
-        real(wp), allocatable :: longer(:), force(:)
-        integer :: found, place
-
-        ! Links that act one way, yield or rub, and ground are known on a path alone
-        if (.not. allocated(assembled%axial%point)) return
-        if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return
-        associate (axial => assembled%axial)
-            allocate (longer(size(axial%flexibility)), source=0.0_wp)
-            force = axial%force(1, :) + state%factor*axial%force(2, :)
-            if (allocated(axial%elongation)) then
-                ! What a stiff bar would push with if it were held is large beside what soft supports let it
-                longer(:) = axial%elongation(1, :) + state%factor*axial%elongation(2, :)
-                call solve_finely(found, place)
-            else
-                call solve_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
-                                 state%tension, state%axial_reaction, found, place)
-            end if
-            state%slides = found == axial_slides
-            if (found == axial_ok) then
-                call check(error)
-                if (allocated(error)) then
-                    ! Beside what springs give, bars that are without force have rounding
-                    call solve_finely(found, place)
-                    call check(error)
-                end if
-            end if
-            if (found /= axial_indeterminate) return
-            associate (point => axial%point(place))
-                call fatal_error(error, gapbeam_indeterminate, "the axial support at x = " &
-                                 //trim(shown(point_x(assembled, point)))// &
-                                 " and another one hold a stretch with infinite EA at both ends, so their forces cannot "// &
-                                 "be told apart: give the beam a finite EA")
-            end associate
-        end associate
-
-    contains
-
-        !> Audit the solution
-        subroutine check(error)
-            type(error_type), allocatable, intent(out) :: error
-
-            associate (axial => assembled%axial)
-                call audit_axial(axial%flexibility, longer, force, axial%stiffness, axial%settlement, state%displacement, &
-                                 state%tension, state%axial_reaction, ledger)
-                ledger%piece = axial%point(ledger%piece) + 1
-                call name_fault(assembled, ledger, error)
-            end associate
-        end subroutine check
-
-        !> Solve in quadruple precision
-        subroutine solve_finely(found, place)
-            integer, intent(out) :: found, place
-            real(qp) :: displacement(0:ubound(state%displacement, 1)), reaction(0:ubound(state%displacement, 1))
-            real(qp) :: tension(size(state%tension))
-
-            associate (axial => assembled%axial)
-                call solve_axial_finely(real(axial%flexibility, qp), real(longer, qp), real(force, qp), real(axial%stiffness, qp), &
-                                        real(axial%settlement, qp), displacement, tension, reaction, found, place)
-            end associate
-            state%displacement(:) = real(displacement, wp)
-            state%tension(:) = real(tension, wp)
-            state%axial_reaction(:) = real(reaction, wp)
-        end subroutine solve_finely
-
-    end subroutine solve_along_axis
 
     !> What the links of a beam are made of
     function detail_of(assembled) result(detail)

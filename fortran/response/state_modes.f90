@@ -45,7 +45,7 @@ contains
         if (.not. has_any(assembled, what)) return
         call check_state(assembled, state, error)
         if (allocated(error)) return
-        ground = ground_of(assembled, state%factor)
+        ground = ground_of(assembled, state%factor, state%stretched)
         if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
@@ -87,7 +87,7 @@ contains
                              trim(merge("mass       ", "compression", what == by_vibration)))
         end if
         if (allocated(error)) return
-        ground = ground_of(assembled, state%factor)
+        ground = ground_of(assembled, state%factor, state%stretched)
         call start_from(state%ground, state%closed, start)
         call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)

@@ -1,8 +1,7 @@
 !> Assembly of the engine's arrays from what a user describes.
 !>
-!> The beam is cut into pieces wherever anything changes: at span ends, supports, hinges, point loads, the ends of distributed
-!> loads and of foundations, and the points of their tables. Only beam ends, supports across the beam and hinges become nodes of
-!> the system, with foundations all points; the pieces between two nodes are condensed into one link.
+!> The beam is cut into pieces wherever anything changes. Only beam ends, supports across the beam and hinges become nodes of the
+!> system, in beams solved stretch by stretch all points; the pieces between two nodes are condensed into one link.
 module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
@@ -47,7 +46,8 @@ contains
         integer :: stat
 
         call assemble_once(assembled, given, error)
-        if (.not. assembled%model%axial_loads_bend .or. .not. (allocated(error) .or. assembled%depends_on_path)) return
+        if (.not. assembled%model%axial_loads_bend .or. assembled%model%stretching) return
+        if (.not. (allocated(error) .or. assembled%depends_on_path)) return
         if (allocated(error)) then
             if (error%code == gapbeam_no_memory) return
         end if

@@ -44,7 +44,7 @@ contains
 
         associate (s => assembled%model%supports, loads => assembled%model%loads)
             associate (axial => s%direction == gapbeam_axial, rubs => any(assembled%model%sections%friction > 0.0_wp))
-                it_is = any(is_along(loads)) &
+                it_is = assembled%model%stretching .or. any(is_along(loads)) &
                     .or. ((rubs .or. any(axial .or. s%friction > 0.0_wp)) .and. any(makes_longer(loads))) &
                     .or. any(axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
                 if (allocated(assembled%growth)) it_is = it_is .or. any(axial .and. abs(assembled%growth) > 0.0_wp)
@@ -350,7 +350,7 @@ contains
                 return
             end if
             every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed) &
-                .or. any(model%sections%friction > 0.0_wp)
+                .or. any(model%sections%friction > 0.0_wp) .or. model%stretching
             node(:) = merge(0, -1, every)
             node(0) = 0
             node(n) = 0
@@ -363,7 +363,9 @@ contains
             i = count(node == 0) - 1
             allocate (axial%point(0:i), axial%softness(n), axial%before(n), axial%flexibility(i), axial%force(2, 0:i), &
                       axial%stiffness(0:i), axial%settlement(0:i), stat=stat)
-            if (stat == 0 .and. any(makes_longer(model%loads))) allocate (axial%elongation(2, i), stat=stat)
+            if (stat == 0 .and. (any(makes_longer(model%loads)) .or. model%stretching)) then
+                allocate (axial%elongation(2, i), source=0.0_wp, stat=stat)
+            end if
             if (stat == 0 .and. any(model%sections%friction > 0.0_wp)) allocate (axial%limit(i), stat=stat)
             if (stat == 0 .and. any(model%loads%kind == gapbeam_axial_distributed)) allocate (axial%along_bar(2, i), stat=stat)
             if (stat /= 0) then

@@ -310,6 +310,7 @@ contains
         copy%N_grows = source%N_grows
         copy%first_order = source%first_order
         copy%axial_loads_bend = source%axial_loads_bend
+        copy%stretching = source%stretching
     end subroutine copy_model
 
 end module gapbeam_assembled_model

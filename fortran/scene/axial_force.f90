@@ -4,9 +4,9 @@
 !> ground or not.
 module gapbeam_axial_force
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_range, only: is_lost
-    use gapbeam_words, only: shown
+    use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_axial, &
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
     use gapbeam_laws, only: is_smooth
@@ -39,8 +39,8 @@ contains
             .or. any(model%sections%N > gapbeam_unchanged .and. abs(model%sections%N) > 0.0_wp)
     end function is_given
 
-    !> Are there forces of axial loads, temperatures and settlements that bending might feel: those of a chain of bars and springs,
-    !> constant from place to place
+    !> Are there forces of axial loads, temperatures, settlements and stretching that bending might feel: those of a chain of bars
+    !> and springs, constant from place to place
     pure function axial_loads_may_bend(model, with_law) result(they_may)
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
@@ -56,7 +56,7 @@ contains
             they_may = any(s%direction == gapbeam_axial) .and. any(loads%kind == force_along) &
                 .or. count(s%direction == gapbeam_axial) > 1 &
                 .and. (any(s%direction == gapbeam_axial .and. abs(s%settlement) > 0.0_wp) &
-                       .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp))
+                       .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
             if (.not. they_may) return
             they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
                               .or. any(s%friction > 0.0_wp) .or. any(model%sections%friction > 0.0_wp) .or. any(is_smooth(s%law)) &
@@ -124,6 +124,8 @@ contains
             call check_foundation(model%foundations(i), i)
             if (allocated(error)) return
         end do
+        call check_stretching(model, error)
+        if (allocated(error)) return
         if (.not. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp) .or. any(model%spans%mass > 0.0_wp))) return
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
@@ -165,6 +167,25 @@ contains
         end subroutine say
 
     end subroutine check_axial_force
+
+    !> What pulls a beam that its deflections lengthen
+    subroutine check_stretching(model, error)
+        type(model_type), intent(in) :: model
+        !> Nothing holds it, or what is not available
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. model%stretching) return
+        if (count(model%supports%direction == gapbeam_axial) /= 2) then
+            call fatal_error(error, gapbeam_bad_input, "a beam that its deflections stretch is held along its axis at two "// &
+                             "places, not at "//trim(whole(count(model%supports%direction == gapbeam_axial)))//"; give two "// &
+                             "supports of direction axial, or leave stretching out")
+        else if (.not. model%axial_loads_bend) then
+            call fatal_error(error, gapbeam_bad_input, "stretching beside first_order, friction, axial supports that act one "// &
+                             "way, have a law or are moved by loads, and loads distributed along the beam is not available "// &
+                             "in this version; leave one of both out")
+        end if
+        if (allocated(error)) error%key = "stretching"
+    end subroutine check_stretching
 
     !> Axial forces of the pieces in the engine's units, with what ground there resists slopes with, and masses
     subroutine assign_axial_force(assembled, error)

@@ -25,6 +25,7 @@ contains
         end do
         if (model%N_grows) call mix(all_bits, [1.0_wp])
         if (model%axial_loads_bend) call mix(all_bits, [2.0_wp])
+        if (model%stretching) call mix(all_bits, [3.0_wp])
         call mix(all_bits, model%hinges)
         if (any(model%hinge_stiffness > 0.0_wp)) call mix(all_bits, model%hinge_stiffness)
         if (allocated(model%sections)) then

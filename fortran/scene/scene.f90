@@ -17,10 +17,9 @@ module gapbeam_scene
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
     public :: gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_counterclockwise, gapbeam_clockwise
     public :: gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
-              gapbeam_rotational_right
-    public :: gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
-              gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-              gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature
+              gapbeam_rotational_right, gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, &
+              gapbeam_axial_force, gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, &
+              gapbeam_couple_right, gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature
     public :: gapbeam_live, gapbeam_dead
     public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
@@ -212,8 +211,9 @@ module gapbeam_scene
         type(ground_point_type), allocatable :: ground(:)
         type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)
-        !> Does N grow with the load factor; are axial loads not to bend the beam; do they (found where a beam is prepared)
-        logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false.
+        !> Does N grow with the load factor; are axial loads not to bend the beam, and do they (found where a beam is prepared); is
+        !> the beam pulled by what its deflections lengthen it by (cable effect)
+        logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false., stretching = .false.
     end type model_type
 
 contains

@@ -99,7 +99,7 @@ class Model(c.Structure):
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
-        *((name, c.c_int) for name in ("N_grows", "first_order")),
+        *((name, c.c_int) for name in ("N_grows", "first_order", "stretching")),
     )
 
 
@@ -226,6 +226,7 @@ def columns(scene):
         **{key: spread(key, 0.0) for key in ("N", "mass")},
         "N_grows": int(scene.get("analysis", {}).get("N_with") == "live"),
         "first_order": int(scene.get("analysis", {}).get("first_order", False)),
+        "stretching": int(scene.get("analysis", {}).get("stretching", False)),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -583,7 +584,7 @@ class F77Beam:
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
         pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
-        feels = pressed or a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
+        feels = pressed or a["stretching"] or a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
         if len(ilaw) or len(sides) or named or feels:
@@ -599,7 +600,8 @@ class F77Beam:
             tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
-            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], a["N_grows"] + 2 * a["first_order"]]
+            forces = a["N_grows"] + 2 * a["first_order"] + 4 * a["stretching"]
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0

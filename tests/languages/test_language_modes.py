@@ -117,6 +117,26 @@ def test_axial_loads_agree(library):
     assert pressed == 12
 
 
+def test_stretched_beams_agree(library):
+    """Held along their axis at two places, steps among them; and what is refused."""
+    for seed in range(6):
+        scene = column(seed, share=0.8)
+        scene["beam"].pop("N")
+        scene["beam"]["EA"] = 1e4
+        scene["supports"] += [{"node": 0, "direction": "axial"}, {"node": 1, "direction": "axial", "stiffness": 300.0 * (1 + seed)}]
+        scene["analysis"] = {"rule": "block", "stretching": True}
+        result = python_result(scene)
+        assert result.at(0.3).axial_force > 0.0
+        beam, f77, _ = both(library, scene)
+        status, _ = beam.solve(1.0)
+        assert f77.solve(1.0) == status == 0
+        assert_same_state(beam, f77, result, scene, random.Random(seed))
+        beam.close()
+    scene["supports"].pop()
+    _, _, message = both(library, scene)
+    assert "at two places, not at 1" in message
+
+
 def test_load_paths_agree(library):
     """From event to event with axial forces that stay what they are, or grow."""
     events = 0

@@ -102,6 +102,8 @@ def axial_forces_in_words(result: Result, step: Step | None) -> str:
     """
     scene = result.scene
     of_loads = "Forces of axial loads, temperatures and settlements act on bending (second order)."
+    if scene.analysis.stretching:
+        of_loads = f"{of_loads} What deflections lengthen the beam by pulls it (stretching)."
     if result._beam.feels_axial_loads and step is None:
         return of_loads
     runs = axial_forces(scene) if step is None else acting_axial_forces(result, step)

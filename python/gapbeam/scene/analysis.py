@@ -37,6 +37,8 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     N_with : {"dead", "live"}
         What the given axial forces N belong to: dead (default), they are the same at all load factors; live, they grow with the
         load factor, from 0.
+    stretching : bool
+        True: what deflections lengthen the beam by pulls it, between two supports along its axis (cable effect); default false.
     """
 
     steps: Count = 1
@@ -48,6 +50,7 @@ class Analysis(Table, forbid_unknown_fields=True, kw_only=True):
     buckling: Modes = 0
     frequencies: Modes = 0
     N_with: Literal["dead", "live"] = "dead"
+    stretching: bool = False
 
     @property
     def has_history(self) -> bool:

@@ -176,6 +176,8 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
     check_limits(scene.limits, scene.beam.width, bool(len(scene.foundation)))
     if scene.analysis.steps < 1:
         raise SceneError("analysis.steps", f"expected a whole number, 1 or more, got {shown(scene.analysis.steps)}")
+    if scene.analysis.stretching:
+        _check_stretching(scene)
     if not scene.analysis.history:
         raise SceneError("analysis.history", "has no load factor; give one at least, for example [1.0]")
     if scene.analysis.follow == "events" and not any(scene.analysis.history):
@@ -185,6 +187,19 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
         if not isfinite(factor):
             raise SceneError(f"analysis.history[{i}]", f"expected a finite number, got {number(factor)}")
     return scene
+
+
+def _check_stretching(scene: Scene) -> None:
+    """Refuse what there is no stretching beside, in this version."""
+    asked = scene.analysis
+    beside = {
+        "first_order = true": asked.first_order, 'follow = "events"': asked.follow == "events", "history": asked.has_history,
+        "at_limit": asked.at_limit != "stop", "trains": bool(scene.trains),
+    }  # fmt: skip
+    for what, is_there in beside.items():
+        if is_there:
+            problem = f"beside {what} it is not available in this version; leave one of both out, or give steps"
+            raise SceneError("analysis.stretching", problem)
 
 
 def _check_laws(scene: Scene) -> None:

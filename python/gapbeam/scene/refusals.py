@@ -54,6 +54,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     """
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)
+    if not table:
+        return SceneError(f"analysis.{key}", message)
     i = entry - 1
     if table == HINGES and i >= len(scene.beam.hinges):
         return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
