@@ -160,6 +160,8 @@ def _plain(scene: Scene, beam: Beam) -> dict[str, Any]:
     data = {"title": scene.title, **{key: msgspec.to_builtins(getattr(scene, key)) for key in ("units", "beam")}}
     for unused in ("width", "direction", "alpha", "depth", "mass", *(() if np.any(scene.beam.N) else ("N",))):
         del data["beam"][unused]
+    if scene.analysis.stretching:
+        data["stretching"] = True  # which checkers do not know, and say so
     data["beam"]["hinges"] = _snapped(scene.beam.hinges, beam).tolist()
     for key in ("sections", "supports", "foundation", "loads"):
         items = map(msgspec.to_builtins, getattr(scene, key))
