@@ -4,6 +4,7 @@ module gapbeam_path_tolerances
     use gapbeam_kinds, only: wp, qp
     implicit none
     private
+    public :: narrow_bracket, clear_jump
     public :: load_begin, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
@@ -185,5 +186,10 @@ module gapbeam_path_tolerances
     !> Ties and motions under trains that differ by less, relative to 1 or to themselves, are the same; tuned. Read by
     !> moving_load/train_ties, moving_load/train_traversal
     real(wp), parameter :: same_tie = 1e-9_wp
+    !> Bracket of the logarithm of what deflections lengthen a beam by in which a jump is looked for no more closely. Read by
+    !> response/stretching
+    real(wp), parameter :: narrow_bracket = 1e-10_wp
+    !> Difference of two of these in such a bracket that is a jump: nothing smooth is as steep. Read by response/stretching
+    real(wp), parameter :: clear_jump = 1e-2_wp
 
 end module gapbeam_path_tolerances

@@ -155,6 +155,17 @@ contains
             if (stretching%ends) exit
             if (allocated(error)) deallocate (error)
         end do
+        if (stretching%fails) then
+            ! Why is told without stretching
+            if (allocated(error)) deallocate (error)
+            if (allocated(state%ground)) deallocate (state%ground)
+            deallocate (state%stretched)
+            state%closed(:) = start
+            ground = ground_of(assembled, state%factor)
+            call check_tensions(assembled, ground, error)
+            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
+            return
+        end if
         state%solves = solves
         if (allocated(error) .or. state%status /= gapbeam_solved) return
         if (stretching%jumps) then

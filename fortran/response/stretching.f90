@@ -7,6 +7,7 @@
 module gapbeam_stretching
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_stretchings
+    use gapbeam_path_tolerances, only: narrow_bracket, clear_jump
     use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of, most_points
     use gapbeam_element, only: field_type
     use gapbeam_ground_solution, only: ground_solution_type
@@ -26,8 +27,8 @@ module gapbeam_stretching
         real(wp), allocatable :: stretched(:)
         !> First and last bar between the two supports
         integer :: first = 1, last = 0
-        !> Is the search over; is the sum of the last state another one than was assumed
-        logical :: ends = .false., jumps = .false.
+        !> Is the search over; is the sum of the last state another one than was assumed; is there no state, however great the sum
+        logical :: ends = .false., jumps = .false., fails = .false.
         integer, private :: number = 0
         !> Logarithms of the least sum that is too great, of the greatest that is too small, and of the next guess
         real(wp), private :: high = 0.0_wp, low = 0.0_wp, guess = 0.0_wp
@@ -36,6 +37,8 @@ module gapbeam_stretching
         real(wp), private :: last_at = 0.0_wp, last_excess = 0.0_wp, width = huge(1.0_wp)
         !> A sum to begin with where a beam has no state without one, and one that is too small, 0: not known
         real(wp), private :: first_guess = 0.0_wp, least_guess = 0.0_wp
+        !> Logarithm of the length of the beam: slopes are no longer small
+        real(wp), private :: most = 0.0_wp
     end type stretching_type
 
 contains
@@ -127,6 +130,7 @@ contains
         ! Slopes of a millionth
         stretching%first_guess = scale(1e-12_wp*sum(assembled%pieces%length), assembled%units%length &
                                        - assembled%axial%units%deflection)
+        stretching%most = log(1e12_wp*stretching%first_guess)
     end subroutine begin_stretching
 
     !> Take it that a beam without stretching buckles: sums below which it does, and with which nothing presses it
@@ -166,6 +170,8 @@ contains
             assumed = sum(s%stretched)
             if (.not. present(found)) then
                 s%ends = s%number >= most_stretchings
+                s%fails = s%ends .or. (s%has_low .and. .not. s%has_high .and. s%low > s%most)
+                s%ends = s%fails
                 if (assumed > 0.0_wp) then
                     s%has_low = .true.
                     s%low = log(assumed)
@@ -189,7 +195,10 @@ contains
             if (sum_found > 0.0_wp) excess = log(sum_found/assumed)
             call narrow(s, log(assumed), excess)
             s%ends = s%number >= most_stretchings .or. abs(s%guess - s%last_at) <= 2*spacing(max(1.0_wp, abs(s%last_at)))
-            if (s%has_low .and. s%has_high) s%ends = s%ends .or. s%high - s%low <= 4*spacing(max(abs(s%low), abs(s%high)))
+            if (s%has_low .and. s%has_high) then
+                s%ends = s%ends .or. s%high - s%low <= 4*spacing(max(abs(s%low), abs(s%high))) &
+                    .or. (s%high - s%low <= narrow_bracket*max(1.0_wp, abs(s%low)) .and. abs(excess) > clear_jump)
+            end if
             if (s%ends) then
                 ! Half of the digits are there where nothing jumps
                 s%jumps = abs(excess) > sqrt(epsilon(excess))
