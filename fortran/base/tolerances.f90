@@ -53,8 +53,8 @@ module gapbeam_tolerances
 
     !> Positions whose difference is at most this share of the larger one are the same place: sums of some sixty spans may be so
     !> far off. Read by moving_load/train, moving_load/train_on_beam, response/query, scene/assemble_laws,
-    !> scene/assemble_supports, scene/check, scene/check_foundations, scene/check_rigid_ground, scene/stations and, through the
-    !> engine, by gapbeam.scene.places
+    !> scene/assemble_supports, scene/axial_force, scene/check, scene/check_foundations, scene/check_rigid_ground, scene/stations
+    !> and, through the engine, by gapbeam.scene.places
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)
     !> A place beyond an end of the beam by at most this share of its length is at that end: so much can a sum of spans be off.
     !> Read by response/query, scene/check and, through the engine, by gapbeam.scene.trains
@@ -320,12 +320,12 @@ module gapbeam_tolerances
     real(wp), parameter :: same_level = 16*real(epsilon(1.0_dp), wp)
     !> Zones on rigid ground that shrink below this share of their piece are single places; tuned. Read by contact/rigid_zones
     real(wp), parameter :: shortest_zone = 2.0_wp**(-26)
-    !> Share of the beam by which places of contact with rigid ground may still move in double precision: its square is nothing.
-    !> Read by precision/rigid_solver
+    !> Share of the beam by which places on rigid ground may still move: its square is nothing. Read by precision/rigid_solver
     real(wp), parameter :: rigid_places = 2.0_wp**(-26)
-    !> The same in quadruple precision: its square, which is what is left, is nothing there. Read by precision/rigid_solver
+    !> The same in quadruple precision. Read by precision/rigid_solver
     real(qp), parameter :: fine_rigid_places = 2.0_qp**(-80)
-    !> Part of the largest displacement of a motion on the ground that is none; tuned. Read by precision/ground_solver
+    !> Part of the largest displacement that is none, of a motion on the ground or a mode; tuned. Read by precision/ground_solver,
+    !> response/state_modes
     real(wp), parameter :: no_displacement = 1e-6_wp
     !> Zones of less than this share of the beam have no length: rounding of the place. Read by precision/ground_ties
     real(qp), parameter :: min_tied_zone = 4*epsilon(1.0_wp)

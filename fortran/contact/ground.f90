@@ -49,6 +49,8 @@ module gapbeam_ground
         type(moving_type), allocatable :: moving
         !> Of a vibration, whose mass pushes as ground of a negative modulus would (gapbeam_modes)
         real(wp) :: frequency_squared = 0.0_wp
+        !> Lumped masses at the nodes, shape (0:n); not allocated where there are none
+        real(wp), allocatable :: mass(:)
     end type ground_type
 
     !> Stretches of the beam, in each of which every layer stays on one piece of its law

@@ -15,12 +15,23 @@ module gapbeam_modes
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
     use gapbeam_moved_ground, only: under_share
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
+    use gapbeam_system, only: complete_scheme
     implicit none
     private
-    public :: by_axial_force, by_vibration, count_modes, find_mode_values, find_mode_shape
+    public :: by_axial_force, by_vibration, mode_shape_type, count_modes, find_mode_values, find_mode_shape
 
     !> What the value of a mode multiplies: the axial forces; the mass, and is the square of a circular frequency
     integer, parameter :: by_axial_force = 1, by_vibration = 2
+
+    !> How a beam moves in a mode
+    type :: mode_shape_type
+        !> Places along the beam, with distances from the left ends of their pieces, none where stiffnesses are too far apart;
+        !> deflection there, the largest 1, and moment left and right of them, shape (2, ...)
+        integer, allocatable :: piece(:)
+        real(wp), allocatable :: distance(:), deflection(:), moment(:, :)
+        !> Deflections of the nodes of the beam, shape (0:n), and reactions of the supports
+        real(wp), allocatable :: at_nodes(:), reaction(:)
+    end type mode_shape_type
 
 contains
 
@@ -41,7 +52,7 @@ contains
         integer, intent(in), optional :: parts
         type(ground_type) :: changed
         type(zones_type) :: cut
-        integer :: state, place
+        integer :: state, place, i
 
         number = -1
         if (what == by_axial_force) then
@@ -59,6 +70,13 @@ contains
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, 0.0_wp, work)
         call apply_scheme(grounded%beam, acting, [0, size(grounded%beam%links)], work)
+        if (what == by_vibration .and. allocated(ground%mass)) then
+            do i = 0, ubound(ground%mass, 1)
+                associate (node => work%nodes(grounded%node(i)))
+                    node%stiffness = node%stiffness - value*ground%mass(i)
+                end associate
+            end do
+        end if
         call factor_foundation_chain(work%nodes, grounded%beam%ground, work%pivots, state, place)
         if (state /= band_ok .and. place < size(grounded%beam%links)) return
         number = count_unstable_pivots(work%nodes, work%pivots)
@@ -199,6 +217,10 @@ contains
         integer :: j
 
         limit = huge(limit)
+        if (what == by_vibration .and. allocated(ground%mass)) then
+            ! Far beyond the last mode where there are lumped masses alone, and products of it are within range
+            limit = sqrt(sqrt(limit))/max(1.0_wp, maxval(ground%mass))
+        end if
         if (what /= by_axial_force) return
         do j = 1, size(ground%pieces)
             associate (p => ground%pieces(j))
@@ -210,7 +232,7 @@ contains
     end function greatest_value
 
     !> How the beam moves in a mode: what small forces near its value do (inverse iteration)
-    subroutine find_mode_shape(ground, zones, acting, what, value, parts, piece, distance, deflection, moment)
+    subroutine find_mode_shape(ground, zones, acting, what, value, parts, shape)
         !> As for count_modes
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
@@ -220,10 +242,7 @@ contains
         real(wp), intent(in) :: value
         !> Stretches between places at least, of every zone
         integer, intent(in) :: parts
-        !> Places along the beam, with distances from the left ends of their pieces, none where stiffnesses are too far apart;
-        !> deflection there, the largest 1, and moment left and right of them, shape (2, ...)
-        integer, allocatable, intent(out) :: piece(:)
-        real(wp), allocatable, intent(out) :: distance(:), deflection(:), moment(:, :)
+        type(mode_shape_type), intent(out) :: shape
         type(workspace_type) :: work
         type(grounded_type) :: grounded
         integer :: number, i, n, round, largest
@@ -232,7 +251,7 @@ contains
         if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, parts)
         n = -1
         if (number >= 0) n = size(grounded%stretches)
-        allocate (piece(n + 1), distance(n + 1), deflection(n + 1), moment(2, n + 1))
+        allocate (shape%piece(n + 1), shape%distance(n + 1), shape%deflection(n + 1), shape%moment(2, n + 1))
         if (number < 0) return
         ! Forces that no mode is without work of
         do i = 0, n
@@ -251,10 +270,11 @@ contains
             largest = maxloc(abs(work%answers%deflection), 1) - 1
             work%rhs%shear = work%answers%deflection/abs(work%answers(largest)%deflection)
         end do
-        associate (scale => 1/work%answers(largest)%deflection, node => grounded%node)
-            deflection(:) = scale*work%answers%deflection
-            moment(1, :) = scale*work%answers%moment_left
-            moment(2, :) = scale*work%answers%moment_right
+        associate (scale => 1/work%answers(largest)%deflection, node => grounded%node, piece => shape%piece, &
+                   distance => shape%distance)
+            shape%deflection(:) = scale*work%answers%deflection
+            shape%moment(1, :) = scale*work%answers%moment_left
+            shape%moment(2, :) = scale*work%answers%moment_right
             piece(1) = 1
             distance(1) = 0.0_wp
             n = 1
@@ -264,6 +284,12 @@ contains
                 distance(i + 1) = grounded%stretches(i)%length
                 if (piece(i) == n .and. i > 1) distance(i + 1) = distance(i + 1) + distance(i)
             end do
+            ! Supports push from where they stand now
+            grounded%beam%supports%contact = 0.0_wp
+            call complete_scheme(grounded%beam, acting, work)
+            allocate (shape%at_nodes(0:ubound(node, 1)))
+            shape%at_nodes(:) = scale*work%answers(node)%deflection
+            shape%reaction = scale*work%reaction(:size(acting))
         end associate
     end subroutine find_mode_shape
 

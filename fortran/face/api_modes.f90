@@ -8,8 +8,8 @@ module gapbeam_api_modes
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_buckles
     use gapbeam_words, only: shown, whole
-    use gapbeam_state_modes, only: gapbeam_buckling => by_axial_force, gapbeam_vibration => by_vibration, values_of_modes, &
-        shape_of_mode, shape_of_buckling
+    use gapbeam_state_modes, only: gapbeam_buckling => by_axial_force, gapbeam_vibration => by_vibration, shape_type, &
+        values_of_modes, shape_of_mode, shape_of_buckling
     use gapbeam_api_objects, only: prepared_type, result_type, require_result, bad_argument
     implicit none
     private
@@ -42,7 +42,7 @@ contains
     end subroutine get_modes
 
     !> How the beam moves in a mode
-    subroutine get_mode_shape(beam, result, kind, value, parts, x, deflection, moment, error)
+    subroutine get_mode_shape(beam, result, kind, value, parts, x, deflection, moment, error, amplitude, support)
         !> As for get_modes
         type(prepared_type), intent(in) :: beam
         type(result_type), intent(in) :: result
@@ -55,7 +55,11 @@ contains
         real(wp), allocatable, intent(out) :: x(:), deflection(:), moment(:, :)
         !> As for get_modes; gapbeam_bad_input also where there is no such mode; gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
+        !> How many times these deflections swing when a support closes or opens first, and which; infinite and 0 where none does
+        real(wp), intent(out), optional :: amplitude
+        integer, intent(out), optional :: support
         type(environment_type) :: environment
+        type(shape_type) :: shape
 
         call require_result(beam, result, gapbeam_solved, error)
         if (.not. allocated(error)) call require_kind(kind, error)
@@ -67,7 +71,13 @@ contains
         end if
         if (allocated(error)) return
         call hold_environment(environment)
-        call shape_of_mode(beam%lowered, result%state, kind, value, parts, x, deflection, moment, error)
+        call shape_of_mode(beam%lowered, result%state, kind, value, parts, shape, error)
+        if (allocated(error)) return
+        call move_alloc(shape%x, x)
+        call move_alloc(shape%deflection, deflection)
+        call move_alloc(shape%moment, moment)
+        if (present(amplitude)) amplitude = shape%amplitude
+        if (present(support)) support = shape%support
     end subroutine get_mode_shape
 
     !> How a beam gives way that does not bear its axial forces

@@ -43,7 +43,8 @@ module gapbeam_capi_model
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
         type(c_ptr) :: hinge_stiffness = c_null_ptr
         type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
-        integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0
+        integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0, masses = 0
+        type(c_ptr) :: mass_x = c_null_ptr, lumped_mass = c_null_ptr
     end type c_model
 
 contains
@@ -115,8 +116,11 @@ contains
                                                      error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
         if (.not. allocated(error) .and. with_all) then
-            call check_array("supports", c%supports, c_associated(c%support_law) .eqv. c_associated(c%support_parameter), &
-                             "support_law and support_parameter need each other", error)
+            call check_array("masses", c%masses, c_associated(c%mass_x) .and. c_associated(c%lumped_mass), &
+                             "mass_x and lumped_mass are needed", error)
+            if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_law) &
+                                                         .eqv. c_associated(c%support_parameter), &
+                                                         "support_law and support_parameter need each other", error)
             if (.not. allocated(error)) call foundations_from_c(c, model, error)
         end if
         if (allocated(error)) return
@@ -139,6 +143,9 @@ contains
             model%N_grows = c%N_grows /= 0
             model%first_order = c%first_order /= 0
             model%stretching = c%stretching /= 0
+            allocate (model%masses(2, c%masses))
+            if (has_reals(c%mass_x, c%masses, reals)) model%masses(1, :) = reals
+            if (has_reals(c%lumped_mass, c%masses, reals)) model%masses(2, :) = reals
             allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
             if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
         end if

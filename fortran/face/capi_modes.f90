@@ -39,27 +39,30 @@ contains
     end function c_get_modes
 
     !> See the header
-    function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, message, message_size) &
-        result(status) bind(c, name="gapbeam_get_mode_shape")
+    function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, amplitude, support, &
+                              message, message_size) result(status) bind(c, name="gapbeam_get_mode_shape")
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: kind, parts, capacity
         real(c_double), intent(in), value :: value
-        real(c_double), intent(inout), optional :: x(*), deflection(*), moment(2, *)
-        integer(c_int), intent(inout), optional :: number
+        real(c_double), intent(inout), optional :: x(*), deflection(*), moment(2, *), amplitude
+        integer(c_int), intent(inout), optional :: number, support
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
         type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         real(c_double), allocatable :: places(:), deflections(:), moments(:, :)
-        integer :: n
+        real(c_double) :: swing
+        integer :: n, first
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call get_mode_shape(prepared%beam, solved%result, kind, value, parts, places, deflections, &
-                                                        moments, error)
+                                                        moments, error, swing, first)
         call report(error, status, message, message_size)
         if (allocated(error)) return
         if (present(number)) number = size(places)
+        if (present(amplitude)) amplitude = swing
+        if (present(support)) support = first - 1
         n = max(0, min(int(capacity), size(places)))
         if (present(x)) x(1:n) = places(:n)
         if (present(deflection)) deflection(1:n) = deflections(:n)

@@ -19,7 +19,7 @@ contains
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                        found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
-                       slaw, fric, axial, shear, igrow)
+                       slaw, fric, axial, shear, igrow, nmass, amass)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
@@ -31,9 +31,10 @@ contains
         real(wp), intent(in), optional :: slaw(parameters_of_law, *)
         !> Friction coefficients of supports, as for GHPRFR
         real(wp), intent(in), optional :: fric(*)
-        !> Axial forces and masses of spans, second parameters of foundations, whether the axial forces grow, as for GHPRAF
-        real(wp), intent(in), optional :: axial(2, *), shear(*)
-        integer, intent(in), optional :: igrow
+        !> Axial forces and masses of spans, second parameters of foundations, whether the axial forces grow, lumped masses, as for
+        !> GHPRAF
+        real(wp), intent(in), optional :: axial(2, *), shear(*), amass(2, *)
+        integer, intent(in), optional :: igrow, nmass
         type(model_type) :: model
         type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
@@ -94,6 +95,7 @@ contains
                 model%spans%mass = axial(2, 1:nspan)
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
+            if (present(nmass)) model%masses = amass(:, 1:max(nmass, 0))
             model%first_order = .true.
             if (present(igrow)) then
                 model%N_grows = modulo(igrow, 2) /= 0
@@ -121,6 +123,7 @@ contains
         integer, parameter :: argument(0:6) = [1, 2, 4, 6, 9, 0, 16]
 
         place = argument(error%table)
+        if (error%key == "masses") place = 33
         select case (error%table)
         case (of_spans)
             if (error%key == "N" .or. error%key == "mass") place = 29

@@ -26,21 +26,23 @@ subroutine gbtole(place, endtol, begin, equal, segmts, change)
 end subroutine gbtole
 
 ! Prepare a beam
-subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, span, hinge, sect, isup, sup, ilaw, alaw, &
-                  iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, forces, thread, &
+subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, mmass, span, hinge, sect, isup, sup, ilaw, &
+                  alaw, iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, amass, forces, thread, &
                   beam, status, reason, table, entry, partner, key, message)
     use gapbeam_python_handles, only: error_type, handle_type, number_of, keep_beam, listen, report
     use gapbeam_scene, only: model_type
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     implicit none
     ! One more than there are
-    integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw
+    integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, mmass
     ! As for model_from_arrays, in the scene's units
     double precision, intent(in) :: span(6, mspan), hinge(2, mhinge), sect(13, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)
     double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
+    ! Places of lumped masses, and these
+    double precision, intent(in) :: amass(2, mmass)
     ! Does N grow with the load factor (1); do axial loads have no effect on bending (1); do deflections stretch the beam (1)
     integer, intent(in) :: forces(3)
     ! Python's main thread, which hears signals
@@ -67,6 +69,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
                                                              aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
                                                              model, error)
+    model%masses = amass(:, :mmass - 1)
     model%N_grows = forces(1) /= 0
     model%first_order = forces(2) /= 0
     model%stretching = forces(3) /= 0

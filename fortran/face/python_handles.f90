@@ -71,6 +71,7 @@ contains
                 call move_alloc(model%hinges, kept%hinges)
                 call move_alloc(model%hinge_stiffness, kept%hinge_stiffness)
                 call move_alloc(model%sections, kept%sections)
+                call move_alloc(model%masses, kept%masses)
                 call move_alloc(model%supports, kept%supports)
                 call move_alloc(model%law, kept%law)
                 call move_alloc(model%foundations, kept%foundations)

@@ -22,7 +22,7 @@ module gapbeam_compressed
     use gapbeam_moved_ground, only: under_share
     use gapbeam_layers, only: layer_type, has_curves
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_modes, only: by_axial_force, count_modes, find_mode_shape
+    use gapbeam_modes, only: by_axial_force, mode_shape_type, count_modes, find_mode_shape
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
@@ -275,7 +275,7 @@ contains
         !> It is stable still
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type) :: start
-        real(wp), allocatable :: moment(:, :)
+        type(mode_shape_type) :: shape
         character(len=20) :: text
         integer :: i
 
@@ -289,8 +289,10 @@ contains
         solution%axial_share = given*share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
-        call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, solution%mode_piece, &
-                             solution%mode_distance, solution%mode_deflection, moment)
+        call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, shape)
+        call move_alloc(shape%piece, solution%mode_piece)
+        call move_alloc(shape%distance, solution%mode_distance)
+        call move_alloc(shape%deflection, solution%mode_deflection)
         if (size(solution%mode_piece) == 0) then
             call fatal_error(error, gapbeam_not_converged, "the beam buckles under its axial forces, but its stiffnesses are "// &
                              "too far apart to tell how; bring them nearer together, or make them infinite or 0")

@@ -32,6 +32,10 @@ contains
         fine%layers(:) = fine_layer(ground%layers)
         fine%first(:) = ground%first
         fine%laws(:) = fine_law(ground%laws)
+        if (allocated(ground%mass)) then
+            allocate (fine%mass(0:ubound(ground%mass, 1)))
+            fine%mass(:) = ground%mass
+        end if
         if (.not. allocated(ground%moving)) return
         allocate (fine%moving)
         allocate (fine%moving%supports, source=real(ground%moving%supports, qp))

@@ -251,6 +251,7 @@ contains
         real(wp), intent(in), optional :: stretched(:)
         type(ground_type) :: ground
         logical :: grows
+        integer :: i
 
         ground%beam = assembled%beam
         associate (n => size(assembled%pieces))
@@ -263,6 +264,15 @@ contains
         ground%layers(:) = assembled%layers
         ground%first(:) = assembled%layer_first
         ground%laws(:) = assembled%law_pieces
+        if (size(assembled%mass_point) > 0) then
+            allocate (ground%mass(0:size(ground%pieces)), source=0.0_wp)
+            do i = 1, size(assembled%mass_point)
+                associate (at => assembled%mass_point(i))
+                    ground%mass(at) = ground%mass(at) + scale(assembled%model%masses(2, i), &
+                                                              assembled%units%deflection - assembled%units%force)
+                end associate
+            end do
+        end if
         grows = allocated(assembled%growth) .or. allocated(assembled%layer_growth) .or. allocated(assembled%tension_growth) &
             .or. assembled%model%axial_loads_bend
         if (.not. grows) return

@@ -1,6 +1,7 @@
 !> Modes of a solved state: factors of its axial forces at which it buckles, and circular frequencies at which it vibrates, with the
 !> supports and the ground that act in it.
 module gapbeam_state_modes
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
@@ -10,13 +11,26 @@ module gapbeam_state_modes
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type
     use gapbeam_modes, only: by_axial_force, by_vibration, find_mode_values
-    use gapbeam_modes_quad, only: find_fine_values => find_mode_values, find_fine_shape => find_mode_shape
+    use gapbeam_modes_quad, only: fine_shape_type => mode_shape_type, find_fine_values => find_mode_values, &
+        find_fine_shape => find_mode_shape
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
-    use gapbeam_state, only: ground_of, detail_of
+    use gapbeam_state, only: ground_of
+    use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
+    use gapbeam_tolerances, only: no_displacement
     implicit none
     private
-    public :: by_axial_force, by_vibration, values_of_modes, shape_of_mode, shape_of_buckling
+    public :: by_axial_force, by_vibration, shape_type, values_of_modes, shape_of_mode, shape_of_buckling
+
+    !> How a beam moves in a mode, in the user's units
+    type :: shape_type
+        !> Places; deflections there, the largest 1; moments left and right of them with these, shape (2, ...)
+        real(wp), allocatable :: x(:), deflection(:), moment(:, :)
+        !> How many times these deflections swing when a support closes or opens first, and which one of the model that is;
+        !> infinite and 0 where none does
+        real(wp) :: amplitude = 0.0_wp
+        integer :: support = 0
+    end type shape_type
 
 contains
 
@@ -60,7 +74,7 @@ contains
     end subroutine values_of_modes
 
     !> How the beam moves in a mode
-    subroutine shape_of_mode(assembled, state, what, value, parts, x, deflection, moment, error)
+    subroutine shape_of_mode(assembled, state, what, value, parts, shape, error)
         !> As for values_of_modes
         type(assembled_type), intent(in), target :: assembled
         type(state_type), intent(in) :: state
@@ -69,15 +83,13 @@ contains
         real(wp), intent(in) :: value
         !> Places on every stretch at least
         integer, intent(in) :: parts
-        !> Places; deflections there, the largest 1; moments left and right of them with these, in the user's units, shape (2, ...)
-        real(wp), allocatable, intent(out) :: x(:), deflection(:), moment(:, :)
+        type(shape_type), intent(out) :: shape
         type(error_type), allocatable, intent(out) :: error
         type(ground_type) :: ground
         type(ground_start_type) :: start
         type(fine_ground_type) :: fine
         type(fine_zones_type) :: zones
-        integer, allocatable :: piece(:)
-        real(qp), allocatable :: distance(:), w(:), m(:, :)
+        type(fine_shape_type) :: found
         real(qp) :: at
         integer :: stat
 
@@ -93,22 +105,58 @@ contains
         call refine_zones(fine, start%zones, zones)
         at = value
         if (what == by_vibration) at = at**2
-        call find_fine_shape(fine, zones, start%closed, what, at, parts, piece, distance, w, m)
-        if (size(piece) == 0) then
+        call find_fine_shape(fine, zones, start%closed, what, at, parts, found)
+        if (size(found%piece) == 0) then
             call fatal_error(error, gapbeam_bad_input, "modes: the stiffnesses of the beam are too far apart to tell a shape")
             return
         end if
-        allocate (x(size(piece)), deflection(size(piece)), moment(2, size(piece)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        associate (units => assembled%units)
-            x(:) = places_of(assembled, piece, real(distance, wp))
-            deflection(:) = real(w, wp)
-            moment(:, :) = scale(real(m, wp), units%force + units%length - units%deflection)
+        associate (n => size(found%piece), units => assembled%units)
+            allocate (shape%x(n), shape%deflection(n), shape%moment(2, n), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            shape%x(:) = places_of(assembled, found%piece, real(found%distance, wp))
+            shape%deflection(:) = real(found%deflection, wp)
+            shape%moment(:, :) = scale(real(found%moment, wp), units%force + units%length - units%deflection)
         end associate
+        call find_amplitude(assembled, ground, state, real(found%at_nodes, wp), real(found%reaction, wp), shape)
     end subroutine shape_of_mode
+
+    !> How far a mode may swing before a support closes or opens
+    pure subroutine find_amplitude(assembled, ground, state, at_nodes, reaction, shape)
+        type(assembled_type), intent(in) :: assembled
+        !> At the load factor of the state
+        type(ground_type), intent(in) :: ground
+        type(state_type), intent(in) :: state
+        !> Of the mode: deflections of the nodes, the largest anywhere 1, and reactions
+        real(wp), intent(in) :: at_nodes(0:), reaction(:)
+        type(shape_type), intent(inout) :: shape
+        real(wp) :: none(size(reaction)), margin, rounding, moved, rest, most, at
+        integer :: k
+        logical :: by_force
+
+        shape%amplitude = ieee_value(shape%amplitude, ieee_positive_inf)
+        shape%support = 0
+        none(:) = 0.0_wp
+        associate (supports => ground%beam%supports, closed => state%closed)
+            do k = 1, size(supports)
+                if (.not. is_watched_in(supports, closed, k)) cycle
+                at = at_nodes(supports(k)%node)
+                call margin_in_scheme(supports, closed, k, state%deflection(supports(k)%node), 0.0_wp, state%reaction, none, &
+                                      margin, rounding)
+                ! Margins are straight in deflections and forces
+                call margin_in_scheme(supports, closed, k, at, 0.0_wp, reaction, none, moved, rounding, by_force)
+                call margin_in_scheme(supports, closed, k, 0.0_wp, 0.0_wp, none, none, rest, rounding)
+                most = merge(maxval(abs(reaction)), 1.0_wp, by_force)
+                if (.not. abs(moved - rest) > no_displacement*most) cycle
+                most = scale(max(margin, 0.0_wp)/abs(moved - rest), assembled%units%deflection)
+                if (most >= shape%amplitude) cycle
+                shape%amplitude = most
+                shape%support = assembled%normal(k)
+            end do
+        end associate
+    end subroutine find_amplitude
 
     !> How a beam gives way that does not bear its axial forces
     subroutine shape_of_buckling(assembled, state, x, deflection, error)
@@ -153,7 +201,7 @@ contains
         logical :: it_has
 
         if (what == by_vibration) then
-            it_has = any(assembled%pieces%mass > 0.0_wp)
+            it_has = any(assembled%pieces%mass > 0.0_wp) .or. any(assembled%model%masses(2, :) > 0.0_wp)
         else
             it_has = any(is_compressed(assembled%pieces)) .or. assembled%model%axial_loads_bend
         end if
@@ -180,12 +228,14 @@ contains
     pure function first_step(ground, what) result(step)
         type(ground_type), intent(in) :: ground
         integer, intent(in) :: what
-        real(wp) :: step
+        real(wp) :: step, lumped
 
         associate (p => ground%pieces, length => sum(ground%pieces%length))
             step = max(maxval(p%flexibility)*length**2, maxval(p%shear_flexibility))
             if (what == by_vibration) then
-                step = step*length**2*maxval(p%mass)
+                lumped = 0.0_wp
+                if (allocated(ground%mass)) lumped = sum(ground%mass)
+                step = step*(length**2*maxval(p%mass) + length*lumped)
             else
                 step = step*maxval(p%slope_stiffness - p%tension)
             end if

@@ -10,7 +10,7 @@ module gapbeam_assemble
     use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_movement, gapbeam_dead, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
-    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force, axial_loads_may_bend
+    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force, check_masses, axial_loads_may_bend
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
@@ -21,6 +21,7 @@ module gapbeam_assemble
     use gapbeam_input_error, only: refuse, of_sections, of_foundations, of_loads, no_stretch, at_hinge, bad_load
     use gapbeam_assemble_hinges, only: find_hinges, make_hinges
     use gapbeam_assemble_supports, only: assemble_supports
+    use gapbeam_assemble_movements, only: take_movements
     use gapbeam_assemble_loads, only: assemble_loads
     implicit none
     private
@@ -80,6 +81,7 @@ contains
         associate (model => assembled%model)
             ! Left out: no hinge is elastic
             if (.not. allocated(model%hinge_stiffness)) allocate (model%hinge_stiffness(size(model%hinges)), source=0.0_wp)
+            if (.not. allocated(model%masses)) allocate (model%masses(2, 0))
             call check_spans(model%spans, error)
             if (allocated(error)) return
             n = size(model%spans)
@@ -113,6 +115,7 @@ contains
             if (allocated(error)) return
             call check_foundations(model, assembled%ends(n), error)
             if (.not. allocated(error)) call check_axial_force(model, error)
+            if (.not. allocated(error)) call check_masses(model, assembled%ends(n), error)
             if (allocated(error)) return
             call check_loads(model%loads, model, assembled%ends, error)
         end associate
@@ -126,41 +129,6 @@ contains
         call assemble_loads(assembled, error)
     end subroutine assemble_once
 
-    !> Movements of supports: those with the dead loads are settlements, the others grow with the load factor
-    subroutine take_movements(assembled, error)
-        type(assembled_type), intent(inout) :: assembled
-        type(error_type), allocatable, intent(out) :: error
-        integer :: i, stat
-
-        associate (model => assembled%model)
-            if (.not. any(model%loads%kind == gapbeam_movement .and. abs(model%loads%value) > 0.0_wp)) return
-            allocate (assembled%given_settlement(size(model%supports)), assembled%growth(size(model%supports)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
-            assembled%given_settlement(:) = model%supports%settlement
-            assembled%growth(:) = 0.0_wp
-            do i = 1, size(model%loads)
-                associate (load => model%loads(i))
-                    if (load%kind /= gapbeam_movement) cycle
-                    associate (s => model%supports(load%node), growth => assembled%growth(load%node))
-                        if (load%case == gapbeam_dead) then
-                            s%settlement = s%settlement + load%value
-                        else
-                            growth = growth + load%value
-                        end if
-                        if (abs(s%settlement) + abs(growth) <= huge(growth)) cycle
-                        call refuse_number(error, entry_type(of_loads, i, size(model%loads)), "value", load%value, &
-                                           "a smaller movement")
-                        return
-                    end associate
-                end associate
-            end do
-            if (.not. any(abs(assembled%growth) > 0.0_wp)) deallocate (assembled%growth)
-        end associate
-    end subroutine take_movements
-
     !> Points between the pieces, and the points of supports, hinges, foundations and loads
     subroutine find_points(assembled, error)
         type(assembled_type), intent(inout) :: assembled
@@ -173,7 +141,7 @@ contains
         associate (model => assembled%model)
             n = size(model%spans)
             total = 1_int64 + n + size(model%supports) + size(model%hinges) + size(model%ground) + size(model%ground_law) &
-                + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
+                + size(model%masses, 2) + 2_int64*(size(model%sections) + size(model%loads) + size(model%foundations))
             stat = merge(1, 0, 2*total > huge(0))
             if (stat == 0) allocate (places%span(total), order(total), chosen(total), point(total), places%offset(total), stat=stat)
             if (stat == 0) allocate (assembled%end_point(0:n), assembled%support_point(size(model%supports)), &
@@ -181,6 +149,7 @@ contains
                                      assembled%section_from(size(model%sections)), assembled%section_to(size(model%sections)), &
                                      assembled%foundation_from(size(model%foundations)), &
                                      assembled%foundation_to(size(model%foundations)), &
+                                     assembled%mass_point(size(model%masses, 2)), &
                                      assembled%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)
@@ -204,7 +173,7 @@ contains
         call take_points(assembled, point, error)
     end subroutine find_points
 
-    !> List all places: ends of spans, supports, hinges, ends of sections, of loads and of foundations, points of the ground
+    !> List all places: ends of spans, supports, hinges, ends of sections, of loads and of foundations, points of the ground, masses
     subroutine list_places(assembled, places)
         type(assembled_type), intent(inout) :: assembled
         !> With room for all
@@ -254,6 +223,9 @@ contains
             do i = 1, size(model%ground_law)
                 call add_on_foundation(assembled, size(model%ground) + i, model%ground_law(i)%foundation, model%ground_law(i)%x, &
                                        places)
+            end do
+            do i = 1, size(model%masses, 2)
+                call add(ends, model%masses(1, i), gapbeam_by_x, places)
             end do
         end associate
     end subroutine list_places
@@ -341,6 +313,7 @@ contains
             if (allocated(error)) return
             at = at + 2*size(model%foundations)
             where (assembled%ground_point == 0) assembled%ground_point = point(at + 1:at + size(assembled%ground_point))
+            assembled%mass_point(:) = point(at + size(assembled%ground_point) + 1:)
         end associate
 
     contains

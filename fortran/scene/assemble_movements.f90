@@ -1,15 +1,52 @@
-!> Assembly of loads that move foundations.
+!> Assembly of loads that move supports and foundations.
 module gapbeam_assemble_movements
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_scene, only: gapbeam_ground_movement, gapbeam_dead
+    use gapbeam_scene, only: gapbeam_movement, gapbeam_ground_movement, gapbeam_dead
+    use gapbeam_input_error, only: of_loads
+    use gapbeam_check, only: entry_type, refuse_number
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_tables, only: place_of, distance, between
     implicit none
     private
-    public :: move_layers
+    public :: take_movements, move_layers
 
 contains
+
+    !> Movements of supports: those with the dead loads are settlements, the others grow with the load factor
+    subroutine take_movements(assembled, error)
+        type(assembled_type), intent(inout) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: i, stat
+
+        associate (model => assembled%model)
+            if (.not. any(model%loads%kind == gapbeam_movement .and. abs(model%loads%value) > 0.0_wp)) return
+            allocate (assembled%given_settlement(size(model%supports)), assembled%growth(size(model%supports)), stat=stat)
+            if (stat /= 0) then
+                call no_memory(error)
+                return
+            end if
+            assembled%given_settlement(:) = model%supports%settlement
+            assembled%growth(:) = 0.0_wp
+            do i = 1, size(model%loads)
+                associate (load => model%loads(i))
+                    if (load%kind /= gapbeam_movement) cycle
+                    associate (s => model%supports(load%node), growth => assembled%growth(load%node))
+                        if (load%case == gapbeam_dead) then
+                            s%settlement = s%settlement + load%value
+                        else
+                            growth = growth + load%value
+                        end if
+                        if (abs(s%settlement) + abs(growth) <= huge(growth)) cycle
+                        call refuse_number(error, entry_type(of_loads, i, size(model%loads)), "value", load%value, &
+                                           "a smaller movement")
+                        return
+                    end associate
+                end associate
+            end do
+            if (.not. any(abs(assembled%growth) > 0.0_wp)) deallocate (assembled%growth)
+        end associate
+    end subroutine take_movements
 
     !> Move layers, in the user's units: with the dead loads from the start, with the others while the load factor grows
     subroutine move_layers(assembled, error)

@@ -74,6 +74,8 @@ module gapbeam_assembled_model
         integer, allocatable :: support_point(:), load_from(:), load_to(:)
         !> First and last point of every foundation; point of every point of tables, then of laws, -1: not on its foundation
         integer, allocatable :: foundation_from(:), foundation_to(:), ground_point(:)
+        !> Point of every lumped mass
+        integer, allocatable :: mass_point(:)
         !> First and last point of every section; the last section that gives EI, GA, EA, N of a piece, 0: none, shape (4, npiece),
         !> not allocated without sections
         integer, allocatable :: section_from(:), section_to(:), section_of(:, :)
@@ -272,7 +274,7 @@ contains
         type(model_type), intent(out) :: copy
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: spans, hinges, sections, supports, points, foundations, ground, ground_law, loads
+        integer :: spans, hinges, sections, supports, points, foundations, ground, ground_law, loads, masses
 
         spans = 0
         hinges = 0
@@ -283,6 +285,7 @@ contains
         ground = 0
         ground_law = 0
         loads = 0
+        masses = 0
         if (allocated(source%spans)) spans = size(source%spans)
         if (allocated(source%hinges)) hinges = size(source%hinges)
         if (allocated(source%sections)) sections = size(source%sections)
@@ -292,8 +295,9 @@ contains
         if (allocated(source%ground)) ground = size(source%ground)
         if (allocated(source%ground_law)) ground_law = size(source%ground_law)
         if (allocated(source%loads)) loads = size(source%loads)
+        if (allocated(source%masses)) masses = size(source%masses, 2)
         allocate (copy%spans(spans), copy%hinges(hinges), copy%hinge_stiffness(hinges), copy%sections(sections), &
-                  copy%supports(supports), copy%law(points), &
+                  copy%supports(supports), copy%law(points), copy%masses(2, masses), &
                   copy%foundations(foundations), copy%ground(ground), copy%ground_law(ground_law), copy%loads(loads), stat=stat)
         if (stat /= 0) return
         if (spans > 0) copy%spans(:) = source%spans
@@ -307,6 +311,7 @@ contains
         if (ground > 0) copy%ground(:) = source%ground
         if (ground_law > 0) copy%ground_law(:) = source%ground_law
         if (loads > 0) copy%loads(:) = source%loads
+        if (allocated(source%masses)) copy%masses(:, :) = source%masses
         copy%N_grows = source%N_grows
         copy%first_order = source%first_order
         copy%axial_loads_bend = source%axial_loads_bend

@@ -6,6 +6,7 @@ module gapbeam_axial_force
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_range, only: is_lost
+    use gapbeam_tolerances, only: position_tolerance
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_axial, &
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
@@ -17,7 +18,7 @@ module gapbeam_axial_force
     implicit none
     private
     public :: has_axial_force, axial_loads_may_bend, in_stretches, what_stretches, or_first_order, check_axial_force, &
-        assign_axial_force
+        check_masses, assign_axial_force
 
 contains
 
@@ -77,7 +78,7 @@ contains
         logical :: it_is
 
         it_is = size(model%foundations) > 0
-        if (.not. it_is) it_is = has_axial_force(model) .or. any(model%spans%mass > 0.0_wp)
+        if (.not. it_is) it_is = has_axial_force(model) .or. any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0
     end function in_stretches
 
     !> What makes it so, in words
@@ -126,7 +127,8 @@ contains
         end do
         call check_stretching(model, error)
         if (allocated(error)) return
-        if (.not. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp) .or. any(model%spans%mass > 0.0_wp))) return
+        if (.not. (in_stretches(model) .and. (has_axial_force(model) .or. any(model%foundations%shear > 0.0_wp) &
+                                              .or. any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0))) return
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
                 if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) cycle
@@ -167,6 +169,32 @@ contains
         end subroutine say
 
     end subroutine check_axial_force
+
+    !> Lumped masses
+    subroutine check_masses(model, end, error)
+        type(model_type), intent(in) :: model
+        !> x of the right end
+        real(wp), intent(in) :: end
+        type(error_type), allocatable, intent(out) :: error
+        character(len=100) :: problem
+        integer :: i
+
+        do i = 1, size(model%masses, 2)
+            associate (x => model%masses(1, i), mass => model%masses(2, i))
+                if (.not. (x >= -position_tolerance*end .and. x <= end*(1 + position_tolerance))) then
+                    problem = "x: expected a place on the beam, from 0 to "//trim(shown(end))//", got "//trim(shown(x))
+                else if (.not. (mass >= 0.0_wp .and. mass <= huge(mass))) then
+                    problem = "mass: expected a finite number, 0 or more, got "//trim(shown(mass))
+                else
+                    cycle
+                end if
+            end associate
+            call fatal_error(error, gapbeam_bad_input, "masses("//trim(whole(i))//")."//trim(problem))
+            error%key = "masses"
+            error%entry = i
+            return
+        end do
+    end subroutine check_masses
 
     !> What pulls a beam that its deflections lengthen
     subroutine check_stretching(model, error)

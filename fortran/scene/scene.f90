@@ -10,8 +10,8 @@ module gapbeam_scene
         gapbeam_law_cubic => law_cubic, gapbeam_law_power => law_power, gapbeam_law_brittle => law_brittle, parameters_of_law
     implicit none
     private
-    public :: span_type, section_type, support_type, law_point_type, load_type, model_type
-    public :: foundation_type, ground_point_type, ground_law_point_type
+    public :: span_type, section_type, support_type, law_point_type, load_type, model_type, foundation_type, ground_point_type, &
+              ground_law_point_type
     public :: point_force, point_couple, uniform_load, linear_load, imposed_curvature, linear_curvature, axial_force, &
               axial_uniform_load, support_movement, temperature_load, support_rotation, ground_movement
     public :: gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end
@@ -20,9 +20,8 @@ module gapbeam_scene
               gapbeam_rotational_right, gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, &
               gapbeam_axial_force, gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, &
               gapbeam_couple_right, gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature
-    public :: gapbeam_live, gapbeam_dead
-    public :: gapbeam_elastic, gapbeam_plastic, gapbeam_broken
-    public :: gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
+    public :: gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, gapbeam_table_of_k, &
+              gapbeam_table_of_gap, gapbeam_table_of_parameter
     public :: gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
               gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle
 
@@ -200,6 +199,8 @@ module gapbeam_scene
     !> A beam with all that is on it; what is not allocated is not there
     type :: model_type
         type(span_type), allocatable :: spans(:)
+        !> Places of lumped masses, and these in the unit of force times the square of that of time over length, shape (2, :)
+        real(wp), allocatable :: masses(:, :)
         !> Places of moment hinges, and couple per relative rotation of each (force*length); not allocated: none
         real(wp), allocatable :: hinges(:), hinge_stiffness(:)
         type(section_type), allocatable :: sections(:)
@@ -211,8 +212,7 @@ module gapbeam_scene
         type(ground_point_type), allocatable :: ground(:)
         type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)
-        !> Does N grow with the load factor; are axial loads not to bend the beam, and do they (found where a beam is prepared); is
-        !> the beam pulled by what its deflections lengthen it by (cable effect)
+        !> Does N grow with the load factor; are axial loads not to bend the beam; do they (prepared); do deflections stretch it
         logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false., stretching = .false.
     end type model_type
 

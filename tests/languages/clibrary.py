@@ -99,7 +99,8 @@ class Model(c.Structure):
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
-        *((name, c.c_int) for name in ("N_grows", "first_order", "stretching")),
+        *((name, c.c_int) for name in ("N_grows", "first_order", "stretching", "masses")),
+        *((name, REAL) for name in ("mass_x", "lumped_mass")),
     )
 
 
@@ -227,6 +228,8 @@ def columns(scene):
         "N_grows": int(scene.get("analysis", {}).get("N_with") == "live"),
         "first_order": int(scene.get("analysis", {}).get("first_order", False)),
         "stretching": int(scene.get("analysis", {}).get("stretching", False)),
+        "mass_x": np.array([one["x"] for one in scene.get("masses", ())], dtype=float),
+        "lumped_mass": np.array([one["mass"] for one in scene.get("masses", ())], dtype=float),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -322,7 +325,8 @@ class Library:
         assert self.c.gapbeam_model_init(c.byref(made), c.c_size_t(c.sizeof(made))) == 0
         for name, array in arrays.items():
             setattr(made, name, array if isinstance(array, int) else pointer(array))
-        sizes = {"spans": "length", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value", "law_points": "law_force",
+        sizes = {"spans": "length", "masses": "mass_x", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value",
+                 "law_points": "law_force",
                  "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force",
                  "table_points": "table_x"}  # fmt: skip
         for name, key in sizes.items():
@@ -493,13 +497,13 @@ class CBeam:
         return status, values[: max(number.value, 0)].tolist()
 
     def mode_shape(self, kind, value, parts):
-        """Places, deflections, moments left and right of them."""
+        """Places, deflections, moments left and right of them, amplitude and support."""
         number, given = c.c_int(-1), (self.handle, self.state, kind, c.c_double(value), parts)
-        assert self.c.gapbeam_get_mode_shape(*given, 0, None, None, None, c.byref(number), None, c.c_size_t(0)) == 0
-        n = number.value
-        found = np.empty(n), np.empty(n), np.empty((n, 2))
-        assert self.c.gapbeam_get_mode_shape(*given, n, *map(pointer, found), None, None, c.c_size_t(0)) == 0
-        return found[0], found[1], found[2].T
+        assert self.c.gapbeam_get_mode_shape(*given, 0, None, None, None, c.byref(number), None, None, None, c.c_size_t(0)) == 0
+        n, swing, support = number.value, c.c_double(), c.c_int()
+        found, swings = (np.empty(n), np.empty(n), np.empty((n, 2))), (c.byref(swing), c.byref(support))
+        assert self.c.gapbeam_get_mode_shape(*given, n, *map(pointer, found), None, *swings, None, c.c_size_t(0)) == 0
+        return found[0], found[1], found[2].T, swing.value, support.value
 
     def buckling(self):
         """Share of the axial forces that it bears, places and deflections."""
@@ -584,7 +588,7 @@ class F77Beam:
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
         pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
-        feels = pressed or a["stretching"] or a["N"].any() or a["mass"].any() or a["foundation_shear"].any()
+        feels = pressed or a["stretching"] or a["N"].any() or a["mass"].any() or len(a["mass_x"]) or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
         if len(ilaw) or len(sides) or named or feels:
@@ -601,7 +605,8 @@ class F77Beam:
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
             forces = a["N_grows"] + 2 * a["first_order"] + 4 * a["stretching"]
-            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces]
+            masses = np.array([a["mass_x"], a["lumped_mass"]]).T.copy()
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces, len(masses), masses]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0
@@ -719,10 +724,11 @@ class F77Beam:
     def mode_shape(self, kind, value, parts):
         """As CBeam.mode_shape."""
         n, given = np.zeros(1, np.int32), (*self.both, kind, float(value), parts)
-        assert self.call("ghshap", *given, 0, n, n, n, n) == 0
+        swing, support = np.zeros(1), np.zeros(1, np.int32)
+        assert self.call("ghshap", *given, 0, n, n, n, n, swing, support) == 0
         found = np.empty(n[0]), np.empty(n[0]), np.empty((n[0], 2))
-        assert self.call("ghshap", *given, int(n[0]), n, *found) == 0
-        return found[0], found[1], found[2].T
+        assert self.call("ghshap", *given, int(n[0]), n, *found, swing, support) == 0
+        return found[0], found[1], found[2].T, float(swing[0]), int(support[0]) - 1
 
     def buckling(self):
         """As CBeam.buckling."""

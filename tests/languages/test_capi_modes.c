@@ -51,9 +51,9 @@ static gapbeam_model column(const double *N)
 static void stands(double euler)
 {
     const double compression[] = {0.5, 0.9, 2.0}, force[] = {0.14714005862549203, 0.53807030793317657, 1.6440875059318176};
-    double N = 0.0, reaction[3], factors[3], x[17], w[17], moment[17][2], share = 7.0, values[2];
+    double N = 0.0, reaction[3], factors[3], x[17], w[17], moment[17][2], share = 7.0, values[2], swing = 7.0;
     const int quantities[] = {GAPBEAM_OF_TRANSVERSE, GAPBEAM_SHEAR};
-    int number, event[4], change[4];
+    int number, event[4], change[4], support = 7;
     char message[200];
     gapbeam_model model = column(&N);
     gapbeam_beam *beam = NULL;
@@ -78,19 +78,21 @@ static void stands(double euler)
     check(gapbeam_get_quantities(beam, state, 2, quantities, 1, zero, 0, values, NULL, 0) == GAPBEAM_SOLVED, "quantities");
     check_close(values[0], reaction[0], 1e-13, "the transverse force is what the support balances");
     check(fabs(values[1] - reaction[0]) > 0.1, "the shear is not");
-    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 17, x, w, moment, &number, message, sizeof message)
+    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 17, x, w, moment, &number, &swing, &support, message,
+                                 sizeof message)
               == GAPBEAM_SOLVED && !*message, "shape");
     check(number == 17 && x[4] == 0.25 && fabs(w[4]) == 1.0, "at seventeen places");
+    check(isinf(swing) && support == -1, "the stop is where the mode has a node");
     check_close(moment[4][0], 4.0 * euler * w[4], 1e-9, "moment");
     x[0] = 7.0;
-    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 0, x, NULL, NULL, &number, NULL, 0) == 0, "no room");
+    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 0, x, NULL, NULL, &number, NULL, NULL, NULL, 0) == 0, "no room");
     check(number == 17 && x[0] == 7.0, "how many there are");
     check(gapbeam_get_modes(beam, state, GAPBEAM_VIBRATION, 1, factors, &number, NULL, 0) == 0 && number == 0, "no mass");
     check(gapbeam_get_modes(beam, state, 3, 1, factors, &number, message, sizeof message) == GAPBEAM_BAD_INPUT, "no such kind");
     check(strstr(message, "got 3") != NULL, "names it");
     check(gapbeam_get_modes(beam, state, 1, -1, factors, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "a negative number");
     check(gapbeam_get_modes(beam, state, 1, 1, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no room for values");
-    check(gapbeam_get_mode_shape(beam, state, 1, NAN, 4, 0, NULL, NULL, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no number");
+    check(gapbeam_get_mode_shape(beam, state, 1, NAN, 4, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no number");
     check(gapbeam_get_buckling(beam, state, &share, 0, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED && share == 7.0, "it stands");
     check(gapbeam_follow(beam, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, message, sizeof message) == GAPBEAM_BAD_INPUT, "follow");
     check(!strcmp(message, "the beam has an axial force N: use follow_ground"), "says how");

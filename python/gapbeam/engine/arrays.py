@@ -41,8 +41,11 @@ class Columns(Record):
         Points of the tables of foundations: number of the foundation, from 1; x, value, and of what, as in gapbeam_scene, 3 rows.
     ground_law_foundations, ground_law : numpy.ndarray
         Points of the laws of foundations: number of the foundation, from 1; displacement, force per length, and place, 3 rows.
+    mass : numpy.ndarray
+        Places of lumped masses, and these, 2 rows.
     axial_forces : numpy.ndarray of int
-        Whether the axial forces N grow with the load factor; whether axial loads have no effect on bending.
+        Whether the axial forces N grow with the load factor; whether axial loads have no effect on bending; whether deflections
+        stretch the beam.
     """
 
     span: np.ndarray
@@ -60,6 +63,7 @@ class Columns(Record):
     table: np.ndarray
     ground_law_foundations: np.ndarray
     ground_law: np.ndarray
+    mass: np.ndarray
     axial_forces: np.ndarray
 
     def of_tables(self, quantity: int) -> tuple[np.ndarray, np.ndarray]:

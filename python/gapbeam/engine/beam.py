@@ -92,7 +92,8 @@ class Beam(Layout):
         c = columns
         handle, status, reason, table, entry, partner, key, message = _engine.gbmake(
             c.span, c.hinge, c.section, c.support_codes, c.support, c.law_supports, c.law, c.load_codes, c.load,
-            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law, c.axial_forces,
+            c.foundation_sides, c.foundation, c.table_foundations, c.table, c.ground_law_foundations, c.ground_law, c.mass,
+            c.axial_forces,
         )  # fmt: skip
         if status == Status.BAD_INPUT:
             raise RefusalError(reason, table, entry, partner, key.decode().strip(), message.decode().strip())

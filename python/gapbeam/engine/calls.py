@@ -277,7 +277,7 @@ gbgget = _engine.gbgget
 gbgpte = _engine.gbgpte
 gbmake = interruptible(
     lambda *arrays: _engine.gbmake(*arrays, threading.main_thread().ident),
-    lambda span, hinge, section, codes, support, *rest: span.shape[1] + support.shape[1] + rest[-4].shape[1],  # of profiles
+    lambda span, hinge, section, codes, support, *rest: span.shape[1] + support.shape[1] + rest[-5].shape[1],  # of profiles
 )
 gbcopy = interruptible(_engine.gbcopy)
 gbplac = interruptible(_engine.gbplac, lambda beam, pieces, *_: pieces)

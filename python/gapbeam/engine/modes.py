@@ -59,7 +59,29 @@ def values_of_modes(state: State, what: int, count: int) -> np.ndarray:
     return values[:found]
 
 
-def shape_of_mode(state: State, what: int, value: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+class Shape(NamedTuple):
+    """How a beam moves in a mode.
+
+    Attributes
+    ----------
+    x, deflection : numpy.ndarray
+        Places and deflections there, the largest 1.
+    moment : numpy.ndarray
+        Moments left and right of them with these, 2 rows.
+    amplitude : float
+        How many times these deflections swing when a support opens or closes first; infinite where none does.
+    support : int
+        Number of that support in the scene; -1 where there is none.
+    """
+
+    x: np.ndarray
+    deflection: np.ndarray
+    moment: np.ndarray
+    amplitude: float
+    support: int
+
+
+def shape_of_mode(state: State, what: int, value: float) -> Shape:
     """Find how a beam moves in a mode.
 
     Parameters
@@ -71,8 +93,7 @@ def shape_of_mode(state: State, what: int, value: float) -> tuple[np.ndarray, np
 
     Returns
     -------
-    x, deflection, moment : numpy.ndarray
-        Places, deflections there, the largest 1, and moments left and right of them with these, shape (2, n).
+    Shape
 
     Raises
     ------
@@ -81,10 +102,12 @@ def shape_of_mode(state: State, what: int, value: float) -> tuple[np.ndarray, np
     """
     room = ROOM
     while True:
-        x, w, moment, found, status, message = _engine.gbshap(state.beam.handle, state.handle, what, value, PARTS, room)
+        x, w, moment, amplitude, support, found, status, message = _engine.gbshap(
+            state.beam.handle, state.handle, what, value, PARTS, room
+        )
         check_status(status, message)
         if found <= room:
-            return x[:found], w[:found], moment[:, :found]
+            return Shape(x[:found], w[:found], moment[:, :found], amplitude, support)
         room = found
 
 

@@ -197,3 +197,8 @@ def _frequencies(say: Writer, result: Result) -> None:
     else:
         say.line(f"Frequencies omega: {_listed(values)} rad per unit of time, with the supports and the ground that act here;")
         say.line(f"f = omega/2pi: {_listed(tuple(value / TURNS for value in values))} per unit of time.")
+        mode = result.mode("vibration")
+        if mode.support is not None:
+            does = "closes" if result.steps[-1].state[mode.support] == "open" else "opens"
+            amplitude = fmt.value(result.scene, "deflection", mode.amplitude)
+            say.line(f"The first mode {does} {fmt.support(result.scene, mode.support)} from an amplitude of {amplitude} on.")

@@ -18,6 +18,7 @@ from .loads import (
     TemperatureLoad,
     UniformLoad,
 )
+from .masses import Mass
 from .places import same_place
 from .reading import read_scene
 from .schema import scene_schema
@@ -25,7 +26,7 @@ from .structs import Beam, Combination, Foundation, Scene, Section, Support, Tra
 
 __all__ = [
     "POSITION_TOLERANCE", "Analysis", "AxialGround", "AxialLoad", "AxialUniformLoad", "Beam", "Combination", "CurvatureLoad",
-    "ForceLoad", "Foundation", "Hinge", "Limits", "LinearLoad", "Load", "MomentLoad", "MovementLoad", "Rotation", "Scene",
+    "ForceLoad", "Foundation", "Hinge", "Limits", "LinearLoad", "Load", "Mass", "MomentLoad", "MovementLoad", "Rotation", "Scene",
     "Section", "Support", "TemperatureLoad", "Train", "UniformLoad", "Units", "read_scene", "replace", "same_place",
     "scene_schema",
 ]  # fmt: skip

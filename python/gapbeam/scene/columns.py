@@ -95,13 +95,12 @@ def columns(scene: Scene) -> Columns:
     hinge = _empty(2, len(beam.hinges) + len(scene.hinges))
     free = len(beam.hinges)
     hinge[0, :free], hinge[1, :free] = beam.hinges, 0.0
-    if scene.hinges:
-        count = len(scene.hinges)
-        nodes, places = (np.broadcast_to(one, count) for one in _places("hinges", scene.hinges, range(count)))
-        ends = np.append(scene.span_ends(), np.inf)  # no node is there beyond the last one, nor before the first
-        by_node = ends[np.where(nodes < 0, len(ends) - 1, np.minimum(nodes, len(ends) - 1))]
-        hinge[0, free:-1] = np.where(nodes == BY_X, places, by_node)
-        hinge[1, free:-1] = [one.stiffness or 0.0 for one in scene.hinges]
+    hinge[0, free:-1] = _x_of(scene, "hinges")
+    hinge[1, free:-1] = [one.stiffness or 0.0 for one in scene.hinges]
+    masses = scene.masses if scene.analysis.frequencies else []
+    mass = _empty(2, len(masses))
+    if masses:
+        mass[0, :-1], mass[1, :-1] = _x_of(scene, "masses"), [one.mass for one in masses]
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
     load_codes, load_values = _loads(scene)
@@ -109,7 +108,7 @@ def columns(scene: Scene) -> Columns:
         _settle(load_codes[:, :-1], load_values[:, :-1], values)
     return Columns(
         span, hinge, _sections(scene.sections, scene.axial_ground), codes, values, law_supports, law, load_codes, load_values,
-        *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3),
+        *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3), mass,
         np.array([scene.analysis.N_with == "live", _is_of_first_order(scene), scene.analysis.stretching], np.int32),
     )  # fmt: skip
 
@@ -353,6 +352,17 @@ def _optional(items: Sequence[Any], key: str) -> Any:
     if None in values:
         found[[value is None for value in values]] = NOT_GIVEN
     return found
+
+
+def _x_of(scene: Scene, name: str) -> np.ndarray:
+    """Places by x of hinges or masses; infinite where a node is not there."""
+    items = getattr(scene, name)
+    if not items:
+        return np.zeros(0)
+    nodes, places = (np.broadcast_to(one, len(items)) for one in _places(name, items, range(len(items))))
+    ends = np.append(scene.span_ends(), np.inf)  # no node is there beyond the last one, nor before the first
+    by_node = ends[np.where(nodes < 0, len(ends) - 1, np.minimum(nodes, len(ends) - 1))]
+    return np.where(nodes == BY_X, places, by_node)
 
 
 def _places(name: str, items: Sequence[Any], index: Sequence[int]) -> tuple[Any, Any]:

@@ -12,7 +12,7 @@ from .schema import scene_schema
 from .structs import Scene
 
 TABLES = {"beam": "Beam", "sections": "Section", "hinges": "Hinge", "supports": "Support", "foundation": "Foundation",
-          "axial_ground": "AxialGround", "trains": "Train", "combinations": "Combination"}  # fmt: skip
+          "axial_ground": "AxialGround", "masses": "Mass", "trains": "Train", "combinations": "Combination"}  # fmt: skip
 """Tables of a scene by the key under which they are."""
 ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|time|rad|\([^)]*\)))*"
 UNIT = re.compile(rf"\(({ONE}(?:, {ONE})*)(?:, from the left end(?: of the beam)?)?\)")

@@ -55,7 +55,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)
     if not table:
-        return SceneError(f"analysis.{key}", message)
+        return _mass_refusal(scene, entry - 1, message) if key == "masses" else SceneError(f"analysis.{key}", message)
     i = entry - 1
     if table == HINGES and i >= len(scene.beam.hinges):
         return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
@@ -99,6 +99,16 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         'which side takes it; say at_hinge = "left" or "right"',
     }
     return SceneError(path, words[reason]())
+
+
+def _mass_refusal(scene: Scene, i: int, message: str) -> SceneError:
+    """Word a refusal of a lumped mass."""
+    if scene.masses[i].x is scene.masses[i].node is None:
+        return SceneError(f"masses[{i}]", "has no place; give x or node")
+    key, _, problem = message.partition(").")[2].partition(": ")
+    if key == "x" and scene.masses[i].node is not None:
+        key, problem = "node", f"expected a node, from 0 to {len(scene.beam.spans)}, got {scene.masses[i].node}"
+    return SceneError(f"masses[{i}].{key}", problem)
 
 
 def _hinge_refusal(scene: Scene, reason: int, i: int, key: str, message: str) -> SceneError:

@@ -16,6 +16,7 @@ from .joints import Hinge, Rotation
 from .laws import LawTable
 from .limits import Limits
 from .loads import Load
+from .masses import Mass
 from .structs import Beam, Combination, Foundation, Scene, Section, Support, Train, Units
 from .tapers import Taper
 
@@ -35,7 +36,7 @@ def scene_schema() -> dict[str, Any]:
     """
     schema = msgspec.json.schema(Scene)
     grounds = Foundation, AxialGround
-    tables = (Units, Beam, Section, Taper, Hinge, Support, Rotation, *grounds, Train, Combination, Analysis, Limits, Scene)
+    tables = (Units, Beam, Section, Taper, Hinge, Support, Rotation, *grounds, Mass, Train, Combination, Analysis, Limits, Scene)
     for struct in (*tables, *get_args(Load), *get_args(LawTable), *get_args(GroundLawTable), LawAt):
         table = schema["$defs"][struct.__name__]
         table["description"] = inspect.cleandoc(struct.__doc__).partition("\n\n")[0]

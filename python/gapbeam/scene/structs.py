@@ -42,6 +42,7 @@ from .joints import Hinge, Rotation
 from .laws import Law
 from .limits import Limits
 from .loads import AxialLoad, ForceLoad, Load, MomentLoad
+from .masses import Mass
 from .table import NotNegative, Point, Positive, Side, Spans, Stretch, SupportSide, Table
 from .tapers import Section
 
@@ -294,6 +295,8 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
         Elastic ground under stretches of the beam.
     axial_ground : list of AxialGround
         Ground that holds the beam along its axis.
+    masses : list of Mass
+        Masses at places, for frequencies.
     loads : list of Load
         Loads, each of a load case.
     trains : list of Train
@@ -314,6 +317,7 @@ class Scene(Table, forbid_unknown_fields=True, kw_only=True):
     supports: list[Support] = []
     foundation: list[Foundation] = []
     axial_ground: list[AxialGround] = []
+    masses: list[Mass] = []
     loads: list[Load] = []
     trains: list[Train] = []
     combinations: list[Combination] = []

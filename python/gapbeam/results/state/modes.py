@@ -34,6 +34,11 @@ class Mode(Record):
         Places and deflections (length), positive downward, the largest 1.
     moment : numpy.ndarray
         Moments (force*length) with these, left and right of the places, 2 rows.
+    amplitude : float
+        How many times these deflections (length) swing when a support opens or closes first: beyond that the beam is another one.
+        Infinite where no support can. Zones of contact with one-sided ground move with any.
+    support : int or None
+        Number of that support.
     """
 
     kind: str
@@ -41,6 +46,8 @@ class Mode(Record):
     x: np.ndarray
     deflection: np.ndarray
     moment: np.ndarray
+    amplitude: float
+    support: int | None
 
 
 def modes_of(step: Step, kind: str, count: int) -> tuple[float, ...]:
@@ -87,7 +94,9 @@ def mode_of(step: Step, kind: str, value: float) -> Mode:
     EngineError
         They are not available for this beam.
     """
-    return Mode(kind, value, *map(read_only, shape_of_mode(step.solution.state, KINDS[kind], value)))
+    shape = shape_of_mode(step.solution.state, KINDS[kind], value)
+    support = None if shape.support < 0 else int(shape.support)
+    return Mode(kind, value, *map(read_only, shape[:3]), float(shape.amplitude), support)
 
 
 class WithModes:
