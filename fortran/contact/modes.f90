@@ -36,7 +36,7 @@ module gapbeam_modes
 contains
 
     !> How many motions a beam gives way to at a value; -1 where that is a value of a mode exactly, or there are too many stretches
-    subroutine count_modes(ground, zones, acting, what, value, number, work, grounded, parts)
+    subroutine count_modes(ground, zones, acting, what, value, number, work, grounded, parts, factor)
         !> The beam and its ground; zones in which that acts, taken as it is near them; supports that act
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
@@ -50,6 +50,8 @@ contains
         type(grounded_type), intent(out) :: grounded
         !> Stretches into which every piece is cut at least; default 1
         integer, intent(in), optional :: parts
+        !> Load factor, where laws are curves: their slopes are those in the fields from which the zones start, under its loads
+        real(wp), intent(in), optional :: factor
         type(ground_type) :: changed
         type(zones_type) :: cut
         integer :: state, place, i
@@ -61,12 +63,19 @@ contains
             changed = ground
             changed%frequency_squared = value
         end if
-        ! Modes know no loads, and equal steps are condensed once then
-        changed%dead = no_load
-        changed%live = no_load
+        if (.not. present(factor)) then
+            ! Modes know no loads, and equal steps are condensed once then
+            changed%dead = no_load
+            changed%live = no_load
+        end if
         call cut_zones(changed, zones, cut, parts)
         if (size(cut%piece) == 0) return
-        call place_stretches(changed, cut, 0.0_wp, grounded)
+        if (present(factor)) then
+            call place_stretches(changed, cut, factor, grounded)
+        else
+            call place_stretches(changed, cut, 0.0_wp, grounded)
+        end if
+        if (grounded%lost) return
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, 0.0_wp, work)
         call apply_scheme(grounded%beam, acting, [0, size(grounded%beam%links)], work)
@@ -114,6 +123,10 @@ contains
                 cut%from(m) = between(zones%from(i), zones%to(i), k - 1, ceiling(steps(i)))
                 cut%to(m) = between(zones%from(i), zones%to(i), k, ceiling(steps(i)))
                 cut%acts(:, m) = zones%acts(:, i)
+                ! Near enough inside for the slopes of curves
+                associate (next => zones%start(:, min(i + 1, size(zones%piece))), share => real(k - 1, wp)/ceiling(steps(i)))
+                    cut%start(:, m) = zones%start(:, i) + share*(next - zones%start(:, i))
+                end associate
             end do
         end do
     end subroutine cut_zones

@@ -322,7 +322,8 @@ contains
 
         held(:) = start%closed
         do trial = 1, 2
-            call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, grounded)
+            call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, grounded, &
+                             factor=last%factor)
             it_does = number /= 0
             if (it_does) return
             where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &

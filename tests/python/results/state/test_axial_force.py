@@ -210,6 +210,17 @@ def test_hopeless_compression_is_cut_no_finer_than_what_the_beam_bears(N, ground
         assert float(share) * N == pytest.approx(-((math.pi / 6) ** 2), rel=1e-5)
 
 
+@pytest.mark.parametrize("N", [-60.0, -150.0])
+def test_ground_that_yields_lets_a_rail_buckle(N):
+    """At the limit load of 400 Hermite elements, 4 points each, followed by the deflection in the middle: 53.64458."""
+    law = {"type": "tanh", "stiffness": 10.0, "limit": 5.0}
+    data = scene([20.0], PINS, [force(10.0, 6.0)], EI=100.0, N=N)
+    result = gapbeam.solve({**data, "foundation": [{"side": "both", "law": law}]})
+    assert result.status == "buckles"
+    share = float(re.search(r"the beam bears (\S+) times", result.reason)[1])
+    assert share * -N == pytest.approx(53.64458, rel=2e-6)
+
+
 def test_a_beam_without_a_support_at_its_end_buckles_at_a_quarter():
     result = gapbeam.solve(beam(-0.26 * PE, [{"node": 0, "rotation": "fixed"}], [uniform(1.0)]))
     assert result.status == "buckles"
