@@ -294,10 +294,10 @@ contains
                    w_b => values(1) + soft_b(2)*values(3), m_b => values(3))
             turn_a = curved%left(2) + link%pa*w_a - link%p1*w_b - link%faa*m_a - link%fab*m_b
             turn_b = link%pb*w_b - link%p2*w_a - link%fab*m_a - link%fbb*m_b - values(2)
-            shear_a = transverse_of(curved%stretch, curved%left(2), curved%left(4)) + link%pa*m_a - link%p2*m_b + link%gaa*w_a &
-                + link%gab*w_b
+            shear_a = transverse_of(curved%stretch, 0.0_wp, curved%left(2), curved%left(4)) &
+                + link%pa*m_a - link%p2*m_b + link%gaa*w_a + link%gab*w_b
             shear_b = link%pb*m_b - link%p1*m_a + link%gbb*w_b + link%gab*w_a &
-                - transverse_of(curved%stretch, values(2), values(4))
+                - transverse_of(curved%stretch, 1.0_wp, values(2), values(4))
         end associate
     end subroutine condense_curved
 

@@ -34,7 +34,7 @@ contains
 
         if (is_sloped(stretch)) then
             call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
-            if (present(transverse)) transverse = transverse_of(stretch, psi, shear)
+            if (present(transverse)) transverse = transverse_of(stretch, xi, psi, shear)
             return
         end if
         l = stretch%length
@@ -219,7 +219,7 @@ contains
         y(2) = (half%p1*v_b - half%pa*v_a) + (half%faa*moment_a + half%fab*moment_b) + by_load(1)
         y(3) = moment_a
         ! The moment's factor in T_a beside p2 is pa + gaa/GA, as T knows w only
-        y(4) = shear_of(stretch, y(2), (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
+        y(4) = shear_of(stretch, 0.0_wp, y(2), (half%p2*moment_b - (half%pa + stretch%shear_flexibility*half%gaa)*moment_a) &
                         - (half%gaa*v_a + half%gab*v_b) + by_load(2))
     end function start_of
 

@@ -3,7 +3,7 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_stretch, only: is_of_one_stiffness, softest, softness_in, without_slip
+    use gapbeam_foundation_stretch, only: is_of_one_stiffness, softest, softness_in, without_slip, tension_at, greatest_tension
     use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, determinant_of, &
         deflection_series
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
@@ -51,8 +51,8 @@ contains
         logical :: has
 
         associate (s => stretch)
-            has = s%modulus_a > 0.0_wp .and. .not. abs(s%modulus_b - s%modulus_a) > 0.0_wp .and. .not. s%tension < 0.0_wp &
-                .and. is_of_one_stiffness(s) .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
+            has = s%modulus_a > 0.0_wp .and. .not. is_sloped(s) .and. .not. s%tension < 0.0_wp &
+                .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
         end associate
     end function has_middle
 
@@ -62,7 +62,7 @@ contains
         logical :: it_is
 
         associate (s => stretch)
-            it_is = s%tension > 0.0_wp .and. .not. max(abs(s%modulus_a), abs(s%modulus_b)) > 0.0_wp .and. is_of_one_stiffness(s)
+            it_is = s%tension > 0.0_wp .and. .not. max(abs(s%modulus_a), abs(s%modulus_b)) > 0.0_wp .and. .not. is_sloped(s)
         end associate
     end function is_string
 
@@ -74,7 +74,7 @@ contains
         type(piece_type), intent(out) :: piece
         !> v, psi, M, V in its middle, where they are known
         real(wp), intent(in), optional :: in_middle(:)
-        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed, soft(2), axis(0:most_taylor_terms)
+        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed, soft(2), pull(2), axis(0:most_taylor_terms)
         integer :: n, j
 
         associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
@@ -132,11 +132,13 @@ contains
             case default
                 call take_slope(c(1, 4, :), s%length*piece%half, a, n)
                 piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed &
-                    + abs(s%tension)*(f*scale(3) + abs(p%kappa))
+                    + abs(greatest_tension(s))*(f*scale(3) + abs(p%kappa)) + abs(s%tension_change)/s%length*scale(2)
                 if (question%what == slope_of_transverse) then
-                    ! s V' + N psi' = ground's pressure less the load
-                    a(0:n) = stretched_shear(s)*a(0:n) - s%tension*f*c(1, 3, 0:n)
-                    a(0) = a(0) + s%tension*p%kappa
+                    ! s V' + (N psi)' = ground's pressure less the load
+                    pull(:) = [tension_at(s, xi), s%tension_change*piece%half]
+                    a(0:n) = stretched_shear(s)*a(0:n) - pull(1)*f*c(1, 3, 0:n) + s%tension_change/s%length*c(1, 2, 0:n)
+                    if (abs(pull(2)) > 0.0_wp) a(1:n) = a(1:n) - pull(2)*f*c(1, 3, 0:n - 1)
+                    a(0:1) = a(0:1) + pull*p%kappa
                 end if
             end select
             piece%noise = ground_ulps*epsilon(1.0_wp)*piece%noise
@@ -234,13 +236,13 @@ contains
                 square = l**2/8
                 soft(:) = softest(s)
                 ! Along a beam in tension what is farther away than sqrt(EI/N) bends it no more
-                if (s%tension > 0.0_wp) square = square/(1 + square*trace_of(s, k))
-                m = m + square*(q + s%tension*abs(p%kappa))
+                if (min(s%tension, tension_at(s, 1.0_wp)) > 0.0_wp) square = square/(1 + square*trace_of(s, k))
+                m = m + square*(q + abs(greatest_tension(s)*p%kappa))
                 bent = abs(p%kappa) + soft(1)*m
                 w = w + l**2*bent/8
                 scale = [w, w/l + soft(2)*m/l, m, m/l]
                 ! Where series begin with the transverse force
-                if (is_sloped(s)) scale(4) = scale(4) + abs(s%tension)*w/l
+                if (is_sloped(s)) scale(4) = scale(4) + abs(greatest_tension(s))*w/l
             end if
         end associate
     end function scales
@@ -334,7 +336,7 @@ contains
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: xi
         real(wp), intent(out) :: f, slope
-        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, soft(2), softer(2), c(4, 0:order)
+        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, bent, soft(2), softer(2), c(4, 0:order)
 
         associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi, f_of => soft(1), &
                    g => soft(2))
@@ -350,9 +352,10 @@ contains
                 steeper = 2*c(4, 2)/l
             else
                 call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
-                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + s%tension*(f_of*moment - p%kappa) &
+                bent = f_of*moment - p%kappa
+                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + tension_at(s, xi)*bent - s%tension_change/l*psi &
                            - (p%qa*eta + p%qb*xi + p%qc*xi*eta))/stretched_shear(s)
-                steeper = ((s%modulus_b - s%modulus_a)*w + l*s%tension*f_of*shear &
+                steeper = ((s%modulus_b - s%modulus_a)*w + l*tension_at(s, xi)*f_of*shear + 2*s%tension_change*bent &
                            + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + g*shear) &
                            - (p%qb - p%qa + p%qc*(eta - xi)))/stretched_shear(s)
             end if
@@ -383,8 +386,9 @@ contains
                 f = pressed
                 slope = steeper
             case default
-                f = stretched_shear(s)*pressed + s%tension*(p%kappa - f_of*moment)
-                slope = stretched_shear(s)*steeper - l*s%tension*f_of*shear
+                bent = f_of*moment - p%kappa
+                f = stretched_shear(s)*pressed - tension_at(s, xi)*bent + s%tension_change/l*psi
+                slope = stretched_shear(s)*steeper - l*tension_at(s, xi)*f_of*shear - 2*s%tension_change*bent
             end select
         end associate
     end subroutine evaluate

@@ -12,6 +12,7 @@ module gapbeam_foundation_stretch
     private
     public :: stretch_type, stretch_load_type, softness_type
     public :: are_alike, same_load
+    public :: tension_at, greatest_tension
     public :: stretch_between, is_of_one_stiffness, softness_in, softest, without_slip, part_of_stretch, softness_around, soften
 
     !> A stretch on elastic ground
@@ -22,6 +23,8 @@ module gapbeam_foundation_stretch
         real(wp) :: modulus_a = 0.0_wp, modulus_b = 0.0_wp
         !> Axial force N in it, tension positive, with that of a layer that resists slopes (Pasternak)
         real(wp) :: tension = 0.0_wp
+        !> By how much it is greater at the right end than at the left one, linear in between; not where shear bends
+        real(wp) :: tension_change = 0.0_wp
         !> Of EI and of GA: by what share of itself the depth grows from the left to the right end, and which power of it they
         !> are; 0: they are constant
         real(wp) :: taper(2) = 0.0_wp
@@ -50,8 +53,9 @@ contains
         logical :: alike
 
         alike = abs(a%length - b%length) <= same_length*a%length .and. all(a%power == b%power) &
-            .and. .not. any(abs([a%flexibility, a%shear_flexibility, a%modulus_a, a%modulus_b, a%tension, a%taper] &
-                                - [b%flexibility, b%shear_flexibility, b%modulus_a, b%modulus_b, b%tension, b%taper]) > 0.0_wp)
+            .and. .not. any(abs([a%flexibility, a%shear_flexibility, a%modulus_a, a%modulus_b, a%tension, a%tension_change, &
+                                 a%taper] - [b%flexibility, b%shear_flexibility, b%modulus_a, b%modulus_b, b%tension, &
+                                             b%tension_change, b%taper]) > 0.0_wp)
     end function are_alike
 
     !> Are two loads the same
@@ -71,7 +75,8 @@ contains
         real(wp) :: softness(2), growth(2)
 
         stretch = stretch_type(length=to - from, flexibility=piece%flexibility, shear_flexibility=piece%shear_flexibility, &
-                               tension=piece%tension)
+                               tension=piece%tension + piece%tension_change*(from/piece%length), &
+                               tension_change=piece%tension_change*((to - from)/piece%length))
         if (.not. is_tapered(piece)) return
         softness(:) = softness_at(piece, from)
         growth(:) = depth_ratios(piece) - 1
@@ -88,6 +93,24 @@ contains
 
         constant = all(stretch%power == 0)
     end function is_of_one_stiffness
+
+    !> Axial force at a share of the length
+    elemental function tension_at(stretch, xi) result(tension)
+        type(stretch_type), intent(in) :: stretch
+        real(wp), intent(in) :: xi
+        real(wp) :: tension
+
+        tension = stretch%tension + xi*stretch%tension_change
+    end function tension_at
+
+    !> Axial force in it that is greatest by absolute value
+    elemental function greatest_tension(stretch) result(tension)
+        type(stretch_type), intent(in) :: stretch
+        real(wp) :: tension
+
+        tension = stretch%tension
+        if (abs(tension_at(stretch, 1.0_wp)) > abs(tension)) tension = tension_at(stretch, 1.0_wp)
+    end function greatest_tension
 
     !> 1/EI and 1/GA at a share of the length
     pure function softness_in(stretch, xi) result(softness)
@@ -127,6 +150,8 @@ contains
 
         part = stretch
         part%length = (share(2) - share(1))*stretch%length
+        part%tension = tension_at(stretch, share(1))
+        part%tension_change = (share(2) - share(1))*stretch%tension_change
         part%modulus_a = at(share(1))
         part%modulus_b = at(share(2))
         if (is_of_one_stiffness(stretch)) return

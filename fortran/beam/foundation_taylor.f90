@@ -3,13 +3,14 @@
 !> v = w - M/GA instead of w leaves four equations without derivatives of loads: v' = psi, psi' = -M/EI + kappa, M' = V,
 !> (1 + N/GA) V' = K (v + M/GA) + N (M/EI - kappa) - q. Their series converge everywhere (K is a polynomial); they are short where
 !> beta L is 1 at most, and the caller cuts stretches to that. Links know the transverse force T = V + N w' in place of V.
-!> Where the beam tapers M/EI, M/GA and (1/GA)' M have series of their own (gapbeam_foundation_stretch).
+!> N may be linear where GA is infinite: -N' psi beside. Where the beam tapers M/EI, M/GA and (1/GA)' M have series of their own
+!> (gapbeam_foundation_stretch).
 module gapbeam_foundation_taylor
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: taylor_tail
     use gapbeam_foundation_stretch, only: stretch_type, stretch_load_type, softness_type, is_of_one_stiffness, softest, &
-        softness_around, soften, part_of_stretch
+        softness_around, soften, part_of_stretch, tension_at, greatest_tension
     implicit none
     private
     public :: stretch_type, stretch_load_type, half_type
@@ -62,11 +63,11 @@ contains
         real(wp) :: found(size(t, 1), size(t, 2))
 
         found(:, :) = t
-        if (.not. abs(stretch%tension) > 0.0_wp) return
+        if (.not. abs(greatest_tension(stretch)) > 0.0_wp) return
         ! At a given transverse force a rotation of 1 brings a shear of -N/s along
         found(:, 4) = t(:, 4)/stretched_shear(stretch)
         found(:, 2) = t(:, 2) - stretch%tension*found(:, 4)
-        found(4, :) = stretched_shear(stretch)*found(4, :) + stretch%tension*found(2, :)
+        found(4, :) = stretched_shear(stretch)*found(4, :) + tension_at(stretch, 1.0_wp)*found(2, :)
     end function transfer_of_forces
 
     !> The same from what the right end gets of the left one
@@ -134,7 +135,7 @@ contains
         integer, intent(in) :: n
         !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
         real(wp), intent(out), contiguous :: c(:, :, 0:)
-        real(wp) :: q(size(loads), 0:2), k0, k1, h, part, slack
+        real(wp) :: q(size(loads), 0:2), k0, k1, n0, n1, h, part, slack
         real(wp), dimension(size(start, 1), 0:n) :: w, bent, slid, shifted
         type(softness_type) :: softness
         integer :: i, first
@@ -150,8 +151,11 @@ contains
             slack = 1/stretched_shear(s)
             k0 = k0*slack
             k1 = k1*slack
-            q(:, 0) = (q(:, 0) + s%tension*p%kappa)*slack
-            q(:, 1:) = q(:, 1:)*slack
+            n0 = tension_at(s, xi)*slack
+            n1 = s%tension_change*step*slack
+            q(:, 0) = q(:, 0)*slack + n0*p%kappa
+            q(:, 1) = q(:, 1)*slack + n1*p%kappa
+            q(:, 2) = q(:, 2)*slack
             softness = softness_around(s, xi, step)
             c(:, :, 0) = start
             do i = 0, n - 1
@@ -164,7 +168,12 @@ contains
                 c(:, 3, i + 1) = part*c(:, 4, i)
                 c(:, 4, i + 1) = part*k0*w(:, i)
                 if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) + part*k1*w(:, i - 1)
-                if (abs(s%tension) > 0.0_wp) c(:, 4, i + 1) = c(:, 4, i + 1) + part*s%tension*slack*bent(:, i)
+                if (abs(n0) > 0.0_wp) c(:, 4, i + 1) = c(:, 4, i + 1) + part*n0*bent(:, i)
+                if (abs(n1) > 0.0_wp) then
+                    ! Of (N psi)' the part N' psi, and N psi' as N changes
+                    c(:, 4, i + 1) = c(:, 4, i + 1) - (n1/(i + 1))*c(:, 2, i)
+                    if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) + part*n1*bent(:, i - 1)
+                end if
                 if (i == 0) c(first:, 2, 1) = c(first:, 2, 1) + part*p%kappa
                 if (i <= 2) c(first:, 4, i + 1) = c(first:, 4, i + 1) - part*q(:, i)
             end do
@@ -210,6 +219,7 @@ contains
         end do
         ! A modulus that changes gives five terms in place of four, with shear three in place of two; a load begins late
         if (abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp) n = n + n/merge(2, 4, stretch%shear_flexibility > 0.0_wp)
+        if (abs(stretch%tension_change) > 0.0_wp) n = n + n/2
         n = min(n + 6, most_taylor_terms)
         if (is_of_one_stiffness(stretch)) return
         ! Beside them those of the reciprocal of a power of the depth
@@ -246,7 +256,7 @@ contains
         real(wp) :: soft(2)
 
         soft(:) = softest(stretch)
-        trace = (modulus*soft(2) + stretch%tension*soft(1))/stretched_shear(stretch)
+        trace = (modulus*soft(2) + greatest_tension(stretch)*soft(1))/stretched_shear(stretch)
     end function trace_of
 
     !> Its determinant
@@ -262,23 +272,23 @@ contains
     end function determinant_of
 
     !> The transverse force T = V + N w', which loads and reactions balance
-    elemental function transverse_of(stretch, rotation, shear) result(force)
+    elemental function transverse_of(stretch, xi, rotation, shear) result(force)
         type(stretch_type), intent(in) :: stretch
-        !> psi and V
-        real(wp), intent(in) :: rotation, shear
+        !> The place, 0..1; psi and V there
+        real(wp), intent(in) :: xi, rotation, shear
         real(wp) :: force
 
-        force = stretched_shear(stretch)*shear + stretch%tension*rotation
+        force = stretched_shear(stretch)*shear + tension_at(stretch, xi)*rotation
     end function transverse_of
 
     !> The shear V = M' from the transverse force
-    elemental function shear_of(stretch, rotation, force) result(shear)
+    elemental function shear_of(stretch, xi, rotation, force) result(shear)
         type(stretch_type), intent(in) :: stretch
-        !> psi and T
-        real(wp), intent(in) :: rotation, force
+        !> The place, 0..1; psi and T there
+        real(wp), intent(in) :: xi, rotation, force
         real(wp) :: shear
 
-        shear = (force - stretch%tension*rotation)/stretched_shear(stretch)
+        shear = (force - tension_at(stretch, xi)*rotation)/stretched_shear(stretch)
     end function shear_of
 
     !> A stretch seen from the other side
@@ -300,12 +310,13 @@ contains
         other%qb = load%qa
     end function turned
 
-    !> Does the modulus, or a stiffness of the beam, change along the stretch
+    !> Does the modulus, a stiffness of the beam, or its axial force change along the stretch
     pure function is_sloped(stretch) result(sloped)
         type(stretch_type), intent(in) :: stretch
         logical :: sloped
 
-        sloped = abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp .or. .not. is_of_one_stiffness(stretch)
+        sloped = abs(stretch%modulus_b - stretch%modulus_a) > 0.0_wp .or. abs(stretch%tension_change) > 0.0_wp &
+            .or. .not. is_of_one_stiffness(stretch)
     end function is_sloped
 
 end module gapbeam_foundation_taylor

@@ -18,6 +18,8 @@ module gapbeam_piece
         integer :: power = 0, shear_power = 0
         !> Axial force in it that its bending feels, tension positive, with what ground resists slopes with, and that alone
         real(wp) :: tension = 0.0_wp, slope_stiffness = 0.0_wp
+        !> By how much it is greater at the right end than at the left one, linear in between
+        real(wp) :: tension_change = 0.0_wp
         !> Compression for which it is cut into steps, the greatest that it comes under
         real(wp) :: compression = 0.0_wp
         !> Mass per length, for vibrations
@@ -63,7 +65,7 @@ contains
         type(piece_type), intent(in) :: piece
         logical :: yes
 
-        yes = piece%tension < piece%slope_stiffness
+        yes = piece%tension + min(0.0_wp, piece%tension_change) < piece%slope_stiffness
     end function is_compressed
 
     !> Is there any load on the pieces of a link; the point load of the last one belongs to its node

@@ -31,6 +31,8 @@ module gapbeam_ground
         real(wp), allocatable :: layers(:, :, :)
         !> Tension of the pieces, shape (2, n); not allocated where it does not grow
         real(wp), allocatable :: tension(:, :)
+        !> By how much more they are at the right ends, shape (2, n); not allocated where they are constant
+        real(wp), allocatable :: tension_change(:, :)
     end type moving_type
 
     !> A beam and the ground under it

@@ -128,7 +128,7 @@ contains
             p = part_of_piece(ground%pieces(mesh%piece(i)), mesh%from(i), mesh%to(i))
             call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
         end do
-        if (any(abs(ground%pieces%tension) > 0.0_wp)) call feel_tension(ground, mesh, beam)
+        if (any(max(abs(ground%pieces%tension), abs(ground%pieces%tension_change)) > 0.0_wp)) call feel_tension(ground, mesh, beam)
         beam%watch = ground%beam%watch
 
     contains

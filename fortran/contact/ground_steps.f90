@@ -31,7 +31,7 @@ contains
         modulus = 0.0_wp
         if (present(stiffer)) modulus = stiffer
         tapers = is_tapered(piece)
-        varies = tapers .or. modulus > 0.0_wp .or. piece%compression > 0.0_wp
+        varies = tapers .or. modulus > 0.0_wp .or. piece%compression > 0.0_wp .or. abs(piece%tension_change) > 0.0_wp
         do k = 1, size(layers)
             associate (layer => layers(k))
                 if (.not. has_points(layer)) then
@@ -51,7 +51,10 @@ contains
         steps = 1
         if (.not. varies) return
         pressed = piece
-        if (piece%compression > 0.0_wp) pressed%tension = -piece%compression
+        if (piece%compression > 0.0_wp) then
+            pressed%tension = sign(max(piece%compression, piece%tension + max(0.0_wp, piece%tension_change)), -1.0_wp)
+            pressed%tension_change = 0.0_wp
+        end if
         steps = max(1, ceiling(decays_between(pressed, 0.0_wp, piece%length, modulus)))
         if (.not. tapers) return
         steps = steps_of_taper(piece)

@@ -107,7 +107,8 @@ contains
             call stretch_on_layers(ground, zones, i, stretch, dead, live)
             steps(i) = 1.0_wp
             if (present(parts)) steps(i) = parts
-            if (stretch%tension < 0.0_wp .or. min(stretch%modulus_a, stretch%modulus_b) < 0.0_wp &
+            if (stretch%tension < 0.0_wp .or. abs(stretch%tension_change) > 0.0_wp &
+                .or. min(stretch%modulus_a, stretch%modulus_b) < 0.0_wp &
                 .or. abs(stretch%modulus_a - stretch%modulus_b) > 0.0_wp) steps(i) = max(steps(i), decay_lengths(stretch))
         end do
         if (.not. sum(steps) <= real(most_mode_stretches, wp)) then

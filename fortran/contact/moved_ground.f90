@@ -25,6 +25,13 @@ contains
             ground%pieces%tension = at_zero + factor*growth
             ground%pieces%compression = max(0.0_wp, -at_zero, -(at_zero + greatest_near(factor)*growth))
         end associate
+        if (.not. allocated(ground%moving%tension_change)) return
+        associate (at_zero => ground%moving%tension(1, :), growth => ground%moving%tension(2, :), &
+                   more_at_zero => ground%moving%tension_change(1, :), more => ground%moving%tension_change(2, :))
+            ground%pieces%tension_change = more_at_zero + factor*more
+            ground%pieces%compression = max(ground%pieces%compression, -(at_zero + more_at_zero), &
+                                            -(at_zero + more_at_zero + greatest_near(factor)*(growth + more)))
+        end associate
     end subroutine move_ground
 
     !> Load factor for which a beam is cut at those near another one: the next power of 4, so that zones that are carried from one
@@ -49,6 +56,7 @@ contains
         changed = ground
         associate (given => ground%pieces%tension, of_ground => ground%pieces%slope_stiffness)
             changed%pieces%tension = of_ground + share*(given - of_ground)
+            changed%pieces%tension_change = share*ground%pieces%tension_change
         end associate
     end function under_share
 

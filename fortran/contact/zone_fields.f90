@@ -36,7 +36,7 @@ contains
             transverse(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
                 + (link%shear_b(1) + factor*link%shear_b(2))
         end associate
-        shear = shear_of(grounded%stretches(i), rotation, transverse)
+        shear = shear_of(grounded%stretches(i), [0.0_wp, 1.0_wp], rotation, transverse)
     end subroutine fields_at_ends
 
     !> Values at the ends of a stretch of a solved beam

@@ -13,7 +13,7 @@ module gapbeam_api_modes
     use gapbeam_api_objects, only: prepared_type, result_type, require_result, bad_argument
     implicit none
     private
-    public :: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_buckling
+    public :: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_mode_amplitude, get_buckling
 
 contains
 
@@ -42,7 +42,7 @@ contains
     end subroutine get_modes
 
     !> How the beam moves in a mode
-    subroutine get_mode_shape(beam, result, kind, value, parts, x, deflection, moment, error, amplitude, support)
+    subroutine get_mode_shape(beam, result, kind, value, parts, x, deflection, moment, error)
         !> As for get_modes
         type(prepared_type), intent(in) :: beam
         type(result_type), intent(in) :: result
@@ -55,11 +55,50 @@ contains
         real(wp), allocatable, intent(out) :: x(:), deflection(:), moment(:, :)
         !> As for get_modes; gapbeam_bad_input also where there is no such mode; gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
-        !> How many times these deflections swing when a support closes or opens first, and which; infinite and 0 where none does
-        real(wp), intent(out), optional :: amplitude
-        integer, intent(out), optional :: support
-        type(environment_type) :: environment
         type(shape_type) :: shape
+
+        call find_shape(beam, result, kind, value, parts, shape, error)
+        if (allocated(error)) return
+        call move_alloc(shape%x, x)
+        call move_alloc(shape%deflection, deflection)
+        call move_alloc(shape%moment, moment)
+    end subroutine get_mode_shape
+
+    !> How far a mode may swing before a support closes or opens
+    subroutine get_mode_amplitude(beam, result, kind, value, parts, amplitude, support, error)
+        !> As for get_mode_shape
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        integer, intent(in) :: kind
+        real(wp), intent(in) :: value
+        integer, intent(in) :: parts
+        !> How many times the deflections of get_mode_shape swing when a support closes or opens first, and which one; infinite and 0
+        !> where none does
+        real(wp), intent(out) :: amplitude
+        integer, intent(out) :: support
+        !> As for get_mode_shape
+        type(error_type), allocatable, intent(out) :: error
+        type(shape_type) :: shape
+
+        amplitude = 0.0_wp
+        support = 0
+        call find_shape(beam, result, kind, value, parts, shape, error)
+        if (allocated(error)) return
+        amplitude = shape%amplitude
+        support = shape%support
+    end subroutine get_mode_amplitude
+
+    !> The shape of a mode, where there is one
+    subroutine find_shape(beam, result, kind, value, parts, shape, error)
+        !> As for get_mode_shape
+        type(prepared_type), intent(in) :: beam
+        type(result_type), intent(in) :: result
+        integer, intent(in) :: kind
+        real(wp), intent(in) :: value
+        integer, intent(in) :: parts
+        type(shape_type), intent(out) :: shape
+        type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
         if (.not. allocated(error)) call require_kind(kind, error)
@@ -72,13 +111,7 @@ contains
         if (allocated(error)) return
         call hold_environment(environment)
         call shape_of_mode(beam%lowered, result%state, kind, value, parts, shape, error)
-        if (allocated(error)) return
-        call move_alloc(shape%x, x)
-        call move_alloc(shape%deflection, deflection)
-        call move_alloc(shape%moment, moment)
-        if (present(amplitude)) amplitude = shape%amplitude
-        if (present(support)) support = shape%support
-    end subroutine get_mode_shape
+    end subroutine find_shape
 
     !> How a beam gives way that does not bear its axial forces
     subroutine get_buckling(beam, result, share, x, deflection, error)

@@ -2,7 +2,7 @@
 module gapbeam_capi_modes
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_api_modes, only: get_modes, get_mode_shape, get_buckling
+    use gapbeam_api_modes, only: get_modes, get_mode_shape, get_mode_amplitude, get_buckling
     use gapbeam_handles, only: handle_type
     use gapbeam_capi_objects, only: get_both, check_points, report
     implicit none
@@ -39,35 +39,57 @@ contains
     end function c_get_modes
 
     !> See the header
-    function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, amplitude, support, &
-                              message, message_size) result(status) bind(c, name="gapbeam_get_mode_shape")
+    function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, message, message_size) &
+        result(status) bind(c, name="gapbeam_get_mode_shape")
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: kind, parts, capacity
         real(c_double), intent(in), value :: value
-        real(c_double), intent(inout), optional :: x(*), deflection(*), moment(2, *), amplitude
-        integer(c_int), intent(inout), optional :: number, support
+        real(c_double), intent(inout), optional :: x(*), deflection(*), moment(2, *)
+        integer(c_int), intent(inout), optional :: number
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
         type(handle_type), pointer :: prepared, solved
         type(error_type), allocatable :: error
         real(c_double), allocatable :: places(:), deflections(:), moments(:, :)
-        real(c_double) :: swing
-        integer :: n, first
+        integer :: n
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call get_mode_shape(prepared%beam, solved%result, kind, value, parts, places, deflections, &
-                                                        moments, error, swing, first)
+                                                        moments, error)
         call report(error, status, message, message_size)
         if (allocated(error)) return
         if (present(number)) number = size(places)
-        if (present(amplitude)) amplitude = swing
-        if (present(support)) support = first - 1
         n = max(0, min(int(capacity), size(places)))
         if (present(x)) x(1:n) = places(:n)
         if (present(deflection)) deflection(1:n) = deflections(:n)
         if (present(moment)) moment(:, 1:n) = moments(:, :n)
     end function c_get_mode_shape
+
+    !> See the header
+    function c_get_mode_amplitude(beam, state, kind, value, parts, amplitude, support, message, message_size) result(status) &
+        bind(c, name="gapbeam_get_mode_amplitude")
+        type(c_ptr), intent(in), value :: beam, state
+        integer(c_int), intent(in), value :: kind, parts
+        real(c_double), intent(in), value :: value
+        real(c_double), intent(inout), optional :: amplitude
+        integer(c_int), intent(inout), optional :: support
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), intent(in), value :: message_size
+        integer(c_int) :: status
+        type(handle_type), pointer :: prepared, solved
+        type(error_type), allocatable :: error
+        real(c_double) :: swing
+        integer :: first
+
+        call get_both(beam, state, prepared, solved, error)
+        if (.not. allocated(error)) call get_mode_amplitude(prepared%beam, solved%result, kind, value, parts, swing, &
+                                                            first, error)
+        call report(error, status, message, message_size)
+        if (allocated(error)) return
+        if (present(amplitude)) amplitude = swing
+        if (present(support)) support = first - 1
+    end function c_get_mode_amplitude
 
     !> See the header
     function c_get_buckling(beam, state, share, capacity, x, deflection, number) result(status) &

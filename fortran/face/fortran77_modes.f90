@@ -15,8 +15,7 @@
 
 ! Prepare a beam whose bending feels axial forces, also on foundations, and whose supports may follow laws
 subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
-                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, igrow, nmass, &
-                  amass, beam, ientry, info)
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, igrow, beam, ientry, info)
     use gapbeam_fortran77_model, only: prepare
     implicit none
     ! As for GHPRFD
@@ -25,19 +24,43 @@ subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     double precision, intent(in) :: glaw(6, *), atab(2, *)
     integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
     ! See above
+    double precision, intent(in) :: axial(2, *), shear(*)
+    integer, intent(in) :: igrow
+    ! As from GHPREP
+    integer(8), intent(out) :: beam
+    integer, intent(out) :: ientry
+    ! -1 to -28 as from GHPRFD; -29: AXIAL(., IENTRY); -30: SHEAR(IENTRY), also beside what it is not available with; 14, 15
+    integer, intent(out) :: info
+
+    call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
+                 found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, &
+                 axial=axial, shear=shear, igrow=igrow)
+end subroutine ghpraf
+
+! The same with lumped masses
+subroutine ghprlm(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, igrow, nmass, &
+                  amass, beam, ientry, info)
+    use gapbeam_fortran77_model, only: prepare
+    implicit none
+    ! As for GHPRAF
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
+    double precision, intent(in) :: glaw(6, *), atab(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
+    ! See above; NMASS 0 or more
     double precision, intent(in) :: axial(2, *), shear(*), amass(2, *)
     integer, intent(in) :: igrow, nmass
     ! As from GHPREP
     integer(8), intent(out) :: beam
     integer, intent(out) :: ientry
-    ! -1 to -28 as from GHPRFD; -29: AXIAL(., IENTRY); -30: SHEAR(IENTRY), also beside what it is not available with;
-    ! -32: NMASS; -33: AMASS(., IENTRY); 14, 15
+    ! -1 to -31 as from GHPRAF; -32: NMASS; -33: AMASS(., IENTRY); 14, 15
     integer, intent(out) :: info
 
     call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                  found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, &
                  axial=axial, shear=shear, igrow=igrow, nmass=nmass, amass=amass)
-end subroutine ghpraf
+end subroutine ghprlm
 
 ! Is a solved state known to be the only one
 subroutine ghuniq(state, iuniq, info)
@@ -125,7 +148,7 @@ subroutine ghmode(beam, state, kind, nval, value, nfound, info)
 end subroutine ghmode
 
 ! How the beam moves in a mode
-subroutine ghshap(beam, state, kind, value, nparts, maxx, nx, x, w, xmom, ampl, ksup, info)
+subroutine ghshap(beam, state, kind, value, nparts, maxx, nx, x, w, xmom, info)
     use gapbeam_api_modes, only: get_mode_shape
     use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
@@ -139,16 +162,11 @@ subroutine ghshap(beam, state, kind, value, nparts, maxx, nx, x, w, xmom, ampl, 
     integer, intent(inout) :: nx
     ! The first MAXX of them, deflections there, the largest 1, and moments left and right of them with these
     double precision, intent(inout) :: x(*), w(*), xmom(2, *)
-    ! How many times these deflections swing when a support closes or opens first, and which one; infinite and 0 where none does
-    double precision, intent(inout) :: ampl
-    integer, intent(inout) :: ksup
     ! -1, -2, -3 as from GHMODE; -2 also where there is no such mode; -4, -5, -6; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
     double precision, allocatable :: places(:), deflections(:), moments(:, :)
-    double precision :: swing
-    integer :: first
     ! (Written where they are used, gfortran keeps their addresses in writable storage)
     character(len=6), parameter :: names(3) = ["kind  ", "value ", "parts "]
     integer :: n
@@ -156,15 +174,42 @@ subroutine ghshap(beam, state, kind, value, nparts, maxx, nx, x, w, xmom, ampl, 
     call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. maxx < 0) info = -6
     if (info /= 0) return
-    call get_mode_shape(prepared%beam, solved%result, kind, value, nparts, places, deflections, moments, error, swing, &
-                        first)
+    call get_mode_shape(prepared%beam, solved%result, kind, value, nparts, places, deflections, moments, error)
     info = info_of(error, 2, names, [3, 4, 5])
     if (info /= 0) return
-    ampl = swing
-    ksup = first
     nx = size(places)
     n = min(maxx, nx)
     x(1:n) = places(:n)
     w(1:n) = deflections(:n)
     xmom(:, 1:n) = moments(:, :n)
 end subroutine ghshap
+
+! How far a mode may swing before a support closes or opens
+subroutine ghampl(beam, state, kind, value, nparts, ampl, ksup, info)
+    use gapbeam_api_modes, only: get_mode_amplitude
+    use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
+    implicit none
+    ! As for GHSHAP
+    integer(8), intent(in) :: beam, state
+    integer, intent(in) :: kind, nparts
+    double precision, intent(in) :: value
+    ! How many times the deflections of GHSHAP swing when a support closes or opens first, and which one; infinite and 0 where none
+    ! does
+    double precision, intent(inout) :: ampl
+    integer, intent(inout) :: ksup
+    ! -1 to -5 as from GHSHAP; 15
+    integer, intent(out) :: info
+    type(handle_type), pointer :: prepared, solved
+    type(error_type), allocatable :: error
+    double precision :: swing
+    integer :: first
+    character(len=6), parameter :: names(3) = ["kind  ", "value ", "parts "]
+
+    call find_both(beam, state, state_tag, prepared, solved, info)
+    if (info /= 0) return
+    call get_mode_amplitude(prepared%beam, solved%result, kind, value, nparts, swing, first, error)
+    info = info_of(error, 2, names, [3, 4, 5])
+    if (info /= 0) return
+    ampl = swing
+    ksup = first
+end subroutine ghampl

@@ -80,7 +80,8 @@ module gapbeam
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes, gapbeam_of_deflection, gapbeam_of_rotation, &
         gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
         gapbeam_of_curvature, gapbeam_of_transverse
-    use gapbeam_api_modes, only: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_buckling
+    use gapbeam_api_modes, only: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_mode_amplitude, &
+        get_buckling
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         get_released_energy, gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended

@@ -145,7 +145,8 @@ contains
         type(ground_type) :: changed
 
         changed = under_share(ground, share)
-        changed%pieces%compression = max(0.0_wp, -changed%pieces%tension)
+        changed%pieces%compression = max(0.0_wp, -changed%pieces%tension, &
+                                         -(changed%pieces%tension + changed%pieces%tension_change))
     end function cut_for_share
 
     !> Length of a piece beside the one by which the phase of a wave under its compression grows by 1

@@ -10,6 +10,7 @@ module gapbeam_ground_audit
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
     use gapbeam_taper, only: softness_at
+    use gapbeam_foundation_stretch, only: tension_at
     use gapbeam_foundation_taylor, only: transverse_of
     use gapbeam_law, only: force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
@@ -234,8 +235,10 @@ contains
             do side = 1, 2
                 at_end = field_at_end(solution, i, side)
                 call note(ledger, of_equilibrium, forces, &
-                          transverse_of(solution%stretches(i), at_end%rotation, at_end%shear) - force_at_end(solution, i, side), &
-                          sizes_of(i)%shear + least_of(i)%shear + abs(solution%stretches(i)%tension*at_end%rotation), &
+                          transverse_of(solution%stretches(i), real(side - 1, wp), at_end%rotation, at_end%shear) &
+                          - force_at_end(solution, i, side), &
+                          sizes_of(i)%shear + least_of(i)%shear &
+                          + abs(tension_at(solution%stretches(i), real(side - 1, wp))*at_end%rotation), &
                           solution%piece(i), merge(solution%from(i), solution%to(i), side == 1))
             end do
         end subroutine audit_shears

@@ -4,7 +4,7 @@ module gapbeam_ground_fields
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
-    use gapbeam_foundation_stretch, only: softest, without_slip
+    use gapbeam_foundation_stretch, only: softest, without_slip, greatest_tension
     use gapbeam_foundation_taylor, only: is_sloped, transverse_of
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
     use gapbeam_laws, only: law_cubic, parameters_of_law
@@ -145,7 +145,7 @@ contains
 
         if (allocated(inside%curved) .or. inside%sloped) then
             call field_inside(inside, xi, field)
-            force = transverse_of(inside%stretch, field%rotation, field%shear)
+            force = transverse_of(inside%stretch, xi, field%rotation, field%shear)
         else
             call fields_at(inside%stretch, inside%load, inside%ends, xi, field%deflection, field%rotation, field%moment, &
                            field%shear, force)
@@ -227,7 +227,7 @@ contains
                 + square*(f*(moment + square*q) + abs(load%kappa)) + g*(moment + square*q)
             sizes%rotation = maxval(abs(solution%rotation(:, i)))
             sizes%moment = moment + square*(q + modulus*sizes%deflection)
-            sizes%shear = maxval(abs(solution%shear(:, i))) + abs(s%tension)*(sizes%rotation + sizes%deflection/s%length)
+            sizes%shear = maxval(abs(solution%shear(:, i))) + abs(greatest_tension(s))*(sizes%rotation + sizes%deflection/s%length)
             bent = sizes%moment
             if (f > 0.0_wp) then
                 bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/f

@@ -53,7 +53,8 @@ contains
         stands = .true.
         do k = 1, size(start, 2)
             call find_allowed(ground, share, start(:, k), way(:, k), low, high)
-            if (any(ground%beam%kind == restrained) .or. sum(ground%pieces%tension*ground%pieces%length) > 0.0_qp) then
+            if (any(ground%beam%kind == restrained) &
+                .or. sum((ground%pieces%tension + ground%pieces%tension_change/2)*ground%pieces%length) > 0.0_qp) then
                 ! Down or up as a whole, both ends by as much: tension keeps its direction, and resists rotations however great
                 low = max(low, sum(start(:, k)))
                 high = min(high, sum(start(:, k)))

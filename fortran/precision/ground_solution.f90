@@ -7,7 +7,7 @@ module gapbeam_ground_solution
     use gapbeam_tolerances, only: sign_width, fine_rounding, ground_fine_width, same_ratio_of_slopes
     use gapbeam_foundation_quad, only: fine_stretch_type => stretch_type, fine_stretch_load_type => stretch_load_type, &
         fine_ends_type => stretch_ends_type
-    use gapbeam_foundation_stretch_quad, only: softness_in, without_slip, part_of_stretch
+    use gapbeam_foundation_stretch_quad, only: softness_in, without_slip, part_of_stretch, tension_at
     use gapbeam_foundation_taylor_quad, only: expand, terms_of, stretched_shear, transverse_of, deflection_series
     use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
@@ -121,7 +121,7 @@ contains
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
-            solution%force(:, i) = real(transverse_of(stretch, field(:, 1), field(:, 2)), wp)
+            solution%force(:, i) = real(transverse_of(stretch, [0.0_qp, 1.0_qp], field(:, 1), field(:, 2)), wp)
         end do
         allocate (margin(size(closed)), rounding(size(closed)))
         call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
@@ -161,8 +161,8 @@ contains
         ways = [way, way + (length - s%length)]
         where (abs(ways) <= fine_rounding*length) ways = 0.0_qp
         if (.not. any(abs(ways) > 0.0_qp)) return
-        call go(ways(1), softness_in(s, 0.0_qp), s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
-        call go(ways(2), softness_in(s, 1.0_qp), s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
+        call go(ways(1), 0.0_qp, s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
+        call go(ways(2), 1.0_qp, s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
         share = [ways(1), s%length + ways(2)]/s%length
         stretch = part_of_stretch(s, share)
         stretch%length = length
@@ -197,15 +197,17 @@ contains
         end function by_curves
 
         !> The fields a little farther on
-        pure subroutine go(way, softness, modulus, pressure, w, moment, turn_and_shear)
-            !> 1/EI and 1/GA there
-            real(qp), intent(in) :: way, softness(2), modulus, pressure
+        pure subroutine go(way, xi, modulus, pressure, w, moment, turn_and_shear)
+            !> How far, from which end of the stretch: 0 or 1
+            real(qp), intent(in) :: way, xi, modulus, pressure
             real(qp), intent(inout) :: w, moment, turn_and_shear(2)
-            real(qp) :: gain(4)
+            real(qp) :: gain(4), softness(2)
 
+            softness(:) = softness_in(s, xi)
             associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
                 gain = way*[psi + softness(2)*shear, q%kappa - softness(1)*moment, shear, &
-                            (modulus*w - pressure - s%tension*(q%kappa - softness(1)*moment))/stretched_shear(s)]
+                            (modulus*w - pressure - tension_at(s, xi)*(q%kappa - softness(1)*moment) &
+                             - s%tension_change/s%length*psi)/stretched_shear(s)]
                 w = w + gain(1)
                 psi = psi + gain(2)
                 moment = moment + gain(3)
@@ -294,7 +296,8 @@ contains
         forces(:) = 0.0_qp
         from = zones%from(i)
         modulus = [stretch%modulus_a, stretch%modulus_b]
-        by_springs = (transverse_of(stretch, field(2, 1), field(2, 2)) - transverse_of(stretch, field(1, 1), field(1, 2))) &
+        by_springs = (transverse_of(stretch, 1.0_qp, field(2, 1), field(2, 2)) &
+                      - transverse_of(stretch, 0.0_qp, field(1, 1), field(1, 2))) &
             + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
         n = 0
         if (allocated(curved)) then
@@ -381,10 +384,13 @@ contains
         !> At the two ends
         real(qp), intent(in) :: line(2)
         type(fine_stretch_load_type) :: found
+        !> By what a slope of the line lets an axial force that changes pull
+        real(qp) :: pull
 
         found = load
-        found%qa = difference(load%qa, stretch%modulus_a*line(1))
-        found%qb = difference(load%qb, stretch%modulus_b*line(2))
+        pull = stretch%tension_change*(line(2) - line(1))/stretch%length**2
+        found%qa = difference(load%qa + pull, stretch%modulus_a*line(1))
+        found%qb = difference(load%qb + pull, stretch%modulus_b*line(2))
         found%qc = difference(load%qc, -(stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1)))
     end function beside_line
 

@@ -147,7 +147,7 @@ contains
         beam = grounded%beam
         where (idle)
             beam%ground%grounded = .false.
-            beam%ground%gaa = grounded%stretches%tension/grounded%stretches%length
+            beam%ground%gaa = (grounded%stretches%tension + grounded%stretches%tension_change/2)/grounded%stretches%length
         end where
         call free_motions(beam, closed .and. .not. undecided, motions)
         do m = 1, size(motions)

@@ -41,6 +41,9 @@ contains
         allocate (fine%moving%supports, source=real(ground%moving%supports, qp))
         allocate (fine%moving%layers, source=real(ground%moving%layers, qp))
         if (allocated(ground%moving%tension)) allocate (fine%moving%tension, source=real(ground%moving%tension, qp))
+        if (allocated(ground%moving%tension_change)) then
+            allocate (fine%moving%tension_change, source=real(ground%moving%tension_change, qp))
+        end if
     end subroutine refine_ground
 
     !> Its links without ground
@@ -94,8 +97,8 @@ contains
 
         stretch = stretch_type(length=real(fine%length, wp), flexibility=real(fine%flexibility, wp), &
                                shear_flexibility=real(fine%shear_flexibility, wp), modulus_a=real(fine%modulus_a, wp), &
-                               modulus_b=real(fine%modulus_b, wp), tension=real(fine%tension, wp), taper=real(fine%taper, wp), &
-                               power=fine%power)
+                               modulus_b=real(fine%modulus_b, wp), tension=real(fine%tension, wp), &
+                               tension_change=real(fine%tension_change, wp), taper=real(fine%taper, wp), power=fine%power)
     end function rounded_stretch
 
     !> Its load

@@ -13,6 +13,7 @@ module gapbeam_stretch_audit
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
+    use gapbeam_foundation_stretch, only: tension_at, greatest_tension
     use gapbeam_foundation_taylor, only: trace_of, determinant_of
     use gapbeam_ground_fields, only: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, curved_stretch, &
         breakpoint_terms, pressure_terms
@@ -64,6 +65,8 @@ contains
             push(2), pull, soft(2)
         !> int V/GA over the length where GA changes
         real(wp) :: slid
+        !> int N w' over the length where N changes
+        real(wp) :: pulled
         integer :: n
         logical :: curves
 
@@ -87,6 +90,7 @@ contains
                 else
                     call prepare_inside(layers, ground%laws, ground%pieces(j)%length, solution, i, inside, roughly=.true.)
                     call integrate()
+                    if (abs(s%tension_change) > 0.0_wp) pull = l*pulled
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
                               abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
                     call fits(of_bending, deflections, (right%deflection - left%deflection) - l*(left%rotation + l*bent(2)) &
@@ -156,6 +160,7 @@ contains
             call cut_into_panels(rate, fade, panels)
             bent = 0.0_wp
             slid = 0.0_wp
+            pulled = 0.0_wp
             pressed = 0.0_wp
             here(:) = soft
             associate (j => solution%piece(i))
@@ -182,6 +187,7 @@ contains
                         if (is_tapered(ground%pieces(j))) here(:) = softness_at(ground%pieces(j), place)
                         curvature = load%kappa - here(1)*field%moment
                         slid = slid + weights(t)*here(2)*field%shear
+                        pulled = pulled + weights(t)*tension_at(solution%stretches(i), points(t))*field%rotation
                         bent = bent + weights(t)*curvature*[1.0_wp, 1 - points(t)]
                         pressed = pressed + weights(t)*total*[1.0_wp, 1 - points(t)]
                     end do
@@ -249,7 +255,7 @@ contains
                 end do
                 sums%force = sum(r(:n)) - q
                 sums%force_size = sum(abs(r(:n))) + l*(sum(terms(:n)) + qsize)
-                sums%moment_size = l*sums%force_size + abs(solution%stretches(i)%tension)*wsize
+                sums%moment_size = l*sums%force_size + abs(greatest_tension(solution%stretches(i)))*wsize
                 call fits(of_equilibrium, forces, (push(2) - push(1)) - sums%force, sum(abs(push)) + sizes%shear + sums%force_size)
             end associate
         end subroutine audit_resultants

@@ -14,7 +14,7 @@ module gapbeam_axial_tension
     use gapbeam_assembled_model, only: assembled_type, point_x
     implicit none
     private
-    public :: tensions_of_loads, check_tensions
+    public :: tensions_of_loads, changes_of_tension, check_tensions
 
 contains
 
@@ -65,6 +65,17 @@ contains
 
     end function tensions_of_loads
 
+    !> By how much these forces, which are those in the middles of pieces, change along each, at load factor 0 and with it
+    pure function changes_of_tension(assembled) result(change)
+        !> With loads distributed along it, so that every piece is a bar
+        type(assembled_type), intent(in) :: assembled
+        !> As tensions_of_loads
+        real(wp) :: change(2, size(assembled%pieces))
+
+        change(:, :) = scale(-assembled%axial%along_bar, &
+                             assembled%axial%units%force + rotation_unit(assembled%units) - assembled%units%force)
+    end function changes_of_tension
+
     !> Refuse axial forces that are out of range, or so great a compression that the beam bends by shear alone
     pure subroutine check_tensions(assembled, ground, error)
         type(assembled_type), intent(in) :: assembled
@@ -75,7 +86,7 @@ contains
 
         do piece = 1, size(ground%pieces)
             associate (p => ground%pieces(piece))
-                if (.not. abs(p%tension) <= huge(1.0_wp)) then
+                if (.not. abs(p%tension) + abs(p%tension_change) <= huge(1.0_wp)) then
                     call refuse_range(error, "the axial force "//trim(place())//" is too far from the stiffnesses of the beam", &
                                       "bring them nearer together")
                 else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then

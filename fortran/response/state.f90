@@ -14,7 +14,7 @@ module gapbeam_state
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
     use gapbeam_moved_ground, only: move_ground
-    use gapbeam_axial_tension, only: tensions_of_loads, check_tensions
+    use gapbeam_axial_tension, only: tensions_of_loads, changes_of_tension, check_tensions
     use gapbeam_compressed, only: solve_with_axial_force
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type
@@ -247,10 +247,10 @@ contains
     function ground_of(assembled, factor, stretched) result(ground)
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
-        !> By what deflections lengthen the bars along the axis (state_type)
-        real(wp), intent(in), optional :: stretched(:)
+        !> By what deflections lengthen the bars along the axis (state_type), if they do
+        real(wp), allocatable, intent(in), optional :: stretched(:)
         type(ground_type) :: ground
-        logical :: grows
+        logical :: grows, stretches
         integer :: i
 
         ground%beam = assembled%beam
@@ -292,8 +292,19 @@ contains
                     moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
                     moving%tension(2, :) = assembled%tension_growth
                 end if
-                if (assembled%model%axial_loads_bend) moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, &
-                                                                                                                      stretched)
+                if (assembled%model%axial_loads_bend) then
+                    stretches = present(stretched)
+                    if (stretches) stretches = allocated(stretched)
+                    if (stretches) then
+                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, stretched)
+                    else
+                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
+                    end if
+                    if (allocated(assembled%axial%along_bar)) then
+                        moving%tension_change = changes_of_tension(assembled)
+                        moving%tension(:, :) = moving%tension - moving%tension_change/2
+                    end if
+                end if
             end if
         end associate
         call move_ground(ground, factor)

@@ -54,14 +54,15 @@ contains
         if (model%first_order) return
         associate (s => model%supports, loads => model%loads)
             ! One support lets temperatures and settlements pass
-            they_may = any(s%direction == gapbeam_axial) .and. any(loads%kind == force_along) &
+            they_may = any(s%direction == gapbeam_axial) &
+                .and. any(loads%kind == force_along .or. loads%kind == gapbeam_axial_distributed) &
                 .or. count(s%direction == gapbeam_axial) > 1 &
                 .and. (any(s%direction == gapbeam_axial .and. abs(s%settlement) > 0.0_wp) &
                        .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
             if (.not. they_may) return
             they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
                               .or. any(s%friction > 0.0_wp) .or. any(model%sections%friction > 0.0_wp) .or. any(is_smooth(s%law)) &
-                              .or. any(loads%kind == gapbeam_axial_distributed))
+                              .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle
                 if (loads(i)%node < 1 .or. loads(i)%node > size(s)) cycle
@@ -69,6 +70,16 @@ contains
             end do
         end associate
     end function axial_loads_may_bend
+
+    !> May the axial force change along a piece: series know that where nothing bends by shear, off ground whose law may be a curve
+    pure function may_change(model) result(it_may)
+        type(model_type), intent(in) :: model
+        logical :: it_may
+
+        it_may = all(model%spans%GA > huge(1.0_wp)) &
+            .and. .not. any(model%sections%GA > 0.0_wp .and. model%sections%GA <= huge(1.0_wp)) &
+            .and. size(model%ground_law) == 0 .and. all(model%foundations%law == gapbeam_law_by_points)
+    end function may_change
 
     !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or
     !> with mass

@@ -499,10 +499,11 @@ class CBeam:
     def mode_shape(self, kind, value, parts):
         """Places, deflections, moments left and right of them, amplitude and support."""
         number, given = c.c_int(-1), (self.handle, self.state, kind, c.c_double(value), parts)
-        assert self.c.gapbeam_get_mode_shape(*given, 0, None, None, None, c.byref(number), None, None, None, c.c_size_t(0)) == 0
+        assert self.c.gapbeam_get_mode_shape(*given, 0, None, None, None, c.byref(number), None, c.c_size_t(0)) == 0
         n, swing, support = number.value, c.c_double(), c.c_int()
-        found, swings = (np.empty(n), np.empty(n), np.empty((n, 2))), (c.byref(swing), c.byref(support))
-        assert self.c.gapbeam_get_mode_shape(*given, n, *map(pointer, found), None, *swings, None, c.c_size_t(0)) == 0
+        found = np.empty(n), np.empty(n), np.empty((n, 2))
+        assert self.c.gapbeam_get_mode_shape(*given, n, *map(pointer, found), None, None, c.c_size_t(0)) == 0
+        assert self.c.gapbeam_get_mode_amplitude(*given, c.byref(swing), c.byref(support), None, c.c_size_t(0)) == 0
         return found[0], found[1], found[2].T, swing.value, support.value
 
     def buckling(self):
@@ -605,8 +606,10 @@ class F77Beam:
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
             forces = a["N_grows"] + 2 * a["first_order"] + 4 * a["stretching"]
-            masses = np.array([a["mass_x"], a["lumped_mass"]]).T.copy()
-            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces, len(masses), masses]
+            model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces]
+        if len(a["mass_x"]):
+            prepare = "ghprlm"
+            model += [len(a["mass_x"]), np.array([a["mass_x"], a["lumped_mass"]]).T.copy()]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0
@@ -725,9 +728,10 @@ class F77Beam:
         """As CBeam.mode_shape."""
         n, given = np.zeros(1, np.int32), (*self.both, kind, float(value), parts)
         swing, support = np.zeros(1), np.zeros(1, np.int32)
-        assert self.call("ghshap", *given, 0, n, n, n, n, swing, support) == 0
+        assert self.call("ghshap", *given, 0, n, n, n, n) == 0
+        assert self.call("ghampl", *given, swing, support) == 0
         found = np.empty(n[0]), np.empty(n[0]), np.empty((n[0], 2))
-        assert self.call("ghshap", *given, int(n[0]), n, *found, swing, support) == 0
+        assert self.call("ghshap", *given, int(n[0]), n, *found) == 0
         return found[0], found[1], found[2].T, float(swing[0]), int(support[0]) - 1
 
     def buckling(self):

@@ -78,21 +78,22 @@ static void stands(double euler)
     check(gapbeam_get_quantities(beam, state, 2, quantities, 1, zero, 0, values, NULL, 0) == GAPBEAM_SOLVED, "quantities");
     check_close(values[0], reaction[0], 1e-13, "the transverse force is what the support balances");
     check(fabs(values[1] - reaction[0]) > 0.1, "the shear is not");
-    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 17, x, w, moment, &number, &swing, &support, message,
-                                 sizeof message)
+    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 17, x, w, moment, &number, message, sizeof message)
               == GAPBEAM_SOLVED && !*message, "shape");
     check(number == 17 && x[4] == 0.25 && fabs(w[4]) == 1.0, "at seventeen places");
+    check(gapbeam_get_mode_amplitude(beam, state, GAPBEAM_BUCKLING, factors[0], 4, &swing, &support, message, sizeof message)
+              == GAPBEAM_SOLVED, "amplitude");
     check(isinf(swing) && support == -1, "the stop is where the mode has a node");
     check_close(moment[4][0], 4.0 * euler * w[4], 1e-9, "moment");
     x[0] = 7.0;
-    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 0, x, NULL, NULL, &number, NULL, NULL, NULL, 0) == 0, "no room");
+    check(gapbeam_get_mode_shape(beam, state, GAPBEAM_BUCKLING, factors[0], 4, 0, x, NULL, NULL, &number, NULL, 0) == 0, "no room");
     check(number == 17 && x[0] == 7.0, "how many there are");
     check(gapbeam_get_modes(beam, state, GAPBEAM_VIBRATION, 1, factors, &number, NULL, 0) == 0 && number == 0, "no mass");
     check(gapbeam_get_modes(beam, state, 3, 1, factors, &number, message, sizeof message) == GAPBEAM_BAD_INPUT, "no such kind");
     check(strstr(message, "got 3") != NULL, "names it");
     check(gapbeam_get_modes(beam, state, 1, -1, factors, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "a negative number");
     check(gapbeam_get_modes(beam, state, 1, 1, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no room for values");
-    check(gapbeam_get_mode_shape(beam, state, 1, NAN, 4, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no number");
+    check(gapbeam_get_mode_shape(beam, state, 1, NAN, 4, 0, NULL, NULL, NULL, NULL, NULL, 0) == GAPBEAM_BAD_INPUT, "no number");
     check(gapbeam_get_buckling(beam, state, &share, 0, NULL, NULL, NULL) == GAPBEAM_NOT_PREPARED && share == 7.0, "it stands");
     check(gapbeam_follow(beam, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, message, sizeof message) == GAPBEAM_BAD_INPUT, "follow");
     check(!strcmp(message, "the beam has an axial force N: use follow_ground"), "says how");

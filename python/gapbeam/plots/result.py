@@ -121,7 +121,7 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
     if result._beam.has_axial_force:
-        forces = [force for *_, force in acting_axial_forces(result, result.steps[step])]
+        forces = [force for *_, left, right in acting_axial_forces(result, result.steps[step]) for force in (left, right)]
         ends = dict.fromkeys(fmt.value(result.scene, "axial_force", force) for force in (min(forces), max(forces)))
         text += with_minus_signs(f", N {' to '.join(ends)}")
     zones = joined(contact)

@@ -109,9 +109,12 @@ def axial_forces_in_words(result: Result, step: Step | None) -> str:
     runs = axial_forces(scene) if step is None else acting_axial_forces(result, step)
     ends = "all along the beam" if len(runs) == 1 else ""
     texts = [
-        f"{fmt.value(scene, 'axial_force', N)}{'' if not N else ' (tension)' if N > 0.0 else ' (compression)'} "
-        + (ends or f"from x = {fmt.number(from_, fmt.DIGITS)} to {fmt.number(to, fmt.DIGITS)}")
-        for from_, to, N in runs[:MOST_STRETCHES]
+        " to ".join(
+            f"{fmt.value(scene, 'axial_force', N)}{'' if not N else ' (tension)' if N > 0.0 else ' (compression)'}"
+            for N in ((run.left,) if run.left == run.right else (run.left, run.right))
+        )
+        + (f" {ends}" if ends else f" from x = {fmt.number(run.from_, fmt.DIGITS)} to {fmt.number(run.to, fmt.DIGITS)}")
+        for run in runs[:MOST_STRETCHES]
     ]
     growth = "It grows with the load factor" if scene.analysis.N_with == "live" else "It acts in full at every load factor"
     more = f"; and so on, {len(runs)} stretches" if len(runs) > MOST_STRETCHES else ""

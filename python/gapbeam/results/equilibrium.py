@@ -23,6 +23,12 @@ NONE = 1e-12
 """Sums below this share of what is added up are said to be zero."""
 FAR = 2.0**960
 """Numbers above this are added up in this unit."""
+SAME = 1e-12
+"""Share of an axial force by which it may change along a stretch and is constant."""
+BENT = 1e-9
+"""Share of its slope by which that may change and is the same."""
+PANELS, (POINTS, WEIGHTS) = 8, np.polynomial.legendre.leggauss(8)
+"""Of the mean of a deflection along a stretch."""
 
 
 class Sums(NamedTuple):
@@ -131,8 +137,25 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     )  # fmt: skip
 
 
-def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
-    """Give the axial forces that bending feels, from left to right.
+class AxialRun(NamedTuple):
+    """A stretch of the beam along which its axial force is constant or linear.
+
+    Attributes
+    ----------
+    from_, to : float
+        Its ends.
+    left, right : float
+        The force there, tension positive.
+    """
+
+    from_: float
+    to: float
+    left: float
+    right: float
+
+
+def axial_forces(scene: Scene) -> list[AxialRun]:
+    """Give the axial forces that are given, from left to right.
 
     Parameters
     ----------
@@ -141,14 +164,15 @@ def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
 
     Returns
     -------
-    list of (float, float, float)
-        Left and right end, and the force, tension positive.
+    list of AxialRun
 
     Examples
     --------
     >>> from gapbeam import Beam, Scene, Section
-    >>> axial_forces(Scene(beam=Beam([4.0, 4.0], EI=1.0, N=5.0), sections=[Section(from_=6.0, N=-2.0)]))
-    [(0.0, 6.0, 5.0), (6.0, 8.0, -2.0)]
+    >>> for run in axial_forces(Scene(beam=Beam([4.0, 4.0], EI=1.0, N=5.0), sections=[Section(from_=6.0, N=-2.0)])):
+    ...     print(run)
+    AxialRun(from_=0.0, to=6.0, left=5.0, right=5.0)
+    AxialRun(from_=6.0, to=8.0, left=-2.0, right=-2.0)
     """
     ends = scene.span_ends()
     sections = [(*fmt.stretch(scene, one), one.N) for one in scene.sections if one.N is not None]
@@ -157,16 +181,21 @@ def axial_forces(scene: Scene) -> list[tuple[float, float, float]]:
     force = np.broadcast_to(np.asarray(scene.beam.N, dtype=float), len(ends) - 1)[np.searchsorted(ends, middle) - 1].copy()
     for from_, to, N in sections:
         force[(from_ <= middle) & (middle <= to)] = N
-    return _runs(cuts, force)
+    return _runs(cuts, force, force)
 
 
-def _runs(cuts: np.ndarray, force: np.ndarray) -> list[tuple[float, float, float]]:
-    """Stretches of one force each, from those between the cuts."""
-    first = np.flatnonzero(np.append(True, np.diff(force) != 0.0))
-    return list(zip(cuts[first].tolist(), cuts[np.append(first[1:], len(force))].tolist(), force[first].tolist(), strict=True))
+def _runs(cuts: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[AxialRun]:
+    """Stretches along which the force is constant or linear, from those between the cuts."""
+    slope, size = (right - left) / np.diff(cuts), np.maximum(np.abs(left), np.abs(right))
+    jumps = np.abs(left[1:] - right[:-1]) > SAME * np.minimum(size[1:], size[:-1])
+    bends = np.abs(np.diff(slope)) > BENT * np.minimum(np.abs(slope[1:]), np.abs(slope[:-1]))
+    first = np.flatnonzero(np.append(True, jumps | bends))
+    last = np.append(first[1:], len(left)) - 1
+    columns = cuts[first], cuts[last + 1], left[first], right[last]
+    return [AxialRun(*row) for row in zip(*(column.tolist() for column in columns), strict=True)]
 
 
-def acting_axial_forces(result: Result, step: Step) -> list[tuple[float, float, float]]:
+def acting_axial_forces(result: Result, step: Step) -> list[AxialRun]:
     """Give the axial forces that bending feels in a state: those given, as far as they have grown, and those of axial loads.
 
     Parameters
@@ -178,18 +207,23 @@ def acting_axial_forces(result: Result, step: Step) -> list[tuple[float, float, 
 
     Returns
     -------
-    list of (float, float, float)
-        As from `axial_forces`.
+    list of AxialRun
     """
     scene, beam = result.scene, result._beam
     share = step.factor if scene.analysis.N_with == "live" else 1.0
-    runs = [(from_, to, share * N) for from_, to, N in axial_forces(scene)]
+    runs = [AxialRun(from_, to, share * left, share * right) for from_, to, left, right in axial_forces(scene)]
     if not beam.feels_axial_loads:
         return runs
     x = beam.places.point_x
-    middle = (x[:-1] + x[1:]) / 2.0
-    given = np.array([N for *_, N in runs])[np.searchsorted([to for _, to, _ in runs[:-1]], middle)]
-    return _runs(x, given + result.at_state(step, middle).axial_force)
+    middle, quarter = (x[:-1] + x[1:]) / 2.0, (x[1:] - x[:-1]) / 4.0
+    given = np.array([run.left for run in runs])[np.searchsorted([run.to for run in runs[:-1]], middle)]
+    inside = result.at_state(step, middle).axial_force
+    changes = np.zeros(len(middle))
+    if any(isinstance(load, AxialUniformLoad) for load in scene.loads):
+        before, after = (result.at_state(step, middle + sign * quarter).axial_force for sign in (-1, 1))
+        changes = after - before
+        changes[np.abs(changes) <= SAME * np.abs(inside)] = 0.0
+    return _runs(x, given + inside - changes, given + inside + changes)
 
 
 class Turning(NamedTuple):
@@ -218,8 +252,9 @@ def moments_on_deflected_axis(result: Result, step: Step) -> list[Turning]:
     scene, changes = result.scene, []
     if result._beam.has_axial_force:
         runs = acting_axial_forces(result, step)
-        places, inner = [0.0, *(to for _, to, _ in runs)], [0.0, *(N for *_, N in runs), 0.0]
-        changes += [("axial force N", x, right - left) for x, left, right in zip(places, inner[:-1], inner[1:], strict=True)]
+        before, after = [0.0, *(run.right for run in runs)], [*(run.left for run in runs), 0.0]
+        places = [0.0, *(run.to for run in runs)]
+        changes += [("axial force N", x, right - left) for x, left, right in zip(places, before, after, strict=True)]
     for one in scene.foundation:
         if one.shear:
             from_, to = fmt.stretch(scene, one)
@@ -227,7 +262,18 @@ def moments_on_deflected_axis(result: Result, step: Step) -> list[Turning]:
     if not changes:
         return []
     deflection = result.at_state(step, np.array([x for _, x, _ in changes])).deflection.tolist()
-    return [Turning(of, x, w * by) for (of, x, by), w in zip(changes, deflection, strict=True) if w * by]
+    return [Turning(of, x, w * by) for (of, x, by), w in zip(changes, deflection, strict=True) if w * by] + _along(result, step)
+
+
+def _along(result: Result, step: Step) -> list[Turning]:
+    """Moments of what the axial force changes by along a stretch, from the mean deflection there."""
+    found = []
+    for from_, to, left, right in acting_axial_forces(result, step) if result._beam.has_axial_force else ():
+        if left != right:
+            x = from_ + (to - from_) * (np.arange(PANELS)[:, None] + (POINTS + 1.0) / 2.0).ravel() / PANELS
+            mean = float(np.tile(WEIGHTS, PANELS) @ result.at_state(step, x).deflection) / (2.0 * PANELS)
+            found.append(Turning("axial force N", (from_ + to) / 2.0, mean * (right - left)))
+    return found
 
 
 def _sum(values: Iterable[float]) -> float:

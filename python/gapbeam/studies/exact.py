@@ -65,7 +65,7 @@ class Reference:
             raise SceneError("sections", "the exact solution of the study does not know sections that taper; leave them out")
         if any(one.stiffness for one in scene.hinges):
             raise SceneError("hinges", "the exact solution of the study does not know hinges with a stiffness; leave them out")
-        if any(force for *_, force in axial_forces(scene)):
+        if any(run.left for run in axial_forces(scene)):
             raise SceneError("beam.N", "the exact solution of the study does not know axial forces in bending; leave them out")
         if read_beam(scene)[1].feels_axial_loads:
             what = "axial loads that bend the beam; say analysis.first_order = true"

@@ -369,7 +369,7 @@ def test_schema_fits_the_example():
 def test_schema_is_json_and_describes_every_key():
     schema = scene_schema()
     assert json.loads(json.dumps(schema, allow_nan=False)) == schema
-    assert len(schema["$defs"]) == 37
+    assert len(schema["$defs"]) == 38
     for name, table in schema["$defs"].items():
         assert table["description"], name
         assert "Parameters" not in table["description"]

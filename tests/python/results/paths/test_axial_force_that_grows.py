@@ -116,7 +116,7 @@ def test_sums_and_proofs_have_what_has_grown():
     """Half of the axial force at half of the loads."""
     result = gapbeam.solve(column(0.8, N_with="live", steps=2))
     for step, share in zip(result.steps, (0.4, 0.8), strict=True):
-        assert acting_axial_forces(result, step) == [(0.0, 1.0, -share * PE)]
+        assert acting_axial_forces(result, step) == [(0.0, 1.0, -share * PE, -share * PE)]
     scene = proof_data(column(0.8, N_with="live"), factor=0.5)["scene"]
     assert scene["beam"]["N"] == -0.4 * PE
     assert scene["loads"][0]["q"] == 0.5
