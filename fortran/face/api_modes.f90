@@ -72,8 +72,8 @@ contains
         integer, intent(in) :: kind
         real(wp), intent(in) :: value
         integer, intent(in) :: parts
-        !> How many times the deflections of get_mode_shape swing when a support closes or opens first, and which one; infinite and 0
-        !> where none does
+        !> How many times the deflections of get_mode_shape swing when a support closes or opens first, and which one; infinite and
+        !> 0 where none does
         real(wp), intent(out) :: amplitude
         integer, intent(out) :: support
         !> As for get_mode_shape

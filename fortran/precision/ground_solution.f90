@@ -82,7 +82,7 @@ contains
         type(ground_solution_type), intent(inout) :: solution
         type(fine_stretch_type) :: stretch
         type(fine_ends_type) :: ends
-        type(fine_stretch_load_type) :: load, relative
+        type(fine_stretch_load_type) :: load
         real(qp), allocatable :: margin(:), rounding(:)
         type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
@@ -115,9 +115,8 @@ contains
             solution%slope(i) = real((ends%w_b - ends%w_a)/stretch%length, wp)
             solution%ends(i) = rounded_ends(ends)
             call sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
-            relative = beside_line(stretch, load, [ends%w_a, ends%w_b])
-            if (allocated(curved)) relative = load
-            solution%loads(i) = rounded_load(relative)
+            if (.not. allocated(curved)) load = beside_line(stretch, load, [ends%w_a, ends%w_b])
+            solution%loads(i) = rounded_load(load)
             solution%resultant(:, i) = real(forces, wp)
             solution%rotation(:, i) = real(field(:, 1), wp)
             solution%shear(:, i) = real(field(:, 2), wp)
@@ -231,8 +230,7 @@ contains
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
                   solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
                   solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
-                  solution%force(2, stretches), &
-                  solution%resultant(layers, stretches), solution%steps(pieces))
+                  solution%force(2, stretches), solution%resultant(layers, stretches), solution%steps(pieces))
         allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
                   solution%reaction(supports), solution%undecided(supports))
     end subroutine make_room
@@ -271,8 +269,7 @@ contains
         where (abs(field) <= fine_rounding*spread(sizes, 1, 2)) field = 0.0_qp
     end subroutine drop_small
 
-    !> Force of every layer on a stretch: what the transverse force gains is the whole pressure less the load, and shared out by the
-    !> moduli
+    !> Force of every layer on a stretch: the gain of transverse force is the whole pressure less the load, shared out by the moduli
     subroutine sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
@@ -290,7 +287,7 @@ contains
         type(fine_law_piece_type) :: law
         real(qp) :: from, slope(2), contact(2), offset(2), modulus(2), by_springs, y(4)
         real(qp), allocatable :: by_curves(:)
-        logical :: same_ratio, lost
+        logical :: lost
         integer :: k, n
 
         forces(:) = 0.0_qp
@@ -322,8 +319,7 @@ contains
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
                     if (.not. any(slope > 0.0_qp)) cycle
                     ! Is its share of the modulus the same everywhere
-                    same_ratio = .not. abs(slope(1)*modulus(2) - slope(2)*modulus(1)) > same_ratio_of_slopes*slope(1)*modulus(2)
-                    if (same_ratio) then
+                    if (abs(slope(1)*modulus(2) - slope(2)*modulus(1)) <= same_ratio_of_slopes*slope(1)*modulus(2)) then
                         forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
                     else
                         forces(k) = forces(k) + integral(slope)
@@ -360,10 +356,10 @@ contains
         real(qp), intent(in) :: length, slope(2)
         real(qp) :: total
         real(qp) :: xi, w, psi, moment, shear
-        integer, parameter :: parts = 16
         real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
             point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
             weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800
+        integer, parameter :: parts = 16
         integer :: part, g
 
         total = 0.0_qp
@@ -384,13 +380,11 @@ contains
         !> At the two ends
         real(qp), intent(in) :: line(2)
         type(fine_stretch_load_type) :: found
-        !> By what a slope of the line lets an axial force that changes pull
-        real(qp) :: pull
 
         found = load
-        pull = stretch%tension_change*(line(2) - line(1))/stretch%length**2
-        found%qa = difference(load%qa + pull, stretch%modulus_a*line(1))
-        found%qb = difference(load%qb + pull, stretch%modulus_b*line(2))
+        ! Where it slopes, an axial force that changes pulls
+        found%qa = difference(load%qa + stretch%tension_change*(line(2) - line(1))/stretch%length**2, stretch%modulus_a*line(1))
+        found%qb = difference(load%qb + stretch%tension_change*(line(2) - line(1))/stretch%length**2, stretch%modulus_b*line(2))
         found%qc = difference(load%qc, -(stretch%modulus_b - stretch%modulus_a)*(line(2) - line(1)))
     end function beside_line
 

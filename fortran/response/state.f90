@@ -126,10 +126,10 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(stretching_type) :: stretching
         type(ground_type) :: ground
-        logical, allocatable :: start(:)
+        logical :: start(size(state%closed))
         integer :: solves
 
-        start = state%closed
+        start(:) = state%closed
         solves = 0
         call begin_stretching(assembled, stretching)
         do

@@ -3,7 +3,7 @@
 module gapbeam_assemble_hinges
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: softest_hinge
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, no_memory
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type, turns
@@ -54,9 +54,14 @@ contains
         !> A hinge is there already, or the end of the beam
         type(error_type), allocatable, intent(out) :: error
         logical, allocatable :: made(:)
-        integer :: k
+        integer :: k, stat
 
-        allocate (made(0:ubound(assembled%point_span, 1)), source=.false.)
+        if (.not. any(assembled%model%supports%direction == gapbeam_relative)) return
+        allocate (made(0:ubound(assembled%point_span, 1)), source=.false., stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         do k = 1, size(assembled%model%supports)
             if (assembled%model%supports(k)%direction /= gapbeam_relative) cycle
             associate (at => assembled%support_point(k), m => size(assembled%model%supports))

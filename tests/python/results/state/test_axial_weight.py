@@ -2,6 +2,7 @@
 
 import math
 import random
+from itertools import pairwise
 
 import gapbeam
 import numpy as np
@@ -42,12 +43,14 @@ def by_series(q, pull, k, x):
         turned, sheared, loaded = series((0, 1, 0, 0), 0), series((0, 0, 0, 1), 0), series((0, 0, 0, 0), 1)
         end = mp.matrix([[mp.fsum(one[row]) for one in (turned, sheared)] for row in (0, 2)])
         by = mp.lu_solve(end, mp.matrix([-mp.fsum(loaded[row]) for row in (0, 2)]))
-        sums = [[a * by[0] + b * by[1] + c for a, b, c in zip(*columns, strict=True)] for columns in zip(turned, sheared, loaded, strict=True)]
-        return [float(mp.polyval(one[::-1], mp.mpf(x))) for one in sums]
+        fields = zip(turned, sheared, loaded, strict=True)
+        sums = [[a * by[0] + b * by[1] + c for a, b, c in zip(*series, strict=True)] for series in fields]
+        return [float(mp.fsum(term * mp.mpf(x) ** i for i, term in enumerate(one))) for one in sums]
 
 
 @pytest.mark.parametrize(
-    ("q", "pull", "k"), [(10.0, 0.0, 0.0), (-8.0, 0.0, 0.0), (30.0, -5.0, 0.0), (10.0, 3.0, 50.0), (300.0, 0.0, 0.0), (-9.0, 4.0, 20.0)]
+    ("q", "pull", "k"),
+    [(10.0, 0.0, 0.0), (-8.0, 0.0, 0.0), (30.0, -5.0, 0.0), (10.0, 3.0, 50.0), (300.0, 0.0, 0.0), (-9.0, 4.0, 20.0)],
 )
 def test_a_simple_beam(q, pull, k):
     result = gapbeam.solve(simple(q, pull, k))
@@ -103,7 +106,7 @@ def drawn(seed, pieces=None):
     cuts = np.linspace(from_, min(to, end), pieces + 1).tolist()
     scene["beam"]["N"] = pull
     scene["sections"] = [{"from": 0.0, "to": from_, "N": pull + q * (cuts[-1] - from_)}] if from_ > 0.0 else []
-    scene["sections"] += [{"from": a, "to": b, "N": pull + q * (cuts[-1] - (a + b) / 2.0)} for a, b in zip(cuts, cuts[1:], strict=False)]
+    scene["sections"] += [{"from": a, "to": b, "N": pull + q * (cuts[-1] - (a + b) / 2.0)} for a, b in pairwise(cuts)]
     return scene
 
 
