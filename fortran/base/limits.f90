@@ -23,6 +23,7 @@ module gapbeam_limits
     public :: least_compressions, most_compressions, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
     public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled, most_stretchings
+    public :: most_decays_in_tension
 
     !> Tangents in place of smooth laws of supports, at most; some five do, a search by energy may take fifty. Read by
     !> continuation/smooth_events, response/smooth_state
@@ -58,6 +59,8 @@ module gapbeam_limits
     !> Terms of a Taylor series on ground of linear modulus; beyond it the stretch is cut. Read by beam/foundation_pieces,
     !> beam/foundation_taylor, precision/ground_solution
     integer, parameter :: most_taylor_terms = 120
+    !> Decay lengths of a beam along which loads change its tension: some seconds. Read by response/axial_tension
+    real(wp), parameter :: most_decays_in_tension = 5000.0_wp
     !> Power of a depth that is linear which a stiffness may be: 4 of a round pole. Read by
     !> beam/foundation_stretch, beam/taper_extremes, scene/check
     integer, parameter :: most_power = 4

@@ -4,12 +4,14 @@
 !> deflections lengthen it by pulls it (gapbeam_stretching). They grow straight with the load factor.
 module gapbeam_axial_tension
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_units, only: rotation_unit
     use gapbeam_axial_quad, only: solve_axial
     use gapbeam_axial, only: axial_ok
     use gapbeam_ground, only: ground_type
+    use gapbeam_ground_steps, only: decays_between
+    use gapbeam_limits, only: most_decays_in_tension
     use gapbeam_input_error, only: refuse_range
     use gapbeam_assembled_model, only: assembled_type, point_x
     implicit none
@@ -76,14 +78,17 @@ contains
                              assembled%axial%units%force + rotation_unit(assembled%units) - assembled%units%force)
     end function changes_of_tension
 
-    !> Refuse axial forces that are out of range, or so great a compression that the beam bends by shear alone
+    !> Refuse axial forces that are out of range, so great a compression that the beam bends by shear alone, or a tension that
+    !> changes along a beam like a thread, which series would cross in far too many steps
     pure subroutine check_tensions(assembled, ground, error)
         type(assembled_type), intent(in) :: assembled
         !> At the load factor at hand
         type(ground_type), intent(in) :: ground
         type(error_type), allocatable, intent(out) :: error
         integer :: piece
+        real(wp) :: decays
 
+        decays = 0.0_wp
         do piece = 1, size(ground%pieces)
             associate (p => ground%pieces(piece))
                 if (.not. abs(p%tension) + abs(p%tension_change) <= huge(1.0_wp)) then
@@ -93,9 +98,17 @@ contains
                     call refuse_range(error, "the compression "//trim(place())//" is not below GA there, so the beam gives way "// &
                                       "by shear alone", "give smaller axial loads, or leave GA out")
                 end if
+                if (abs(p%tension_change) > 0.0_wp .and. p%tension > 0.0_wp) then
+                    decays = decays + decays_between(p, 0.0_wp, p%length, 0.0_wp)
+                end if
             end associate
             if (allocated(error)) return
         end do
+        if (decays > most_decays_in_tension) then
+            call fatal_error(error, gapbeam_bad_input, "loads along the beam change its tension over a length of some "// &
+                             trim(shown(decays))//" sqrt(EI/N), more than "//trim(shown(most_decays_in_tension))// &
+                             ": it is next to a thread; give a greater EI, or N of sections, each with its mean")
+        end if
 
     contains
 

@@ -156,3 +156,10 @@ def test_load_factors_events_and_cases():
     cases = gapbeam.prepare(scene).solve([[0.5, 0.5, 0.5], [1.0, 1.0, 1.0]])
     assert cases.at(0.3).moment == pytest.approx([float(steps.at(0.3, factor=one).moment) for one in (0.5, 1.0)], rel=1e-13)
     assert math.isfinite(path.at(0.1).transverse)
+
+
+def test_a_thread_is_refused():
+    """Series would cross it in half a million steps."""
+    thread = {**simple(1.0, 0.0, 0.0), "beam": {"spans": [1.0], "EI": 1e-12}}
+    with pytest.raises(gapbeam.GapbeamError, match=r"500000 sqrt\(EI/N\).*give a greater EI"):
+        gapbeam.solve(thread)
