@@ -56,14 +56,15 @@ contains
         subroutine compare(least_way)
             !> How far rounding of the loads moves the beam
             real(qp), intent(in) :: least_way
-            real(qp) :: least_force, turns
+            real(qp) :: least_force, turns, steepest
 
             wide(:) = rounding
+            steepest = maxval(fine%links%inverse)
             do k = 1, size(closed)
                 undecided(k) = .false.
                 if (.not. is_watched_in(fine%supports, closed, k)) cycle
                 if (.not. closed(k) .and. fine%supports(k)%breakpoint == 0) then
-                    turns = merge(maxval(fine%links%inverse), 1.0_qp, fine%supports(k)%node > size(fine%links))
+                    turns = merge(steepest, 1.0_qp, fine%supports(k)%node > size(fine%links))
                     wide(k) = max(wide(k), turns*least_way/fine_width)
                 end if
                 ! What is held stiffly beside a soft spring may move it by rounding
