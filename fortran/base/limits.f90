@@ -19,7 +19,7 @@ module gapbeam_limits
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
-    public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings
+    public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings, most_asides
     public :: least_compressions, most_compressions, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
     public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled, most_stretchings
@@ -76,6 +76,9 @@ module gapbeam_limits
     !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
     !> contact/modes
     integer, parameter :: most_halvings = 1000
+    !> Places beside a value, each four times as far away as the one before, at which modes are counted instead; tuned: the last is
+    !> 0.2 per cent away in double precision. Read by contact/modes
+    integer, parameter :: most_asides = 20
     !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. Read by
     !> precision/compressed
     integer, parameter :: least_compressions = 8

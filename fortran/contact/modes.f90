@@ -5,7 +5,7 @@
 !> k-th value is where it reaches k: found by halving, and none is missed.
 module gapbeam_modes
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: most_mode_stretches, most_halvings
+    use gapbeam_limits, only: most_mode_stretches, most_halvings, most_asides
     use gapbeam_tolerances, only: mode_digits, mode_width
     use gapbeam_band, only: band_ok, count_unstable_pivots
     use gapbeam_piece, only: no_load, is_compressed
@@ -133,7 +133,7 @@ contains
     end subroutine cut_zones
 
     !> The first values of modes, in rising order
-    subroutine find_mode_values(ground, zones, acting, what, first, values, found, near)
+    subroutine find_mode_values(ground, zones, acting, what, first, values, found, lost, near)
         !> As for count_modes
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
@@ -144,6 +144,8 @@ contains
         !> Those that there are, shape (number wanted)
         real(wp), intent(out) :: values(:)
         integer, intent(out) :: found
+        !> Are there more that cannot be counted; not of those that crowd where shear itself gives way
+        logical, intent(out) :: lost
         !> Values known to some digits, if any: the others are not looked for
         real(wp), intent(in), optional :: near(:)
         real(wp) :: low, high, step, limit
@@ -152,6 +154,7 @@ contains
 
         found = 0
         stopped = .false.
+        lost = .false.
         limit = greatest_value(ground, what)
         low = 0.0_wp
         do k = 1, merge(size(near), size(values), present(near))
@@ -179,6 +182,7 @@ contains
                 if (.not. high > low) return
                 step = 2*step
             end do
+            lost = stopped .and. (what == by_vibration .or. .not. limit < huge(limit))
             if (stopped .or. doubling > most_halvings) return
             call halve(k)
             found = k
@@ -205,7 +209,7 @@ contains
             values(k) = high
         end subroutine halve
 
-        !> Modes at a value, or a hair beside it
+        !> Modes at a value, or beside it: where what holds the beam and what moves it nearly cancel, pivots are rounding far around
         function number_at(value) result(number)
             real(wp), intent(in) :: value
             integer :: number
@@ -213,8 +217,9 @@ contains
             type(grounded_type) :: grounded
             integer :: trial
 
-            do trial = 0, 2
-                call count_modes(ground, zones, acting, what, value*(1 + 8*trial*epsilon(value)), number, work, grounded)
+            do trial = 0, most_asides
+                call count_modes(ground, zones, acting, what, value*(1 + 8*(4.0_wp**trial - 1)*epsilon(value)), number, work, &
+                                 grounded)
                 if (number >= 0) return
             end do
             stopped = .true.
@@ -254,15 +259,16 @@ contains
         integer, intent(in) :: what
         !> Value of the mode, to rounding
         real(wp), intent(in) :: value
-        !> Stretches between places at least, of every zone
+        !> Stretches between places at least, of every zone; fewer where beams have so many that there would be no end
         integer, intent(in) :: parts
         type(mode_shape_type), intent(out) :: shape
         type(workspace_type) :: work
         type(grounded_type) :: grounded
-        integer :: number, i, n, round, largest
+        integer :: number, i, n, round, largest, cut
 
-        call count_modes(ground, zones, acting, what, value, number, work, grounded, parts)
-        if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, parts)
+        cut = max(1, min(parts, most_mode_stretches/(2*size(zones%piece))))
+        call count_modes(ground, zones, acting, what, value, number, work, grounded, cut)
+        if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, cut)
         n = -1
         if (number >= 0) n = size(grounded%stretches)
         allocate (shape%piece(n + 1), shape%distance(n + 1), shape%deflection(n + 1), shape%moment(2, n + 1))

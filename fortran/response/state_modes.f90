@@ -3,6 +3,7 @@
 module gapbeam_state_modes
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp, qp
+    use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
     use gapbeam_layers, only: has_curves
@@ -53,6 +54,7 @@ contains
         real(qp) :: fine_values(size(values))
         real(wp) :: first
         integer :: known
+        logical :: lost
 
         values(:) = 0.0_wp
         found = 0
@@ -63,11 +65,17 @@ contains
         if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
-        call find_mode_values(ground, start%zones, start%closed, what, first, values, known)
+        call find_mode_values(ground, start%zones, start%closed, what, first, values, known, lost)
+        if (lost) then
+            call fatal_error(error, gapbeam_bad_input, "modes: stiffnesses, masses and axial forces of the beam are too far "// &
+                             "apart to count more than "//trim(whole(known))//"; ask for no more")
+            return
+        end if
         if (known == 0) return
         call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)
-        call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, real(values(:known), qp))
+        call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, lost, &
+                              real(values(:known), qp))
         if (what == by_vibration) fine_values(:found) = sqrt(fine_values(:found))
         values(:found) = real(fine_values(:found), wp)
         values(found + 1:) = 0.0_wp
