@@ -32,6 +32,9 @@ module gapbeam_compressed
     private
     public :: solve_with_axial_force, is_unique
 
+    !> Change of a state, beside it, for which its axial forces need not grow in steps
+    real(wp), parameter :: next_to_nothing = 1.0_wp/least_compressions**2
+
 contains
 
     !> Solve at a load factor
@@ -214,7 +217,8 @@ contains
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         last_closed(:) = closed
         share = 0.0_wp
-        step = 1.0_wp/least_compressions
+        ! All at once where that changes next to nothing
+        step = 1.0_wp
         reached = .false.
         do number = 1, most_compressions
             call start_from(last, last_closed, start)
@@ -223,7 +227,8 @@ contains
                                  error, start)
             solves = solves + solution%solves
             if (has_ended()) return
-            if (is_found()) reached = .not. jumps(last, solution)
+            if (is_found()) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
+            if (reached .and. step >= 1.0_wp) reached = all(closed .eqv. last_closed)
             if (reached .and. share + step >= 1.0_wp) exit
             if (reached) then
                 reached = .false.
@@ -232,7 +237,7 @@ contains
                 last_closed(:) = closed
                 if (step < 1.0_wp/least_compressions) step = 2*step
             else
-                step = step/2
+                step = min(step/2, 1.0_wp/least_compressions)
                 if (step <= same_compression*max(share, least_share)) exit
             end if
         end do
@@ -332,10 +337,11 @@ contains
         end do
     end function gives_way
 
-    !> Are two states farther apart than one grows out of the other: by more than the smaller one of them. Deflections with slopes
-    !> beside them, and moments with shears: one of them alone passes zero at all places looked at
-    pure function jumps(one, other) result(far)
+    !> Are two states farther apart than one grows out of the other: by more than a part of the smaller one of them. Deflections
+    !> with slopes beside them, and moments with shears: one of them alone passes zero at all places looked at
+    pure function jumps(one, other, part) result(far)
         type(ground_solution_type), intent(in) :: one, other
+        real(wp), intent(in) :: part
         logical :: far
         !> How far stretches bend under a force
         real(wp) :: compliance(size(one%stretches))
@@ -376,7 +382,7 @@ contains
             real(wp), intent(in) :: a(:), b(:), rounding
             logical :: apart
 
-            apart = maxval(abs(a - b)) > max(rounding, min(maxval(abs(a)), maxval(abs(b))))
+            apart = maxval(abs(a - b)) > max(rounding, part*min(maxval(abs(a)), maxval(abs(b))))
         end function apart
 
     end function jumps
