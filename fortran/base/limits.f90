@@ -59,7 +59,7 @@ module gapbeam_limits
     !> Terms of a Taylor series on ground of linear modulus; beyond it the stretch is cut. Read by beam/foundation_pieces,
     !> beam/foundation_taylor, precision/ground_solution
     integer, parameter :: most_taylor_terms = 120
-    !> Decay lengths of a beam along which loads change its tension: some seconds. Read by response/axial_tension
+    !> Decay lengths of a beam in tension that tapers, or along which loads change it: some seconds. Read by response/axial_tension
     real(wp), parameter :: most_decays_in_tension = 5000.0_wp
     !> Power of a depth that is linear which a stiffness may be: 4 of a round pole. Read by
     !> beam/foundation_stretch, beam/taper_extremes, scene/check

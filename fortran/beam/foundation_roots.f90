@@ -347,8 +347,8 @@ contains
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: a(:), b(:)
         logical :: flat
-        real(wp) :: noise, slope, near
-        integer :: i
+        real(wp) :: noise, slope, near, places(3), f, ignored
+        integer :: i, k
 
         noise = max(a(3), b(3))
         slope = min(abs(a(2)), abs(b(2)))
@@ -358,21 +358,13 @@ contains
         do i = 1, 3
             ! What decays from an end of a long stretch is seen beside that end only
             near = min((b(1) - a(1))/8, 4.0_wp**(i - 2)/max(decay_lengths(question%stretch), 1.0_wp))
-            if (.not. (is_zero(a(1) + (b(1) - a(1))*i/4) .and. is_zero(a(1) + near) .and. is_zero(b(1) - near))) return
+            places(:) = [a(1) + (b(1) - a(1))*i/4, a(1) + near, b(1) - near]
+            do k = 1, 3
+                call evaluate(question, places(k), f, ignored)
+                if (abs(f) > noise) return
+            end do
         end do
         flat = .true.
-
-    contains
-
-        pure function is_zero(xi)
-            real(wp), intent(in) :: xi
-            logical :: is_zero
-            real(wp) :: f, ignored
-
-            call evaluate(question, xi, f, ignored)
-            is_zero = abs(f) <= noise
-        end function is_zero
-
     end function is_flat
 
     !> Bernstein coefficients on 0..1 of a polynomial in direction times t

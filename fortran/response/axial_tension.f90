@@ -7,6 +7,7 @@ module gapbeam_axial_tension
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_units, only: rotation_unit
+    use gapbeam_piece, only: is_tapered
     use gapbeam_axial_quad, only: solve_axial
     use gapbeam_axial, only: axial_ok
     use gapbeam_ground, only: ground_type
@@ -78,8 +79,8 @@ contains
                              assembled%axial%units%force + rotation_unit(assembled%units) - assembled%units%force)
     end function changes_of_tension
 
-    !> Refuse axial forces that are out of range, so great a compression that the beam bends by shear alone, or a tension that
-    !> changes along a beam like a thread, which series would cross in far too many steps
+    !> Refuse axial forces that are out of range, so great a compression that the beam bends by shear alone, or a tension of a beam
+    !> like a thread that changes along it or tapers, which series would cross in far too many steps
     pure subroutine check_tensions(assembled, ground, error)
         type(assembled_type), intent(in) :: assembled
         !> At the load factor at hand
@@ -98,16 +99,16 @@ contains
                     call refuse_range(error, "the compression "//trim(place())//" is not below GA there, so the beam gives way "// &
                                       "by shear alone", "give smaller axial loads, or leave GA out")
                 end if
-                if (abs(p%tension_change) > 0.0_wp .and. p%tension > 0.0_wp) then
+                if ((abs(p%tension_change) > 0.0_wp .or. is_tapered(p)) .and. p%tension > 0.0_wp) then
                     decays = decays + decays_between(p, 0.0_wp, p%length, 0.0_wp)
                 end if
             end associate
             if (allocated(error)) return
         end do
         if (decays > most_decays_in_tension) then
-            call fatal_error(error, gapbeam_bad_input, "loads along the beam change its tension over a length of some "// &
-                             trim(shown(decays))//" sqrt(EI/N), more than "//trim(shown(most_decays_in_tension))// &
-                             ": it is next to a thread; give a greater EI, or N of sections, each with its mean")
+            call fatal_error(error, gapbeam_bad_input, "where the beam tapers, or loads along it change its tension, it is "// &
+                             trim(shown(decays))//" sqrt(EI/N) long, more than "//trim(shown(most_decays_in_tension))// &
+                             ": it is next to a thread; give a greater EI, or sections of one EI and N, each with its mean")
         end if
 
     contains

@@ -64,7 +64,7 @@ contains
                 call settle_stretched(assembled, rule, state, error)
             else
                 ground = ground_of(assembled, factor)
-                if (assembled%model%axial_loads_bend) call check_tensions(assembled, ground, error)
+                call check_tensions(assembled, ground, error)
                 if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
             end if
         else if (has_own_laws(assembled, state)) then

@@ -142,10 +142,10 @@ contains
                                               .or. any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0))) return
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
-                if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) cycle
-                call refuse(error, of_sections, i, size(model%sections), bad_law, merge("EI", "GA", s%EI_to > gapbeam_unchanged), &
-                            "a section that tapers beside an axial force N, a shear of the ground or a mass is not "// &
-                            "available in this version; give short sections, each of one stiffness")
+                if (.not. s%GA_to > gapbeam_unchanged) cycle
+                call refuse(error, of_sections, i, size(model%sections), bad_law, "GA", "a GA that changes along a section "// &
+                            "beside an axial force N, a shear of the ground or a mass is not available in this version; "// &
+                            "give short sections, each of one GA")
                 return
             end associate
         end do
