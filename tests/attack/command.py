@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from . import (
+    axial_force,
     batches,
     combinations,
     doubled,
@@ -22,7 +23,9 @@ from . import (
 )  # fmt: skip
 from .table import Row, markdown
 
-MODULES = (enumeration, events, signs, hinges, laws, doubled, ground, trains, combinations, batches, mutants, models, memory)
+MODULES = (
+    enumeration, events, signs, hinges, laws, doubled, ground, trains, combinations, batches, axial_force, mutants, models, memory,
+)  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 
 

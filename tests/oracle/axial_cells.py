@@ -7,8 +7,11 @@ from dataclasses import dataclass
 
 import mpmath as mp
 
+from .winkler import taper
+
 DIGITS = 90
 REACH = 16  # a cell is at most so many lengths of decay long
+GENTLE = 4  # and tapers by no more than one part in so many
 SIDES = {"below": 1, "above": -1, "both": 0}
 
 
@@ -24,6 +27,8 @@ class Cell:
     k: tuple  # less mass times omega^2
     q: tuple
     kappa: tuple
+    growth: mp.mpf = 0  # of the depth over the cell, in parts of that at its left end, where EI is given
+    power: int = 0  # of the depth in EI
 
     def terms(self, start, q, kappa):
         """Taylor coefficients of w, psi, M, T and w' in t = (x - a)/h as integers, and what one of them is worth in each."""
@@ -39,18 +44,22 @@ class Cell:
         def whole(value, power):
             return int(mp.ldexp(value, bits - power))
 
-        turn, slip, soft = (whole(v, 0) for v in (1 / s, B / (self.GA * h**2 * s), B / self.EI))
+        turn, slip, grows = (whole(v, 0) for v in (1 / s, B / (self.GA * h**2 * s), self.growth))
+        soft = [whole(B / self.EI, 0)]  # B/EI as a series
         pull, k0, k1 = (whole(v, 0) for v in (self.N * h**2 / B, self.k[0] * h**4 / B, self.k[1] * h**5 / B))
         loads = [[whole(v, shift) for v in both] for both in loads]
         found, before, n = [tuple(whole(v, shift) for v in first)], 0, 0
         slopes, small = [], 1 << (bits // 4)
         while n % 5 or n < 10 or any(abs(v) > small for one in found[-5:] for v in one):
-            w, psi, M, T = found[-1]
+            w, psi, _, T = found[-1]
             load, bent = loads[n] if n < 2 else (0, 0)
             slope = (psi * turn + T * slip) >> bits
             slopes.append(slope)
+            curved = sum(one[2] * f for one, f in zip(found[-len(soft) :], reversed(soft), strict=False)) >> bits
+            if self.power:
+                soft.append(-(self.power + n) * (soft[-1] * grows >> bits) // (n + 1))
             n += 1
-            found.append((slope // n, (bent - (M * soft >> bits)) // n, (T - (slope * pull >> bits)) // n,
+            found.append((slope // n, (bent - curved) // n, (T - (slope * pull >> bits)) // n,
                           (((w * k0 + before * k1) >> bits) - load) // n))  # fmt: skip
             before = w
         slopes.append(0)
@@ -63,7 +72,7 @@ class Cell:
 
     def transfer(self, known):
         """Matrix (columns) of the homogeneous state over the cell, and the particular state at its end; `known` keeps them."""
-        key = (self.h, self.EI, self.GA, self.N, self.k)
+        key = (self.h, self.EI, self.GA, self.N, self.k, self.growth, self.power)
         none = (mp.mpf(0),) * 2
 
         def end(start, q, kappa):
@@ -140,9 +149,9 @@ class Beam:
             raise ValueError("ground that is more than a two-sided one: see axial_ground")
         sections = [(*self.extent(s), s) for s in scene.get("sections", [])]
         self.marks.sort()
-        self.cells, self.axial, self.mass = [], [], []  # for every part between marks
+        self.cells, self.axial, self.mass, self.tapers = [], [], [], []  # for every part between marks
         for a, b in itertools.pairwise(self.marks):
-            middle, span = (a + b) / 2, sum(x < (a + b) / 2 for x in self.nodes) - 1
+            middle, span, tapered = (a + b) / 2, sum(x < (a + b) / 2 for x in self.nodes) - 1, None
             values = {"EI": None, "GA": mp.inf, "N": 0, "mass": 0}
             for name in values:
                 given = beam.get(name, values[name])
@@ -150,6 +159,10 @@ class Beam:
                 for start, stop, section in sections:
                     if start < middle < stop and name in section:
                         values[name] = section[name]
+                        tapered = taper(section[name], start, stop) if name == "EI" else tapered
+            self.tapers.append(tapered)
+            if tapered:
+                values["EI"] = min(tapered.at(a), tapered.at(b))
             here = {name: mp.mpf(value) for name, value in values.items()}
             lines = {"q": [mp.mpf(0)] * 2, "kappa": [mp.mpf(0)] * 2, "k": [-here["mass"] * self.omega**2] * 2}
             self.axial.append(here["N"])
@@ -194,10 +207,26 @@ class Beam:
         k = max(map(abs, lines["k"]))
         s, p = 1 + here["N"] / here["GA"], abs(here["N"]) / here["EI"] + k / here["GA"]
         root = mp.sqrt((p + mp.sqrt(p * p + 4 * s * k / here["EI"])) / (2 * s))
-        count = 1 + int(root * (b - a) / REACH)
+        count = 1 + int(root * (b - a) / REACH + GENTLE * steepness(self.tapers[-1], a, b))
         h = (b - a) / count
         found = []
         for i in range(count):
             at = {name: (v[0] + (v[1] - v[0]) * i / count, (v[1] - v[0]) / (b - a)) for name, v in lines.items()}
-            found.append(Cell(a + i * h, h, here["EI"], here["GA"], here["N"], **at))
+            EI = {"EI": here["EI"], **stiffness_of(self.tapers[-1], a + i * h, h)}
+            found.append(Cell(a + i * h, h, GA=here["GA"], N=here["N"], **EI, **at))
         return found
+
+
+def steepness(tapered, a, b):
+    """Change of the depth between two places, in parts of the least."""
+    if not tapered:
+        return 0
+    return abs(tapered.depth(b)[0] - tapered.depth(a)[0]) / min(tapered.depth(a)[0], tapered.depth(b)[0])
+
+
+def stiffness_of(tapered, a, h):
+    """EI, growth and power of a cell that tapers."""
+    if not tapered:
+        return {}
+    depth, slope = tapered.depth(a)
+    return {"EI": tapered.at(a), "growth": slope * h / depth, "power": tapered.power}

@@ -15,6 +15,7 @@ from .axial_cells import DIGITS, SIDES, Beam, pair
 from .axial_force import polynomial, solve
 
 SAMPLES = 33
+GRADED = 0.5 ** np.arange(6, 34)  # beside the ends, where a beam that is held just at the ground may lift off for a short way
 ENDS = 45  # digits to which ends settle
 
 
@@ -124,7 +125,7 @@ class Ground:
 def zeros(coefficients):
     """Zeros of a polynomial in (0, 1), if it changes its sign between samples."""
     size = max(map(abs, coefficients)) or mp.mpf(1)
-    t = np.linspace(0, 1, SAMPLES)
+    t = np.concatenate([[0], GRADED[::-1], np.linspace(0, 1, SAMPLES)[1:-1], 1 - GRADED, [1]])
     f = np.polyval([float(c / size) for c in reversed(coefficients)], t)
     slope, found = [n * c for n, c in enumerate(coefficients)][1:], []
     for n in np.flatnonzero(f[:-1] * f[1:] < 0):

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import mpmath as mp
 
-from .axial_cells import DIGITS, Beam, Cell
+from .axial_cells import DIGITS, Beam, Cell, stiffness_of
 
 RIGID = mp.mpf(10) ** 40  # times the stiffest part: EI of a rigid one, far beyond the digits asked for
 CLOSE = 30  # digits of factors and frequencies
@@ -46,7 +46,7 @@ class Chain:
         for j, x in enumerate(beam.marks):
             S, free = self.node(x, S, free, active)
             if j < len(beam.cells):
-                for cell in self.short(beam.cells[j]):
+                for cell in self.short(beam.cells[j], beam.tapers[j]):
                     S, free = self.over(cell, S, free)
         self.reduce(S, free)
 
@@ -98,10 +98,11 @@ class Chain:
         for name in list(free):
             S, free = self.pivot(S, free, name)
 
-    def short(self, cells):
+    def short(self, cells, tapered):
         """A part of the beam in cells that have no mode of their own between clamped ends."""
         cell, length, parts = cells[0], cells[0].h * len(cells), len(cells)
-        EI = cell.EI if mp.isfinite(cell.EI) else self.rigid
+        EI = min(one.EI * min(mp.mpf(1), (1 + one.growth) ** one.power) for one in cells)
+        EI = EI if mp.isfinite(EI) else self.rigid
         lift = max(-cell.k[0], -(cell.k[0] + cell.k[1] * length), mp.mpf(0))
         while True:
             h = length / parts
@@ -115,11 +116,12 @@ class Chain:
         self.parts.append(parts)
         h, none = length / parts, (mp.mpf(0),) * 2
         for n in range(parts):
-            yield Cell(cell.a + n * h, h, EI, cell.GA, cell.N, (cell.k[0] + cell.k[1] * n * h, cell.k[1]), none, none)
+            yield Cell(cell.a + n * h, h, **{"EI": EI, **stiffness_of(tapered, cell.a + n * h, h)}, GA=cell.GA, N=cell.N,
+                       k=(cell.k[0] + cell.k[1] * n * h, cell.k[1]), q=none, kappa=none)  # fmt: skip
 
     def over(self, cell, S, free):
         """What is left of the right end of a cell."""
-        key = (cell.h, cell.EI, cell.GA, cell.N, cell.k)
+        key = (cell.h, cell.EI, cell.GA, cell.N, cell.k, cell.growth)
         if key not in self.known:
             self.known[key] = stiffness(cell.transfer({})[0])
         K = self.known[key]
@@ -238,7 +240,7 @@ def zero(f, a, b):
 def digits(scene):
     """Digits to work with: rigid parts take more."""
     stiff = [scene["beam"]["EI"], *(s.get("EI", 1) for s in scene.get("sections", ()))]
-    rigid = any(mp.isinf(v) for one in stiff for v in (one if isinstance(one, list) else [one]))
+    rigid = any(mp.isinf(v) for one in stiff if not isinstance(one, dict) for v in (one if isinstance(one, list) else [one]))
     return DIGITS * 2 if rigid else DIGITS
 
 

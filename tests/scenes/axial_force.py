@@ -10,9 +10,10 @@ import oracle.axial_modes as modes
 
 from .foundation import digits, eighths, part, rounded
 from .plain import at, curvature, force, linear, moment, nodes_of, place, scene, stretch, uniform
+from .tapered import taper
 
 
-def random_scene(seed, *, compression=None, ground=None, u=(1e-6, 1e4), mass=False):
+def random_scene(seed, *, compression=None, ground=None, u=(1e-6, 1e4), mass=False, tapers=False):
     """A scene of 1 to 5 spans under tension, or under some compression as well.
 
     Parameters
@@ -27,6 +28,8 @@ def random_scene(seed, *, compression=None, ground=None, u=(1e-6, 1e4), mass=Fal
         Bounds of sqrt(N L^2/EI) of a span.
     mass : bool
         Also a mass of the beam for every span.
+    tapers : bool
+        Also one or two sections whose EI changes.
 
     Returns
     -------
@@ -54,6 +57,8 @@ def random_scene(seed, *, compression=None, ground=None, u=(1e-6, 1e4), mass=Fal
     depth = size / (48 * EI / span**3 + (0 if compression is not None else 4 * pull / span))  # and what they bend
     _supports(rng, made, EI / span**3, depth, held=compression is not None or rng.random() < 0.8)
     _parts(rng, made, EI, length)
+    for _ in range(rng.choice((1, 1, 2)) if tapers else 0):
+        made.setdefault("sections", []).append(stretch(*part(rng, length), EI=taper(rng, EI)))
     if ground or (ground is None and rng.random() < 0.25):
         _ground(rng, made, EI, length)
     made["loads"] = [_load(rng, made, length, size, EI) for _ in range(rng.randint(1, 5))]
@@ -170,11 +175,11 @@ def _compressed(rng, made, share):
 
 def _buckling(made, active=()):
     """The first factor; on stiff ground a beam may have none up to that at which N reaches GA."""
-    found = modes.buckling(made, active) or [made["beam"]["GA"] / max(-n for n in _numbers(made))]
+    found = modes.buckling(made, active) or [made["beam"]["GA"] / max(-n for n in axial_forces(made))]
     return float(found[0])
 
 
-def _numbers(made):
+def axial_forces(made):
     """All axial forces of a scene."""
     given = made["beam"]["N"]
     return [*(given if isinstance(given, list) else [given]), *(s["N"] for s in made.get("sections", ()) if "N" in s)]
