@@ -74,7 +74,7 @@ contains
             if (allocated(beam%lowered%beam%turning)) then
                 call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
                     "at a hinge is not available under a train in this version")
-            else if (any(beam%lowered%pieces%hinge > 0.0_wp)) then
+            else if (any(beam%lowered%joint > 0.0_wp)) then
                 call bad_argument(error, "beam", "a hinge with a stiffness under a train is not available in this version")
             else if (any(is_alone(beam%lowered%model%loads))) then
                 call bad_argument(error, "beam", "a support that is turned, a couple at a hinge, or a curvature that "// &

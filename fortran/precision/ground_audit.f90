@@ -180,7 +180,9 @@ contains
                     if (i <= m) call fits(of_restraints, rotations, b%rotation - turn, sizes%rotation + terms)
                 case default
                     call fits(of_equilibrium, moments, (right - left) - couple, terms)
-                    if (inside) call fits(of_bending, rotations, b%rotation - a%rotation, sizes%rotation)
+                    ! A joint lets the beam turn by what its moment makes of its compliance, another node by nothing
+                    turn = -beam%compliance(j)*left
+                    if (inside) call fits(of_bending, rotations, b%rotation - a%rotation - turn, sizes%rotation + abs(turn))
                 end select
                 if (j > 0) then
                     ! Under couples alone there is no force but what moments leave by rounding

@@ -7,7 +7,8 @@ module gapbeam_assemble_hinges
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type, turns
-    use gapbeam_axial_force, only: in_stretches, what_stretches
+    use gapbeam_axial_force, only: in_stretches
+    use gapbeam_nodes, only: jointed
     use gapbeam_scene, only: support_type, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_model, only: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge
     use gapbeam_input_error, only: refuse, of_hinges, of_supports, twice, bad_law, at_hinge
@@ -150,7 +151,7 @@ contains
         if (support%direction == gapbeam_rotational_right) kind = 4
     end function kind_of_rotation
 
-    !> Compliances of the elastic hinges, if there are any
+    !> Compliances of the elastic hinges, if there are any, beside those of restraints
     subroutine assemble_hinges(assembled, error)
         !> Points, and pieces in the engine's units in
         type(assembled_type), intent(inout) :: assembled
@@ -174,8 +175,12 @@ contains
                 else if (hinge > softest_hinge*softness) then
                     call refuse_hinge("it is so far below EI/length of the beam that it is a free hinge; give 0")
                 else if (in_stretches(assembled%model)) then
-                    call refuse_hinge("a hinge with a stiffness beside "//trim(what_stretches(assembled%model))// &
-                                      " is not available in this version; leave one of them out")
+                    ! Where pieces are cut into stretches it is at their node
+                    associate (node => assembled%node_of_point(j - 1))
+                        assembled%beam%kind(node) = jointed
+                        assembled%beam%compliance(node) = hinge
+                    end associate
+                    hinge = 0.0_wp
                 end if
             end associate
             if (allocated(error)) return

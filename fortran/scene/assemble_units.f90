@@ -36,8 +36,8 @@ contains
         call change_laws(assembled, -1)
         call cut_pieces(assembled, error)
         if (.not. allocated(error)) call assign_axial_force(assembled, error)
-        if (.not. allocated(error)) call assemble_hinges(assembled, error)
         if (.not. allocated(error)) call scale_supports(assembled, error)
+        if (.not. allocated(error)) call assemble_hinges(assembled, error)
         if (.not. allocated(error)) call scale_foundations(assembled, assembled%units, error)
         if (.not. allocated(error)) call scale_loads(assembled, error)
     end subroutine change_units

@@ -7,7 +7,9 @@ from fractions import Fraction
 
 import gapbeam
 import pytest
+from mpmath import mp, mpf
 from oracle.axial_chain import eliminate
+from oracle.axial_ground import solve_on_ground
 from scenes import at, force
 
 
@@ -143,6 +145,36 @@ def test_between_a_free_hinge_and_none(stiffness, like):
     assert made.steps[-1].reaction == pytest.approx(gapbeam.solve(beside).steps[-1].reaction, rel=1e-9)
 
 
+@pytest.mark.parametrize("c", [0.1, 3.0, 1e3])
+def test_a_strut_with_a_joint_buckles_as_its_closed_form_says(c):
+    """Two halves that bend as sines: tan(k L/2) = 2 c/(k EI), and k L = 2 pi, where the joint does not turn."""
+    strut = scene([3.0], [{"x": 1.5, "stiffness": c}], [at(0), at(1)], [force(1.0, 1.0)], EI=10.0)
+    strut["beam"]["N"] = -0.01
+    with mp.workdps(30):
+        ends = mpf("1e-2"), mp.pi / 3
+        k = mp.findroot(lambda k: 10 * k * mp.sin(1.5 * k) - 2 * c * mp.cos(1.5 * k), ends, solver="anderson")
+        expected = [float(10 * k**2 / mpf(0.01)), float(10 * (2 * mp.pi / 3) ** 2 / mpf(0.01))]
+    assert gapbeam.solve({**strut, "analysis": {"buckling": 2}}).buckling == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("side", ["below", "above"])
+@pytest.mark.parametrize("stiffness", [1e-3, 50.0, 1e6])
+def test_over_one_sided_ground(side, stiffness):
+    """Beside an independent solution in 90 digits: reactions, ends of contact, and what the hinges do."""
+    ground = {"k": 300.0, "side": side, "gap": 1e-3}
+    loads = [force(0.5, 4.0), force(3.5, -6.0), {"type": "uniform", "q": 2.0 if side == "below" else -2.0}]
+    made = scene([3.0, 2.0], [{"x": 1.0, "stiffness": stiffness}, {"x": 4.25, "stiffness": stiffness}], [at(1)], loads)
+    made["foundation"] = [ground]
+    (exact, zones), step = solve_on_ground(made), gapbeam.solve(made).steps[-1]
+    assert step.reaction == pytest.approx([float(value) for value in exact.reaction], rel=1e-13)
+    found = [x for zone in step.contact for x in (zone.from_, zone.to)]
+    assert found == pytest.approx([float(x) for zone in zones[0] for x in zone], rel=1e-12)
+    for hinge in step.hinges:
+        left, right = (exact.at(hinge.x, way) for way in ("left", "right"))
+        assert hinge.moment == pytest.approx(float(left.moment), rel=1e-12)
+        assert hinge.rotation == pytest.approx(float(left.rotation - right.rotation), rel=1e-11)
+
+
 def test_events_and_combinations_know_them():
     hinges, supports = [{"x": 5.0, "stiffness": 6e3}, {"x": 7.0, "stiffness": 6e3}], [at(0, side="below"), at(1), at(2)]
     loads = [{"type": "uniform", "q": 1.5, "case": "dead"}, {"type": "uniform", "q": 30.0, "from": 6.0, "to": 12.0}]
@@ -168,7 +200,6 @@ def test_events_and_combinations_know_them():
         ({"stiffness": 1.0}, {}, r"hinges\[0\]: its position is missing; give node or x"),
         ({"x": 1.0, "stiffness": 1e-10}, {}, r"hinges\[0\].stiffness: it is so far below EI/length of the beam that it is a free"),
         ({"x": 9.0, "stiffness": 1.0}, {}, r"hinges\[0\].x: 9 is outside the beam"),
-        ({"x": 1.0, "stiffness": 1.0}, {"foundation": [{"k": 10.0}]}, "beside a foundation is not available"),
         ({"x": 1.0, "stiffness": 1.0}, {"EI": float("inf")}, "the beam is rigid beside it"),
         ({"x": 1.0, "stiffness": 1.0}, {"trains": [{"axles": [[0.0, 1.0]]}]}, "under trains is not available"),
         ({"x": 1.0, "stiffness": 1.0}, {"loads": [{"type": "moment", "x": 1.0, "M": 1.0}]}, "acts exactly at the hinge"),
