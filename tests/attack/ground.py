@@ -28,8 +28,8 @@ PANELS = (10, 100, 400)  # the more where the fewer find fault: where a modulus 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 
-def draw_scene(seed, *, tapers=True):
-    """Kind and scene of a seed; without tapers as it was before there were any."""
+def draw_scene(seed, *, tapers=True, joints=True):
+    """Kind and scene of a seed; without tapers and joints as it was before there were any."""
     if seed % 8 == 3:
         return "touching", touching_scene(seed)
     rng = random.Random(seed)
@@ -40,11 +40,21 @@ def draw_scene(seed, *, tapers=True):
             kind, made = "tables", with_tables(rng, made)
         if tapers and seed % 8 in (1, 6):
             kind, made = "tapers", with_tapers(rng, made)
+        if joints and seed % 8 in (2, 6) and made["beam"].get("hinges"):
+            kind, made = "joints", with_joints(rng, made)
         try:
             gapbeam.read_scene(made)
         except gapbeam.SceneError:
             continue
         return kind, made
+
+
+def with_joints(rng, made):
+    """The scene with a stiffness for each of its hinges."""
+    given = made["beam"].pop("hinges")
+    size = np.min(made["beam"]["EI"]) / nodes_of(made)[-1]
+    made["hinges"] = [{"x": x, "stiffness": float(f"{size * 10 ** rng.uniform(-2, 3):.3g}")} for x in given]
+    return made
 
 
 def judge(made, seed=0):
@@ -89,7 +99,7 @@ def stands_at_an_edge(made):
 def cuts(made, result):
     """Places between which everything is smooth."""
     length = nodes_of(made)[-1]
-    found = {0.0, length, *nodes_of(made), *made["beam"].get("hinges", ())}
+    found = {0.0, length, *nodes_of(made), *made["beam"].get("hinges", ()), *(hinge["x"] for hinge in made.get("hinges", ()))}
     for item in (*made.get("sections", ()), *made["loads"], *made["foundation"]):
         found |= {item[key] for key in ("from", "to", "x") if key in item}
         found |= {x for points in (item.get("profile", ()), *tables_of(item)) for x, _ in points}
@@ -173,6 +183,12 @@ def at_places(made, result):
     off, scale = np.abs(right - left), np.maximum(np.maximum(np.abs(left).max(axis=1), np.abs(right).max(axis=1)), least(made)[2:])
     names, wrong = ("moment", "shear"), np.argwhere(off > NEAR * scale[:, None])
     found = [f"{names[k]} at {places[i]:.9g} jumps by {off[k, i]:.3g} too much" for k, i in wrong]
+    turned = [(hinge, fields(result, hinge["x"], "left"), fields(result, hinge["x"])) for hinge in made.get("hinges", ())]
+    found += [
+        f"the joint at {hinge['x']} turns by {b[1] - a[1]:.9g}, not by {-a[2] / hinge['stiffness']:.9g}"
+        for hinge, a, b in turned
+        if abs(b[1] - a[1] + a[2] / hinge["stiffness"]) > NEAR * max(abs(a[1]), abs(b[1]), least(made)[1])
+    ]
     hinges = made["beam"].get("hinges", ())
     held = np.abs(fields(result, np.array(hinges))[2]) > NEAR * scale[0] if hinges else np.array([])
     return found + [f"a moment in the hinge at {x}" for x, wrong in zip(hinges, held, strict=True) if wrong]
