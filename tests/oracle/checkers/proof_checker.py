@@ -27,7 +27,7 @@ class Beam:  # springs (place, form, rest, compliance) and loads; a form has the
         beam, sections, loads, self.supports = (scene.get(key, []) for key in ("beam", "sections", "loads", "supports"))
         tables = [*sections, *loads, *self.supports, *({"x": x} for x in beam.get("hinges", []))]
         unknown = {k for t in (scene, beam, *tables) for k in t if t[k] not in (None, [], "normal")} - KNOWN
-        if unknown: raise Answer(2, f"this checker does not know {', '.join(sorted(unknown))}")
+        if unknown or scene.get("hinges"): raise Answer(2, f"this checker does not know {sorted(unknown) or 'elastic hinges'}")
         self.ends = list(accumulate(map(exact, beam["spans"]), initial=ZERO))
         self.rounded = [int(x.p) / int(x.q) for x in self.ends]
         self.x = sorted({*self.ends, *(self.where(t[k]) for t in tables for k in ("x", "from", "to") if t.get(k) is not None)})

@@ -43,6 +43,15 @@ def check(tmp_path, capsys):
     return run
 
 
+@pytest.mark.parametrize("ground", [[], [{"k": 10.0}], [{"k": 10.0, "side": "below"}]])
+def test_hinges_with_a_stiffness_are_not_decided(check, ground):
+    """Right states were refuted, since such hinges were taken for none."""
+    made = scene([3.0, 2.0], [at(0), at(1), at(2)], [force(1.0, 5.0)], EI=100.0)
+    status, line = check(proof_data({**made, "hinges": [{"x": 4.0, "stiffness": 50.0}], "foundation": ground}))
+    assert status == 2
+    assert "does not know elastic hinges" in line
+
+
 def error_of(line):
     return float(line.split("largest error ")[1].partition(";")[0])
 
