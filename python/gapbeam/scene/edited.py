@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
+from functools import cache
 from typing import Any, TypeVar
 
 import msgspec
@@ -38,11 +39,10 @@ def to_data(value: Any) -> Any:
     if isinstance(value, msgspec.Struct):
         config = value.__struct_config__
         found = {} if config.tag is None else {config.tag_field: config.tag}
-        for field in msgspec.structs.fields(value):
-            data = to_data(getattr(value, field.name))
-            default = field.default if field.default_factory is msgspec.NODEFAULT else field.default_factory()
-            if default is msgspec.NODEFAULT or data != to_data(default):
-                found[field.encode_name] = data
+        for name, key, default in _fields(type(value)):
+            data = to_data(getattr(value, name))
+            if default is msgspec.NODEFAULT or data != default:
+                found[key] = data
         return found
     if isinstance(value, Mapping):
         return {key: to_data(one) for key, one in value.items()}
@@ -51,6 +51,16 @@ def to_data(value: Any) -> Any:
     if isinstance(value, Sequence) and not isinstance(value, str):
         return list(map(to_data, value))
     return value
+
+
+@cache
+def _fields(kind: type[msgspec.Struct]) -> tuple[tuple[str, str, Any], ...]:
+    """Give attribute, key of a file and default as plain data of every field; asking for them takes long."""
+    return tuple(
+        (field.name, field.encode_name,
+         to_data(field.default if field.default_factory is msgspec.NODEFAULT else field.default_factory()))
+        for field in msgspec.structs.fields(kind)
+    )  # fmt: skip
 
 
 def to_toml(data: Mapping[str, Any]) -> str:
