@@ -13,7 +13,7 @@ module gapbeam_local_step
     use gapbeam_model, only: beam_type
     use gapbeam_update, only: update_scheme
     use gapbeam_affine_response, only: response_type, falls, rises, value_at, width_at
-    use gapbeam_queue, only: first_key
+    use gapbeam_queue, only: first_key, all_up_to
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, queue_all, change_supports, next_in_queue, response_in, &
         unloads_from_here
     implicit none
@@ -181,6 +181,10 @@ contains
             at_zero = [integer ::]
             call next_in_queue(local%beam, closed, here, limit, stretch, at_zero, next)
             if (stretch%in_doubt .or. size(at_zero) /= 1) return
+            if (local%may_fall) then
+                ! Where forces fall errors may grow beyond their bounds: what is next to each other may be there at once
+                if (size(all_up_to(stretch%queue, next + share_off*abs(next))) > 1) return
+            end if
             if (next <= here + near .or. next + (next - first) + near >= goal) return
             k = at_zero(1)
             ! What is there but for rounding is at 0

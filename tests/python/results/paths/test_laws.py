@@ -312,7 +312,8 @@ def test_a_path_that_comes_round_ends():
 
 
 def test_300_symmetric_paths_with_ties_at_every_kink():
-    assert [seed for seed in range(300) if not agree(symmetric_scene(seed, "softening"))] == []
+    # The last: rounding told two supports apart that fall to their kinks together, and the path went round for ever
+    assert [seed for seed in [*range(300), 488102] if not agree(symmetric_scene(seed, "softening"))] == []
 
 
 def difference(step, state, which):
