@@ -154,14 +154,16 @@ contains
             call problem%find(crossing%at - reach, between, error, crossing%near)
             if (allocated(error)) return
             if (.not. allocated(between%trouble)) then
-                if (problem%alike(below, between)) then
+                others = .not. problem%alike(between, above)
+                if (.not. problem%alike(below, between)) then
+                    ! There is another change before, or states do not tell so near to it
+                    call move_alloc(between, above)
+                    if (others) return
+                else if (others) then
                     call move_alloc(between, below)
                     exit
                 end if
-                ! There is another change before, or states do not tell so near to it
-                others = .not. problem%alike(between, above)
-                call move_alloc(between, above)
-                if (others) return
+                ! What is like both is undecided: farther away it is not
             end if
             reach = wider*reach
             if (reach > farthest*size) return
@@ -175,7 +177,7 @@ contains
                     call move_alloc(between, above)
                     exit
                 end if
-                call move_alloc(between, below)
+                if (.not. problem%alike(between, above)) call move_alloc(between, below)
             end if
             reach = wider*reach
             if (reach > farthest*size) return

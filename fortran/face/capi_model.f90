@@ -43,7 +43,7 @@ module gapbeam_capi_model
         type(c_ptr) :: support_law = c_null_ptr, support_parameter = c_null_ptr, support_friction = c_null_ptr
         type(c_ptr) :: hinge_stiffness = c_null_ptr
         type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
-        integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0, masses = 0
+        integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0, with_trains = 0, masses = 0
         type(c_ptr) :: mass_x = c_null_ptr, lumped_mass = c_null_ptr
     end type c_model
 
@@ -143,6 +143,7 @@ contains
             model%N_grows = c%N_grows /= 0
             model%first_order = c%first_order /= 0
             model%stretching = c%stretching /= 0
+            model%with_trains = c%with_trains /= 0
             allocate (model%masses(2, c%masses))
             if (has_reals(c%mass_x, c%masses, reals)) model%masses(1, :) = reals
             if (has_reals(c%lumped_mass, c%masses, reals)) model%masses(2, :) = reals

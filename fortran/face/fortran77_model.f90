@@ -101,6 +101,7 @@ contains
                 model%N_grows = modulo(igrow, 2) /= 0
                 model%first_order = modulo(igrow/2, 2) /= 0
                 model%stretching = modulo(igrow/4, 2) /= 0
+                model%with_trains = modulo(igrow/8, 2) /= 0
             end if
             call new_beam(model, handle, error)
         end if

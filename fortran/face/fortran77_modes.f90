@@ -6,7 +6,8 @@
 !     SHEAR(NFOUND)     second parameter of every foundation (force), 0 or more: what resists differences of their deflection; of
 !                       those that hold both ways by a modulus
 !     IGROW             0: N is the same at all load factors; 1: it grows with them, N at load factor 1; 2 more: axial loads have no
-!                       effect on bending, as in beams of the other routines; 4 more: what deflections lengthen the beam by pulls it
+!                       effect on bending, as in beams of the other routines; 4 more: what deflections lengthen it by pulls it;
+!                       8 more: trains will pass over hinges with a stiffness
 !
 !     AMASS(2, NMASS)   of lumped masses, for frequencies: x, and the mass, 0 or more, in the unit of force times the square of that
 !                       of time over that of length

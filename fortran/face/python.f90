@@ -43,8 +43,9 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     double precision, intent(in) :: found(14, mfound), aprof(3, mprof), aflaw(3, mflaw)
     ! Places of lumped masses, and these
     double precision, intent(in) :: amass(2, mmass)
-    ! Does N grow with the load factor (1); do axial loads have no effect on bending (1); do deflections stretch the beam (1)
-    integer, intent(in) :: forces(3)
+    ! Does N grow with the load factor (1); do axial loads have no effect on bending (1); do deflections stretch
+    ! it (1); do trains pass over it (1)
+    integer, intent(in) :: forces(4)
     ! Python's main thread, which hears signals
     integer(8), intent(in) :: thread
     ! The handle; 0 where it is refused
@@ -73,6 +74,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     model%N_grows = forces(1) /= 0
     model%first_order = forces(2) /= 0
     model%stretching = forces(3) /= 0
+    model%with_trains = forces(4) /= 0
     if (.not. allocated(error)) call keep_beam(model, handle, error)
     beam = number_of(handle)
     call report(error, status, message)

@@ -81,6 +81,7 @@ contains
                 kept%N_grows = model%N_grows
                 kept%first_order = model%first_order
                 kept%stretching = model%stretching
+                kept%with_trains = model%with_trains
             end associate
             call assemble_model(handle%beam%lowered, error)
         end if

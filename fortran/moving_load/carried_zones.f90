@@ -1,7 +1,7 @@
 !> Zones of contact of a beam with a train on it, carried to the pieces of the same beam with the train elsewhere: a start there.
 module gapbeam_carried_zones
     use gapbeam_kinds, only: wp
-    use gapbeam_ground_laws, only: between
+    use gapbeam_ground_steps, only: border_of_step
     use gapbeam_ground, only: ground_type, new_zones, resize, steps_of_piece
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_assembled_model, only: assembled_type, point_x
@@ -73,7 +73,7 @@ contains
                 k = last_alike(i, point_x(to, piece) - slack)
                 next = length
                 if (right(k) < point_x(to, piece) - slack) next = scale(right(k) - begin, -to%units%length)
-                step_end = between(0.0_wp, length, step, steps(piece))
+                step_end = border_of_step(ground%pieces(piece), step, steps(piece))
                 if (next >= step_end - scale(slack, -to%units%length)) then
                     next = step_end
                     step = step + 1

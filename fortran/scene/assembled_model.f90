@@ -316,6 +316,7 @@ contains
         copy%first_order = source%first_order
         copy%axial_loads_bend = source%axial_loads_bend
         copy%stretching = source%stretching
+        copy%with_trains = source%with_trains
     end subroutine copy_model
 
 end module gapbeam_assembled_model

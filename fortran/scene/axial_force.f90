@@ -81,8 +81,8 @@ contains
             .and. size(model%ground_law) == 0 .and. all(model%foundations%law == gapbeam_law_by_points)
     end function may_change
 
-    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, or
-    !> with mass
+    !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, with
+    !> mass, or with what influence lines of cubic pieces do not know under trains
     pure function in_stretches(model) result(it_is)
         !> With all its arrays allocated
         type(model_type), intent(in) :: model
@@ -90,6 +90,8 @@ contains
 
         it_is = size(model%foundations) > 0
         if (.not. it_is) it_is = has_axial_force(model) .or. any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0
+        if (.not. it_is .and. model%with_trains) it_is = any(model%hinge_stiffness > 0.0_wp) &
+            .or. any(max(model%sections%EI_to, model%sections%GA_to) > gapbeam_unchanged)
     end function in_stretches
 
     !> What makes it so, in words
@@ -97,7 +99,8 @@ contains
         type(model_type), intent(in) :: model
         character(len=24) :: words
 
-        words = "a mass for frequencies"
+        words = "trains"
+        if (any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0) words = "a mass for frequencies"
         if (model%axial_loads_bend) words = "axial loads that bend it"
         if (is_given(model)) words = "an axial force N"
         if (size(model%foundations) > 0) words = "a foundation"

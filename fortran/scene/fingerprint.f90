@@ -26,6 +26,7 @@ contains
         if (model%N_grows) call mix(all_bits, [1.0_wp])
         if (model%axial_loads_bend) call mix(all_bits, [2.0_wp])
         if (model%stretching) call mix(all_bits, [3.0_wp])
+        if (model%with_trains) call mix(all_bits, [4.0_wp])
         do i = 1, size(model%masses, 2)
             call mix(all_bits, model%masses(:, i))
         end do

@@ -212,8 +212,8 @@ module gapbeam_scene
         type(ground_point_type), allocatable :: ground(:)
         type(ground_law_point_type), allocatable :: ground_law(:)
         type(load_type), allocatable :: loads(:)
-        !> Does N grow with the load factor; are axial loads not to bend the beam; do they (prepared); do deflections stretch it
-        logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false., stretching = .false.
+        !> Does N grow with the factor; may axial loads not bend it; do they (prepared); does bending stretch it; do trains go
+        logical :: N_grows = .false., first_order = .false., axial_loads_bend = .false., stretching = .false., with_trains = .false.
     end type model_type
 
 contains

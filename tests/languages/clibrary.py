@@ -99,7 +99,7 @@ class Model(c.Structure):
         ("support_friction", REAL),
         ("hinge_stiffness", REAL),
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
-        *((name, c.c_int) for name in ("N_grows", "first_order", "stretching", "masses")),
+        *((name, c.c_int) for name in ("N_grows", "first_order", "stretching", "with_trains", "masses")),
         *((name, REAL) for name in ("mass_x", "lumped_mass")),
     )
 
@@ -228,6 +228,7 @@ def columns(scene):
         "N_grows": int(scene.get("analysis", {}).get("N_with") == "live"),
         "first_order": int(scene.get("analysis", {}).get("first_order", False)),
         "stretching": int(scene.get("analysis", {}).get("stretching", False)),
+        "with_trains": int(bool(scene.get("trains"))),
         "mass_x": np.array([one["x"] for one in scene.get("masses", ())], dtype=float),
         "lumped_mass": np.array([one["mass"] for one in scene.get("masses", ())], dtype=float),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
@@ -589,7 +590,8 @@ class F77Beam:
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
         pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
-        feels = pressed or a["stretching"] or a["N"].any() or a["mass"].any() or len(a["mass_x"]) or a["foundation_shear"].any()
+        feels = pressed or a["stretching"] or a["with_trains"] or a["N"].any() or a["mass"].any() or len(a["mass_x"])
+        feels = feels or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
         if len(ilaw) or len(sides) or named or feels:
@@ -605,7 +607,7 @@ class F77Beam:
             tables = np.array([a["table_foundation"] + 1, a["table_quantity"]], np.int32).T.copy()
             model += [len(tables), tables, np.array([a["table_x"], a["table_value"]]).T.copy()]
         if feels:
-            forces = a["N_grows"] + 2 * a["first_order"] + 4 * a["stretching"]
+            forces = a["N_grows"] + 2 * a["first_order"] + 4 * a["stretching"] + 8 * a["with_trains"]
             model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces]
         if len(a["mass_x"]):
             prepare = "ghprlm"

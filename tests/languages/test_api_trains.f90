@@ -2,8 +2,8 @@
 program test_api_trains
     use, intrinsic :: iso_fortran_env, only: wp => real64
     use testing, only: check, check_close, finish
-    use gapbeam, only: model_type, span_type, support_type, foundation_type, uniform_load, prepared_type, options_type, &
-        result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
+    use gapbeam, only: model_type, span_type, support_type, section_type, foundation_type, uniform_load, prepared_type, &
+        options_type, result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
         get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, gapbeam_of_curvature, gapbeam_of_shear, &
         gapbeam_of_pressure, prepare_model, replace_loads, solve_beam, get_supports, point_force, gapbeam_below, gapbeam_dead, &
         gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_no_equilibrium
@@ -14,6 +14,7 @@ program test_api_trains
     call it_tips()
     call everything_refused()
     call on_the_ground()
+    call over_tapers_and_joints()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
 
@@ -93,6 +94,36 @@ contains
         call check(size(passing%gaps) == 1, "to the left too")
         call check_close([passing%gaps(1)%from, passing%gaps(1)%to], [1.9_wp, 2.6_wp], "with an axle behind")
     end subroutine it_tips
+
+    !> A simple beam whose depth changes, with a joint: it is determinate, so P L/4 is its largest moment, and P its largest shear
+    subroutine over_tapers_and_joints()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(error_type), allocatable :: error
+        type(train_extreme_type) :: fields(2, 4), supports(2, 4, 2)
+        type(moving_train_type) :: train
+
+        train = moving_train_type(distance=[0.0_wp], force=[8.0_wp])
+        model%spans = [span_type(2.0_wp, EI=1.0_wp)]
+        model%supports = [support_type(node=0), support_type(node=1)]
+        model%sections = [section_type(0.0_wp, 2.0_wp, EI=1.0_wp, EI_to=8.0_wp, EI_power=3)]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, train, passing, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "with_trains") > 0, "a taper asks for it")
+        model%with_trains = .true.
+        call prepare_model(model, beam, error)
+        call follow_train(beam, train, passing, error)
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check_close([fields(1, 3)%value, fields(1, 4)%value], [4.0_wp, 8.0_wp], "moment and shear", relative=1e-12_wp)
+        deallocate (model%sections)
+        model%hinges = [0.5_wp]
+        model%hinge_stiffness = [3.0_wp]
+        call prepare_model(model, beam, error)
+        call follow_train(beam, train, passing, error)
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check_close(fields(1, 3)%value, 4.0_wp, "moment with a joint", relative=1e-12_wp)
+    end subroutine over_tapers_and_joints
 
     !> What cannot be had
     subroutine everything_refused()

@@ -109,7 +109,8 @@ def columns(scene: Scene) -> Columns:
     return Columns(
         span, hinge, _sections(scene.sections, scene.axial_ground), codes, values, law_supports, law, load_codes, load_values,
         *_foundations(scene.foundation), *_tables(scene.foundation), *_laws(scene.foundation, points_with_places, rows=3), mass,
-        np.array([scene.analysis.N_with == "live", _is_of_first_order(scene), scene.analysis.stretching], np.int32),
+        np.array([scene.analysis.N_with == "live", _is_of_first_order(scene), scene.analysis.stretching,
+                  bool(scene.trains)], np.int32),
     )  # fmt: skip
 
 

@@ -15,7 +15,6 @@ from ...engine.states import Solution
 from ...scene.movements import refuse_movements
 from ...scene.rotations import which_turn
 from ...scene.structs import Scene
-from ...scene.tapers import is_tapered
 from ..state.motion import buckling_of
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
@@ -52,14 +51,9 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         follow_scene(result, closed)
         check_compression(result)
         return
-    if any(map(is_tapered, scene.sections)):
-        what = "a section that tapers under trains is not available in this version; give short sections, each of one stiffness"
-        raise SceneError("sections", what)
     if which_turn(scene.supports).any():
         what = "a restraint or hinge with a law, a slack or a side, or a restraint at a hinge,"
         raise SceneError("supports", f"{what} under trains is not available in this version; leave one of them out")
-    if any(hinge.stiffness for hinge in scene.hinges):
-        raise SceneError("hinges", "a hinge with a stiffness under trains is not available in this version; leave one of them out")
     for k, load in enumerate(scene.loads):
         if getattr(load, "at_hinge", None):
             what = "a couple at a hinge under trains is not available in this version; put it on one side of the hinge"

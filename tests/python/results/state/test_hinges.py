@@ -201,7 +201,6 @@ def test_events_and_combinations_know_them():
         ({"x": 1.0, "stiffness": 1e-10}, {}, r"hinges\[0\].stiffness: it is so far below EI/length of the beam that it is a free"),
         ({"x": 9.0, "stiffness": 1.0}, {}, r"hinges\[0\].x: 9 is outside the beam"),
         ({"x": 1.0, "stiffness": 1.0}, {"EI": float("inf")}, "the beam is rigid beside it"),
-        ({"x": 1.0, "stiffness": 1.0}, {"trains": [{"axles": [[0.0, 1.0]]}]}, "under trains is not available"),
         ({"x": 1.0, "stiffness": 1.0}, {"loads": [{"type": "moment", "x": 1.0, "M": 1.0}]}, "acts exactly at the hinge"),
     ],
 )

@@ -252,13 +252,9 @@ def test_what_no_taper_can_be(changes, words):
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize("beside", [
-    {"trains": [{"axles": [[0.0, 10.0]]}]},
-    {"beam": {"spans": [20.0, 25.0, 20.0], "EI": [1.0, 2.0, {"from": 1.0, "to": 2.0}]}},
-])  # fmt: skip
-def test_refused_beside(beside):
+def test_a_span_has_one_stiffness():
     with pytest.raises(SceneError, match="section"):
-        gapbeam.solve(GIRDER | beside)
+        gapbeam.solve(GIRDER | {"beam": {"spans": [20.0, 25.0, 20.0], "EI": [1.0, 2.0, {"from": 1.0, "to": 2.0}]}})
 
 
 def test_a_result_keeps_its_tapers():
