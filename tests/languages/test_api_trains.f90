@@ -3,10 +3,11 @@ program test_api_trains
     use, intrinsic :: iso_fortran_env, only: wp => real64
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, section_type, foundation_type, uniform_load, prepared_type, &
-        options_type, result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, get_train_extremes, &
-        get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, gapbeam_of_curvature, gapbeam_of_shear, &
-        gapbeam_of_pressure, prepare_model, replace_loads, solve_beam, get_supports, point_force, gapbeam_below, gapbeam_dead, &
-        gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_no_equilibrium
+        options_type, result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, &
+        get_train_extremes, get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, gapbeam_of_curvature, &
+        gapbeam_of_shear, gapbeam_of_pressure, prepare_model, replace_loads, solve_beam, get_supports, point_force, &
+        gapbeam_below, gapbeam_dead, gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared, &
+        gapbeam_no_equilibrium
     implicit none
     integer :: status
 

@@ -129,7 +129,8 @@ def _refuse_beyond_bounds(result: Result) -> None:
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation, and with an axial force that bending feels."""
     forced = "axial loads that bend it" if beam.feels_axial_loads else "an axial force N"
-    there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else "a mass for frequencies"
+    rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over tapers or elastic hinges"
+    there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else rest
     if beam.beyond_one_search is not None:
         what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
         problem = f"supports with laws {what} cannot be combined with {there} in this version; use non-decreasing polylines"
