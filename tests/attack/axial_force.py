@@ -16,7 +16,7 @@ from .family import Family, Verdict
 
 PROMISE = (
     "Under axial forces reactions, fields, extremes and ends of contact are those of a solution in 90 digits, to 1e-13 of the "
-    "largest, for sqrt(N L^2/EI) from 1e-6 to 1e4, over ground to 1e3. Factors of buckling and frequencies are complete and "
+    "largest. sqrt(N L^2/EI) is 1e-6 to 1e4, over ground to 1e3. Factors of buckling and frequencies are complete and "
     "right to 1e-12. Beyond the first factor the state is stable, and the one reached as the compression grows"
 )
 CLOSE, OF_MODES = 1e-13, 1e-12
