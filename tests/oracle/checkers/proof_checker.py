@@ -24,10 +24,10 @@ def exact(value):  # the rational number that a double is; text is hexadecimal
 def inverse(stiffness): return ZERO if stiffness in (INF, "fixed") else 1 / exact(stiffness)
 class Beam:  # springs (place, form, rest, compliance) and loads; a form has the factors of displacements in a deformation
     def __init__(self, scene):
-        beam, sections, loads, self.supports = (scene.get(key, []) for key in ("beam", "sections", "loads", "supports"))
-        tables = [*sections, *loads, *self.supports, *({"x": x} for x in beam.get("hinges", []))]
+        beam, sections, loads, self.supports, joints = (scene.get(key, []) for key in "beam sections loads supports hinges".split())
+        tables = [{"elastic hinges": joints}, *sections, *loads, *self.supports, *({"x": x} for x in beam.get("hinges", []))]
         unknown = {k for t in (scene, beam, *tables) for k in t if t[k] not in (None, [], "normal")} - KNOWN
-        if unknown or scene.get("hinges"): raise Answer(2, f"this checker does not know {sorted(unknown) or 'elastic hinges'}")
+        if unknown: raise Answer(2, f"this checker does not know {', '.join(sorted(unknown))}")
         self.ends = list(accumulate(map(exact, beam["spans"]), initial=ZERO))
         self.rounded = [int(x.p) / int(x.q) for x in self.ends]
         self.x = sorted({*self.ends, *(self.where(t[k]) for t in tables for k in ("x", "from", "to") if t.get(k) is not None)})
