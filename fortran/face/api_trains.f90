@@ -74,13 +74,13 @@ contains
             if (allocated(beam%lowered%beam%turning)) then
                 call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
                     "at a hinge is not available under a train in this version")
-            else if (any(beam%lowered%joint > 0.0_wp) .and. .not. allocated(beam%lowered%layers)) then
-                call bad_argument(error, "beam", "a hinge with a stiffness under a train asks for with_trains of the model")
             else if (any(is_alone(beam%lowered%model%loads))) then
                 call bad_argument(error, "beam", "a support that is turned, a couple at a hinge, or a curvature that "// &
                     "changes along the beam is not available under a train in this version")
-            else if (any(is_tapered(beam%lowered%pieces)) .and. .not. allocated(beam%lowered%layers)) then
-                call bad_argument(error, "beam", "a section that tapers under a train asks for with_trains of the model")
+            else if (.not. allocated(beam%lowered%layers) .and. (any(is_tapered(beam%lowered%pieces)) &
+                                                                 .or. any(beam%lowered%joint > 0.0_wp))) then
+                call bad_argument(error, "beam", "a section that tapers, or a hinge with a stiffness, under a train asks for "// &
+                    "with_trains of the model")
             end if
         end if
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)

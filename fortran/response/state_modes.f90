@@ -66,16 +66,20 @@ contains
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
         call find_mode_values(ground, start%zones, start%closed, what, first, values, known, lost)
+        if (.not. lost) then
+            if (known == 0) return
+            call refine_ground(ground, fine)
+            call refine_zones(fine, start%zones, zones)
+            call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, lost, &
+                                  real(values(:known), qp))
+            known = found
+        end if
         if (lost) then
+            found = 0
             call fatal_error(error, gapbeam_bad_input, "modes: stiffnesses, masses and axial forces of the beam are too far "// &
                              "apart to count more than "//trim(whole(known))//"; ask for no more")
             return
         end if
-        if (known == 0) return
-        call refine_ground(ground, fine)
-        call refine_zones(fine, start%zones, zones)
-        call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, lost, &
-                              real(values(:known), qp))
         if (what == by_vibration) fine_values(:found) = sqrt(fine_values(:found))
         values(:found) = real(fine_values(:found), wp)
         values(found + 1:) = 0.0_wp
