@@ -11,6 +11,7 @@ from oracle.axial_ground import Unsettled, solve_on_ground
 from oracle.axial_modes import buckling, frequencies, inertia, unstable
 from oracle.axial_path import follow
 from scenes import axial_force as drawn
+from scenes.tapered import with_joints
 
 from .family import Family, Verdict
 
@@ -21,7 +22,7 @@ PROMISE = (
 )
 CLOSE, OF_MODES = 1e-13, 1e-12
 NO_SHEAR = 0.996  # of GA, up to which the other solution has factors
-PLACES = 16  # in which fields are looked at, beside their extremes
+PLACES = 24  # in which fields are looked at, beside their extremes
 MODES = 3
 FIELDS = ("deflection", "rotation", "moment", "shear", "transverse")
 KINDS = ("tension", "on ground", "compression", "modes", "stops", "tapers")
@@ -32,9 +33,7 @@ def draw_scene(seed):
     kind, rng = KINDS[seed % len(KINDS)], random.Random(f"axial {seed}")
     made = draw_of(kind, rng, seed)
     if made["beam"].get("hinges") and rng.random() < 0.4:  # what is stiffer is as stable
-        given = made["beam"].pop("hinges")
-        size = np.min(made["beam"]["EI"]) / sum(made["beam"]["spans"])
-        made["hinges"] = [{"x": x, "stiffness": float(f"{size * 10 ** rng.uniform(-2, 3):.3g}")} for x in given]
+        made = with_joints(rng, made)
     return kind, made
 
 

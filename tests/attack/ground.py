@@ -11,7 +11,7 @@ from scenes import nodes_of, place
 from scenes.curved import random_curved_scene
 from scenes.foundation import random_scene
 from scenes.tabled import tables_of, with_tables
-from scenes.tapered import stiffness_along, with_tapers
+from scenes.tapered import stiffness_along, with_joints, with_tapers
 from scenes.touching import touching_scene
 
 from .family import Family, Verdict
@@ -47,14 +47,6 @@ def draw_scene(seed, *, tapers=True, joints=True):
         except gapbeam.SceneError:
             continue
         return kind, made
-
-
-def with_joints(rng, made):
-    """The scene with a stiffness for each of its hinges."""
-    given = made["beam"].pop("hinges")
-    size = np.min(made["beam"]["EI"]) / nodes_of(made)[-1]
-    made["hinges"] = [{"x": x, "stiffness": float(f"{size * 10 ** rng.uniform(-2, 3):.3g}")} for x in given]
-    return made
 
 
 def judge(made, seed=0):

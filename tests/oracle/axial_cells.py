@@ -212,7 +212,7 @@ class Beam:
         found = []
         for i in range(count):
             at = {name: (v[0] + (v[1] - v[0]) * i / count, (v[1] - v[0]) / (b - a)) for name, v in lines.items()}
-            EI = {"EI": here["EI"], **stiffness_of(self.tapers[-1], a + i * h, h)}
+            EI = stiffness_of(self.tapers[-1], here["EI"], a + i * h, h)
             found.append(Cell(a + i * h, h, GA=here["GA"], N=here["N"], **EI, **at))
         return found
 
@@ -224,9 +224,9 @@ def steepness(tapered, a, b):
     return abs(tapered.depth(b)[0] - tapered.depth(a)[0]) / min(tapered.depth(a)[0], tapered.depth(b)[0])
 
 
-def stiffness_of(tapered, a, h):
-    """EI, growth and power of a cell that tapers."""
+def stiffness_of(tapered, EI, a, h):
+    """EI of a cell; of one that tapers that at its left end, with growth and power."""
     if not tapered:
-        return {}
+        return {"EI": EI}
     depth, slope = tapered.depth(a)
     return {"EI": tapered.at(a), "growth": slope * h / depth, "power": tapered.power}

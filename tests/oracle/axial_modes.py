@@ -116,12 +116,12 @@ class Chain:
         self.parts.append(parts)
         h, none = length / parts, (mp.mpf(0),) * 2
         for n in range(parts):
-            yield Cell(cell.a + n * h, h, **{"EI": EI, **stiffness_of(tapered, cell.a + n * h, h)}, GA=cell.GA, N=cell.N,
+            yield Cell(cell.a + n * h, h, **stiffness_of(tapered, EI, cell.a + n * h, h), GA=cell.GA, N=cell.N,
                        k=(cell.k[0] + cell.k[1] * n * h, cell.k[1]), q=none, kappa=none)  # fmt: skip
 
     def over(self, cell, S, free):
         """What is left of the right end of a cell."""
-        key = (cell.h, cell.EI, cell.GA, cell.N, cell.k, cell.growth)
+        key = (cell.h, cell.EI, cell.GA, cell.N, cell.k, cell.growth, cell.power)
         if key not in self.known:
             self.known[key] = stiffness(cell.transfer({})[0])
         K = self.known[key]

@@ -1,4 +1,4 @@
-"""Scenes with foundations whose beams taper: those of `foundation.py` and `curved.py` with other sections."""
+"""Scenes whose beams taper, or turn in elastic hinges: those of other modules with other sections, or stiffer hinges."""
 
 from .foundation import digits, part, rounded
 
@@ -27,6 +27,26 @@ def with_tapers(rng, made):
         if "EI" not in section or "GA" in made["beam"] or rng.random() < 0.2:
             section["GA"] = taper(rng, made["beam"].get("GA", least * rounded(rng, 0.3, 30)))
         sections.append(section)
+    return made
+
+
+def with_joints(rng, made):
+    """The same scene with a stiffness for each of its hinges, from nearly free to nearly rigid.
+
+    Parameters
+    ----------
+    rng : random.Random
+    made : dict
+        Changed; without hinges as it is.
+
+    Returns
+    -------
+    dict
+    """
+    if hinges := made["beam"].pop("hinges", ()):
+        least, length = made["beam"]["EI"], sum(made["beam"]["spans"])
+        size = (min(least) if isinstance(least, list) else least) / length
+        made["hinges"] = [{"x": x, "stiffness": digits(size * 10 ** rng.uniform(-2, 3))} for x in hinges]
     return made
 
 

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from attack import axial_force as attacked
 from gapbeam.base.errors import SceneError
+from oracle.axial_modes import buckling, frequencies
+from oracle.axial_path import follow
 from scenes import axial_force as generated
 from scenes import force, scene, uniform
 
@@ -338,6 +340,27 @@ def test_random_beams(kind, seeds):
         drawn, made = attacked.draw_scene(seed)
         assert drawn == kind
         assert attacked.judge(made).wrong == [], seed
+
+
+@pytest.mark.parametrize("seed", [1, 9, 11, 22, 25, 39])
+def test_columns_against_stops_beyond_the_euler_load(seed):
+    data = generated.column(seed)
+    path, result = follow(data), gapbeam.solve(data)
+    assert result.status == path.status
+    if path.status == "solved":
+        step = result.steps[-1]
+        assert step.unique is False
+        exact = [float(value) for value in path.end.reaction]
+        np.testing.assert_allclose(step.reaction, exact, rtol=0.0, atol=1e-13 * max(map(abs, exact)))
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+def test_modes_of_random_beams(seed):
+    data = generated.random_scene(seed, compression=0.7, mass=True)
+    result = gapbeam.solve({**data, "analysis": {"buckling": 2, "frequencies": 2}})
+    acting = attacked.acting(data, result)
+    for found, exact in ((result.buckling, buckling(data, acting, 2)), (result.frequencies, frequencies(data, acting, 2))):
+        np.testing.assert_allclose(found, [float(value) for value in exact], rtol=1e-14)
 
 
 def test_no_axial_force_leaves_all_bits():

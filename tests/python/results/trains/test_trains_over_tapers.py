@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from attack.trains import draw_scene
 from scenes import nodes_of
-from scenes.tapered import taper
+from scenes.tapered import taper, with_joints
 from scenes.train import frozen
 
 PAIRED = {
@@ -31,9 +31,7 @@ def drawn(seed):
     length, EI = nodes_of(made)[-1], float(np.min(made["beam"]["EI"]))
     start = rng.randrange(int(4 * length)) / 8
     made.setdefault("sections", []).append({"from": start, "to": start + 0.5, "EI": taper(rng, EI)})
-    if hinges := made["beam"].pop("hinges", ()):
-        made["hinges"] = [{"x": x, "stiffness": EI / length * 10 ** rng.uniform(-1, 2)} for x in hinges]
-    return made
+    return with_joints(rng, made)
 
 
 @pytest.mark.parametrize("seed", range(8))
