@@ -58,7 +58,7 @@ contains
             q(0:2) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*way, -p%qc*way**2]
             softness = softness_around(s, xi, way)
             w = y(1) + softness%value(2)*y(3)
-            q(0) = q(0) + s%tension*p%kappa
+            q(0:1) = q(0:1) + s%tension*[p%kappa + xi*p%rise, way*p%rise]
             do i = 1, size(series)
                 associate (curve => curved%curves(i))
                     call begin_series(curve, xi, way, is_negative(curve), series(i))
@@ -87,7 +87,8 @@ contains
                     c(1, n + 1) = part*c(2, n)
                     if (s%power(2) > 0) c(1, n + 1) = c(1, n + 1) - shifted(1, n)/(n + 1)
                     c(2, n + 1) = -part*bent(1, n)
-                    if (n == 0) c(2, 1) = c(2, 1) + part*p%kappa
+                    if (n == 0) c(2, 1) = c(2, 1) + part*(p%kappa + xi*p%rise)
+                    if (n == 1) c(2, 2) = c(2, 2) + part*(way*p%rise)
                     c(3, n + 1) = part*c(4, n)
                     c(4, n + 1) = part*(pressure + s%tension*bent(1, n) - q(n))/stretched_shear(s)
                 end associate
@@ -114,7 +115,7 @@ contains
             there = xi + beginning_of_way*way
             ahead = beginning_of_way*h
             associate (f => softness%value(1), g => softness%value(2))
-                negative = curve%side*(w + (y(2) + g*y(4))*ahead + (curved%load%kappa - f*y(3))*ahead**2/2 &
+                negative = curve%side*(w + (y(2) + g*y(4))*ahead + (curved%load%kappa + xi*curved%load%rise - f*y(3))*ahead**2/2 &
                                        - (curve%contact_a*(1 - there) + curve%contact_b*there)) < 0.0_wp
             end associate
         end function is_negative

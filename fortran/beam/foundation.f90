@@ -235,19 +235,22 @@ contains
         type(end_functions_type), intent(in) :: h
         type(stretch_load_type), intent(in) :: load
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
-        real(wp) :: l, f, k, pull, sum, turn, shear
+        real(wp) :: l, f, k, pull, bent(2), turn, shear
 
         l = stretch%length
         f = l**2*stretch%flexibility/stretched_shear(stretch)
         k = l**2*stretch%modulus_a/stretched_shear(stretch)
         pull = stretch%tension*f
-        sum = h%a_rest + h%b_rest
-        turn = load%qc*h%bubble*f - load%kappa*((h%c + h%e) + k*stretch%shear_flexibility*sum)
-        shear = load%qc*(2*sum + pull*h%bubble) + load%kappa*sum*k
-        turn_a = l*((load%qa*h%a_rest + load%qb*h%b_rest)*f + turn)
-        turn_b = l*((load%qb*h%a_rest + load%qa*h%b_rest)*f + turn)
-        shear_a = l*((load%qa*(h%c + pull*h%a_rest) + load%qb*(h%e + pull*h%b_rest)) + shear)
-        shear_b = l*((load%qb*(h%c + pull*h%a_rest) + load%qa*(h%e + pull*h%b_rest)) + shear)
+        associate (p => h%a_rest, q => h%b_rest, at_a => load%kappa, at_b => load%kappa + load%rise)
+            ! What both ends feel of a curvature, as of end moments, but for those themselves
+            bent(:) = [at_a*p + at_b*q, at_b*p + at_a*q]*k
+            turn = load%qc*h%bubble*f
+            shear = load%qc*(2*(p + q) + pull*h%bubble)
+            turn_a = l*((load%qa*p + load%qb*q)*f + (turn - ((at_a*h%c + at_b*h%e) + stretch%shear_flexibility*bent(1))))
+            turn_b = l*((load%qb*p + load%qa*q)*f + (turn - ((at_b*h%c + at_a*h%e) + stretch%shear_flexibility*bent(2))))
+            shear_a = l*((load%qa*(h%c + pull*p) + load%qb*(h%e + pull*q)) + (shear + bent(1)))
+            shear_b = l*((load%qb*(h%c + pull*p) + load%qa*(h%e + pull*q)) + (shear + bent(2)))
+        end associate
     end subroutine load_even
 
     !> The functions of the ends of a stretch of constant modulus

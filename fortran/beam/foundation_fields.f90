@@ -30,7 +30,7 @@ contains
         type(decay_type) :: decay
         type(long_type) :: long
         type(stretch_ends_type) :: over
-        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised
+        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised, straight(2)
 
         if (is_sloped(stretch)) then
             call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
@@ -52,9 +52,9 @@ contains
                 y(4) = (e%moment_b - e%moment_a)/l
                 y(2) = (e%w_b - e%w_a)/l - stretch%shear_flexibility*y(4)
                 y(5) = y(4) + stretch%tension*((e%w_b - e%w_a)/l)
-                call respond(stretch, r%even, r%even_slope, f*((e%moment_a + e%moment_b)/2) - c%kappa, &
+                call respond(stretch, r%even, r%even_slope, f*((e%moment_a + e%moment_b)/2) - (c%kappa + c%rise/2), &
                              (c%qa + c%qb)/2 - k*((e%w_a + e%w_b)/2), y)
-                call respond(stretch, r%odd, r%odd_slope, f*((e%moment_b - e%moment_a)/2), &
+                call respond(stretch, r%odd, r%odd_slope, f*((e%moment_b - e%moment_a)/2) - c%rise/2, &
                              (c%qb - c%qa)/2 - k*((e%w_b - e%w_a)/2), y)
                 if (abs(c%qc) > 0.0_wp) call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, c%qc, y)
             end associate
@@ -64,20 +64,23 @@ contains
             over = ends
             y = 0.0_wp
             if (long%apart) then
-                call respond(stretch, r%even, r%even_slope, -load%kappa, (load%qa + load%qb)/2, y)
-                call respond(stretch, r%odd, r%odd_slope, 0.0_wp, (load%qb - load%qa)/2, y)
+                call respond(stretch, r%even, r%even_slope, -(load%kappa + load%rise/2), (load%qa + load%qb)/2, y)
+                call respond(stretch, r%odd, r%odd_slope, -load%rise/2, (load%qb - load%qa)/2, y)
                 call respond(stretch, r%bubble, r%bubble_slope, 0.0_wp, load%qc, y)
             else
                 ! Far from the ends the ground bears the load where it stands, and what the tension makes of its curvature
                 raised = -2*stretch%tension*load%qc/(k*l)**2
                 y(1) = (load%qa*eta + load%qb*xi + load%qc*xi*eta)/k + raised
                 y(2) = (load%qb - load%qa + load%qc*(eta - xi))/(k*l)
-                y(3) = (load%kappa + 2*load%qc/(k*l**2))/f
-                y(5) = stretch%tension*y(2)
+                straight(:) = ([load%kappa, load%kappa + load%rise] + 2*load%qc/(k*l**2))/f
+                y(3) = eta*straight(1) + xi*straight(2)
+                y(4) = load%rise/(f*l)
+                y(5) = stretch%tension*y(2) + y(4)
+                y(2) = y(2) - stretch%shear_flexibility*y(4)
                 over%w_a = ends%w_a - load%qa/k - raised
                 over%w_b = ends%w_b - load%qb/k - raised
-                over%moment_a = ends%moment_a - y(3)
-                over%moment_b = ends%moment_b - y(3)
+                over%moment_a = ends%moment_a - straight(1)
+                over%moment_b = ends%moment_b - straight(2)
             end if
             call fade(stretch, decay%left, decay%left_slope, over%w_a, over%moment_a, y)
             call fade(stretch, decay%right, decay%right_slope, over%w_b, over%moment_b, y)

@@ -117,11 +117,11 @@ contains
             case (slope_of_psi)
                 if (is_of_one_stiffness(s)) then
                     a(0:n) = -f*c(1, 3, 0:n)
-                    a(0) = a(0) + p%kappa
+                    a(0:1) = a(0:1) + [p%kappa + xi*p%rise, piece%half*p%rise]
                 else
                     call take_slope(c(1, 2, :), s%length*piece%half, a, n)
                 end if
-                piece%noise = f*scale(3) + abs(p%kappa)
+                piece%noise = f*scale(3) + abs(p%kappa) + abs(p%rise)
             case (slope_of_moment)
                 a(0:n) = c(1, 4, 0:n)
                 piece%noise = scale(4)
@@ -132,13 +132,14 @@ contains
             case default
                 call take_slope(c(1, 4, :), s%length*piece%half, a, n)
                 piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed &
-                    + abs(greatest_tension(s))*(f*scale(3) + abs(p%kappa)) + abs(s%tension_change)/s%length*scale(2)
+                    + abs(greatest_tension(s))*(f*scale(3) + abs(p%kappa) + abs(p%rise)) + abs(s%tension_change)/s%length*scale(2)
                 if (question%what == slope_of_transverse) then
                     ! s V' + (N psi)' = ground's pressure less the load
                     pull(:) = [tension_at(s, xi), s%tension_change*piece%half]
                     a(0:n) = stretched_shear(s)*a(0:n) - pull(1)*f*c(1, 3, 0:n) + s%tension_change/s%length*c(1, 2, 0:n)
                     if (abs(pull(2)) > 0.0_wp) a(1:n) = a(1:n) - pull(2)*f*c(1, 3, 0:n - 1)
-                    a(0:1) = a(0:1) + pull*p%kappa
+                    a(0:1) = a(0:1) + pull*(p%kappa + xi*p%rise)
+                    a(1:2) = a(1:2) + pull*(piece%half*p%rise)
                 end if
             end select
             piece%noise = ground_ulps*epsilon(1.0_wp)*piece%noise
@@ -228,7 +229,8 @@ contains
                 q = abs(p%qa)*(1 - xi) + abs(p%qb)*xi + abs(p%qc)*xi*(1 - xi)
                 ! On the piece the ground's pressure is known to the rounding of the load that it bears
                 scale = [q/k, (abs(p%qa) + abs(p%qb) + abs(p%qc))/(k*l) + s%flexibility*q*(half*l)**3, &
-                         (abs(p%kappa) + 2*abs(p%qc)/(k*l**2))/s%flexibility + q*(half*l)**2, q*half*l]
+                         (abs(p%kappa) + abs(p%rise) + 2*abs(p%qc)/(k*l**2))/s%flexibility + q*(half*l)**2, &
+                         abs(p%rise)/(s%flexibility*l) + q*half*l]
             else
                 w = abs(e%w_a) + abs(e%w_b)
                 m = abs(e%moment_a) + abs(e%moment_b)
@@ -237,8 +239,9 @@ contains
                 soft(:) = softest(s)
                 ! Along a beam in tension what is farther away than sqrt(EI/N) bends it no more
                 if (min(s%tension, tension_at(s, 1.0_wp)) > 0.0_wp) square = square/(1 + square*trace_of(s, k))
-                m = m + square*(q + abs(greatest_tension(s)*p%kappa))
-                bent = abs(p%kappa) + soft(1)*m
+                bent = abs(p%kappa) + abs(p%rise)
+                m = m + square*(q + abs(greatest_tension(s)*bent))
+                bent = bent + soft(1)*m
                 w = w + l**2*bent/8
                 scale = [w, w/l + soft(2)*m/l, m, m/l]
                 ! Where series begin with the transverse force
@@ -252,15 +255,15 @@ contains
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: left, right
         real(wp) :: bound
-        real(wp) :: p, moment, arm
+        real(wp) :: p, moment(2), arm
 
         p = decay_lengths(question%stretch)
         associate (s => question%stretch, q => question%load, e => question%ends)
-            moment = (q%kappa + 2*q%qc/(s%modulus_a*s%length**2))/s%flexibility
+            moment(:) = ([q%kappa, q%kappa + q%rise] + 2*q%qc/(s%modulus_a*s%length**2))/s%flexibility
             arm = sqrt(s%flexibility)/sqrt(s%modulus_a)
             ! exp(-p x) (1 + p x) where the eigenvalues are alike, less elsewhere; 4 to be safe
-            bound = 4*(exp(-p*left)*(1 + p*right)*(abs(e%w_a - q%qa/s%modulus_a) + arm*abs(e%moment_a - moment)) &
-                       + exp(-p*(1 - right))*(1 + p*(1 - left))*(abs(e%w_b - q%qb/s%modulus_a) + arm*abs(e%moment_b - moment)))
+            bound = 4*(exp(-p*left)*(1 + p*right)*(abs(e%w_a - q%qa/s%modulus_a) + arm*abs(e%moment_a - moment(1))) &
+                       + exp(-p*(1 - right))*(1 + p*(1 - left))*(abs(e%w_b - q%qb/s%modulus_a) + arm*abs(e%moment_b - moment(2))))
         end associate
     end function fading
 
@@ -278,10 +281,7 @@ contains
         piece%a = 0.0_wp
         piece%degree = 2
         associate (s => question%stretch, p => question%load, a => piece%a, eta => 1 - xi)
-            w(0) = p%qa*eta + p%qb*xi + p%qc*xi*eta
-            w(1) = (p%qb - p%qa + p%qc*(eta - xi))*half
-            w(2) = -p%qc*half**2
-            w = w/s%modulus_a
+            w(:) = [p%qa*eta + p%qb*xi + p%qc*xi*eta, (p%qb - p%qa + p%qc*(eta - xi))*half, -p%qc*half**2]/s%modulus_a
             piece%noise = ground_ulps*epsilon(1.0_wp)*(abs(p%qa) + abs(p%qb) + abs(p%qc))/s%modulus_a
             select case (question%what)
             case (over_line)
@@ -295,9 +295,10 @@ contains
                 piece%noise = (piece%noise + ground_ulps*epsilon(1.0_wp)*abs(question%line_a))/s%length
             case (slope_of_psi)
                 a(0) = -2*p%qc/(s%modulus_a*s%length**2)
-            case default
-                ! Neither shear nor a slope of it
-                continue
+            case (slope_of_moment)
+                a(0) = p%rise/(s%flexibility*s%length)
+            case (slope_of_transverse)
+                a(0) = 2*s%tension*w(2)/(half*s%length)**2
             end select
         end associate
     end subroutine middle_piece
@@ -352,10 +353,10 @@ contains
                 steeper = 2*c(4, 2)/l
             else
                 call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
-                bent = f_of*moment - p%kappa
+                bent = f_of*moment - (p%kappa + xi*p%rise)
                 pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + tension_at(s, xi)*bent - s%tension_change/l*psi &
                            - (p%qa*eta + p%qb*xi + p%qc*xi*eta))/stretched_shear(s)
-                steeper = ((s%modulus_b - s%modulus_a)*w + l*tension_at(s, xi)*f_of*shear + 2*s%tension_change*bent &
+                steeper = ((s%modulus_b - s%modulus_a)*w + tension_at(s, xi)*(l*f_of*shear - p%rise) + 2*s%tension_change*bent &
                            + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + g*shear) &
                            - (p%qb - p%qa + p%qc*(eta - xi)))/stretched_shear(s)
             end if
@@ -372,12 +373,12 @@ contains
                 end if
             case (slope_of_w)
                 f = incline - question%line_a/l
-                slope = l*(p%kappa - f_of*moment + g*pressed) + softer(2)*shear
+                slope = l*(p%kappa + xi*p%rise - f_of*moment + g*pressed) + softer(2)*shear
             case (slope_of_psi)
-                f = p%kappa - f_of*moment
-                slope = -l*f_of*shear - softer(1)*moment
+                f = p%kappa + xi*p%rise - f_of*moment
+                slope = p%rise - l*f_of*shear - softer(1)*moment
             case (slope_of_curvature)
-                f = -f_of*shear - softer(1)*moment/l
+                f = p%rise/l - f_of*shear - softer(1)*moment/l
                 slope = -l*f_of*pressed - 2*softer(1)*shear + (s%power(1) + 1)*s%taper(1)/(1 + s%taper(1)*xi)*softer(1)*moment/l
             case (slope_of_moment)
                 f = shear
@@ -386,9 +387,9 @@ contains
                 f = pressed
                 slope = steeper
             case default
-                bent = f_of*moment - p%kappa
+                bent = f_of*moment - (p%kappa + xi*p%rise)
                 f = stretched_shear(s)*pressed - tension_at(s, xi)*bent + s%tension_change/l*psi
-                slope = stretched_shear(s)*steeper - l*tension_at(s, xi)*f_of*shear - 2*s%tension_change*bent
+                slope = stretched_shear(s)*steeper - tension_at(s, xi)*(l*f_of*shear - p%rise) - 2*s%tension_change*bent
             end select
         end associate
     end subroutine evaluate

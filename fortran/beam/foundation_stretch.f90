@@ -33,8 +33,10 @@ module gapbeam_foundation_stretch
 
     !> What loads a stretch
     type :: stretch_load_type
-        !> Load per length qa (1 - xi) + qb xi + qc xi (1 - xi), down; imposed curvature
-        real(wp) :: qa = 0.0_wp, qb = 0.0_wp, qc = 0.0_wp, kappa = 0.0_wp
+        !> Load per length qa (1 - xi) + qb xi + qc xi (1 - xi), down; imposed curvature kappa + rise xi
+        real(wp) :: qa = 0.0_wp, qb = 0.0_wp, qc = 0.0_wp, kappa = 0.0_wp, rise = 0.0_wp
+        !> Rotations imposed at its ends, and couples just inside them, as of piece_load_type
+        real(wp) :: kink_a = 0.0_wp, kink_b = 0.0_wp, couple_a = 0.0_wp, couple_b = 0.0_wp
     end type stretch_load_type
 
     !> 1/EI and 1/GA at a place, the powers of the depth that they are, and the coefficients of these powers relative to the place,
@@ -63,7 +65,8 @@ contains
         type(stretch_load_type), intent(in) :: a, b
         logical :: same
 
-        same = .not. any(abs([a%qa, a%qb, a%qc, a%kappa] - [b%qa, b%qb, b%qc, b%kappa]) > 0.0_wp)
+        same = .not. any(abs([a%qa, a%qb, a%qc, a%kappa, a%rise, a%kink_a, a%kink_b, a%couple_a, a%couple_b] &
+                             - [b%qa, b%qb, b%qc, b%kappa, b%rise, b%kink_a, b%kink_b, b%couple_a, b%couple_b]) > 0.0_wp)
     end function same_load
 
     !> What of a piece lies between two places, without ground

@@ -135,7 +135,7 @@ contains
         integer, intent(in) :: n
         !> Coefficients of v, psi, M, V, shape (cases, 4, 0:at least n)
         real(wp), intent(out), contiguous :: c(:, :, 0:)
-        real(wp) :: q(size(loads), 0:2), k0, k1, n0, n1, h, part, slack
+        real(wp) :: q(size(loads), 0:2), bend(size(loads), 0:1), k0, k1, n0, n1, h, part, slack
         real(wp), dimension(size(start, 1), 0:n) :: w, bent, slid, shifted
         type(softness_type) :: softness
         integer :: i, first
@@ -153,9 +153,11 @@ contains
             k1 = k1*slack
             n0 = tension_at(s, xi)*slack
             n1 = s%tension_change*step*slack
-            q(:, 0) = q(:, 0)*slack + n0*p%kappa
-            q(:, 1) = q(:, 1)*slack + n1*p%kappa
-            q(:, 2) = q(:, 2)*slack
+            bend(:, 0) = p%kappa + xi*p%rise
+            bend(:, 1) = step*p%rise
+            q(:, 0) = q(:, 0)*slack + n0*bend(:, 0)
+            q(:, 1) = q(:, 1)*slack + (n0*bend(:, 1) + n1*bend(:, 0))
+            q(:, 2) = q(:, 2)*slack + n1*bend(:, 1)
             softness = softness_around(s, xi, step)
             c(:, :, 0) = start
             do i = 0, n - 1
@@ -174,7 +176,7 @@ contains
                     c(:, 4, i + 1) = c(:, 4, i + 1) - (n1/(i + 1))*c(:, 2, i)
                     if (i > 0) c(:, 4, i + 1) = c(:, 4, i + 1) + part*n1*bent(:, i - 1)
                 end if
-                if (i == 0) c(first:, 2, 1) = c(first:, 2, 1) + part*p%kappa
+                if (i <= 1) c(first:, 2, i + 1) = c(first:, 2, i + 1) + part*bend(:, i)
                 if (i <= 2) c(first:, 4, i + 1) = c(first:, 4, i + 1) - part*q(:, i)
             end do
         end associate
@@ -308,6 +310,8 @@ contains
         other = load
         other%qa = load%qb
         other%qb = load%qa
+        other%kappa = load%kappa + load%rise
+        other%rise = -load%rise
     end function turned
 
     !> Does the modulus, a stiffness of the beam, or its axial force change along the stretch

@@ -3,14 +3,13 @@
 !> its digits are the same.
 module gapbeam_case_extremes
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_model, only: has_other_supports
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit, quantity_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x, is_alone
     use gapbeam_solution, only: state_type
     use gapbeam_quantities, only: bending_count, bending
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces

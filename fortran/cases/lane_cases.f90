@@ -3,7 +3,6 @@
 !> the cases that are doubtful here
 module gapbeam_lane_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: most_lane_links
     use gapbeam_tolerances, only: most_unit_power
@@ -11,7 +10,7 @@ module gapbeam_lane_cases
     use gapbeam_error, only: error_type
     use gapbeam_model, only: has_other_supports
     use gapbeam_units, only: moment_unit, stiffness_unit
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, is_alone
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
     use gapbeam_cases, only: case_loads_type, split_loads, give_case
     use gapbeam_lane_types, only: lanes, pack_type, new_pack

@@ -3,7 +3,6 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_alone
     use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: least_segment_links
     use gapbeam_tolerances, only: most_unit_power
@@ -13,7 +12,7 @@ module gapbeam_segment_cases
     use gapbeam_model, only: has_other_supports
     use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_assembled_model, only: assembled_type, is_alone
     use gapbeam_assemble_units, only: support_in_units
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, give_case

@@ -14,7 +14,8 @@ module gapbeam_find_zones
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_foundation_stretch, only: without_slip
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece, combined_load
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece
+    use gapbeam_stretch_loads, only: combined_load
     use gapbeam_ground_steps, only: border_of_step
     use gapbeam_zone_fields, only: ends_of, take_curved
     implicit none
@@ -157,11 +158,11 @@ contains
                                 if (law > 1 .and. .not. has_points(layer)) then
                                     limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
                                                      shape(limits))
-                                    call find_limits(grounded%stretches(i), load_of(i), ends_of(work, i), &
+                                    call find_limits(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
                                                      contact_line(layer, [from, to], length), layer%side, limits(1, :), &
                                                      limits(2, :), xi, crossings, curved)
                                 else
-                                    call find_crossings(grounded%stretches(i), load_of(i), ends_of(work, i), &
+                                    call find_crossings(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
                                                         line_of_breakpoint(ground%laws, layer, law, from, length), &
                                                         line_of_breakpoint(ground%laws, layer, law, to, length), xi, &
                                                         crossings, curved)
@@ -243,7 +244,7 @@ contains
             if (allocated(curved)) then
                 call curved_fields(curved, share, w, psi, moment, shear)
             else
-                call fields_at(grounded%stretches(i), load_of(i), ends_of(work, i), share, w, psi, moment, shear)
+                call fields_at(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), share, w, psi, moment, shear)
             end if
         end subroutine find_fields
 

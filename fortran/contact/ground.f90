@@ -10,15 +10,16 @@ module gapbeam_ground
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded
     use gapbeam_curved, only: curved_type, condense_curved
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve
+    use gapbeam_stretch_loads, only: add_end_loads, ends_of_piece, load_on_part, on_stretch, on_piece, combined_load
     use gapbeam_ground_steps, only: steps_on, border_of_step
-    use gapbeam_ground_laws, only: along, contact_line, slope_of_layer, offset_of_layer, take_curves
+    use gapbeam_ground_laws, only: contact_line, slope_of_layer, offset_of_layer, take_curves
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     implicit none
     private
     public :: ground_type, moving_type, zones_type, grounded_type
-    public :: new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece, combined_load
+    public :: new_zones, resize, full_contact, place_stretches, steps_of, steps_of_piece
     ! For gapbeam_ground_nodes
-    public :: condense_both, load_between
+    public :: condense_both
     ! For gapbeam_modes
     public :: stretch_on_layers
 
@@ -254,6 +255,7 @@ contains
                                      link%shear_b(1), grounded%lost)
                 link%shear_b(1) = -link%shear_b(1)
             end if
+            call add_end_loads(grounded%beam%ground(i), [dead, live], link)
         end associate
 
     contains
@@ -299,8 +301,8 @@ contains
             s = stretch_between(p, from, to)
             s%modulus_a = 0.0_wp - ground%frequency_squared*p%mass
             s%modulus_b = s%modulus_a
-            dead = load_between(ground%dead(j), from, to, p%length)
-            live = load_between(ground%live(j), from, to, p%length)
+            dead = on_stretch(load_on_part(ground%dead(j), from, to, p%length, ends_of_piece(zones%piece, i)))
+            live = on_stretch(load_on_part(ground%live(j), from, to, p%length, ends_of_piece(zones%piece, i)))
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
                     if (acts == 0 .or. is_curve(layer, acts)) cycle
@@ -333,38 +335,10 @@ contains
         type(stretch_link_type), intent(out) :: link
         real(wp) :: work(1)
 
-        call condense_link([piece_type(stretch%length, stretch%flexibility, stretch%shear_flexibility)], [piece_load(dead)], &
-                           [piece_load(live)], work, bar)
+        call condense_link([piece_type(stretch%length, stretch%flexibility, stretch%shear_flexibility)], [on_piece(dead)], &
+                           [on_piece(live)], work, bar)
         call condense_loaded(stretch, [dead, live], link, bar%turn_a, bar%turn_b, bar%shear_a, bar%shear_b)
         bar%shear_b(:) = -bar%shear_b
     end subroutine condense_both
-
-    !> The load of a piece on a stretch of it
-    pure function load_between(load, from, to, length) result(found)
-        type(piece_load_type), intent(in) :: load
-        real(wp), intent(in) :: from, to, length
-        type(stretch_load_type) :: found
-
-        found = stretch_load_type(qa=along(load%qa, load%qb, from, length), qb=along(load%qa, load%qb, to, length), &
-                                  kappa=load%kappa)
-    end function load_between
-
-    !> The same as the load of a piece
-    pure function piece_load(load) result(found)
-        type(stretch_load_type), intent(in) :: load
-        type(piece_load_type) :: found
-
-        found = piece_load_type(load%qa, load%qb, load%kappa, 0.0_wp, 0.0_wp)
-    end function piece_load
-
-    !> Dead plus factor times live
-    elemental function combined_load(dead, live, factor) result(load)
-        type(stretch_load_type), intent(in) :: dead, live
-        real(wp), intent(in) :: factor
-        type(stretch_load_type) :: load
-
-        load = stretch_load_type(dead%qa + factor*live%qa, dead%qb + factor*live%qb, dead%qc + factor*live%qc, &
-                                 dead%kappa + factor*live%kappa)
-    end function combined_load
 
 end module gapbeam_ground

@@ -9,8 +9,9 @@ module gapbeam_ground_nodes
     use gapbeam_band, only: plain
     use gapbeam_model, only: beam_type, node_support_type, order_supports
     use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
-    use gapbeam_foundation_stretch, only: stretch_between
-    use gapbeam_ground, only: ground_type, condense_both, load_between
+    use gapbeam_foundation_stretch, only: stretch_between, stretch_load_type
+    use gapbeam_ground, only: ground_type, condense_both
+    use gapbeam_stretch_loads, only: add_end_loads, load_on_part, on_stretch, ends_of_piece
     use gapbeam_ground_mesh, only: mesh_type
     implicit none
     private
@@ -107,6 +108,7 @@ contains
         type(beam_type), intent(out) :: beam
         type(node_support_type), allocatable :: supports(:)
         type(piece_type) :: p(1)
+        type(stretch_load_type) :: loads(2)
         real(wp) :: work(1)
         integer :: i, n
 
@@ -126,41 +128,33 @@ contains
         call order_supports(supports, beam)
         do i = 1, n
             p = part_of_piece(ground%pieces(mesh%piece(i)), mesh%from(i), mesh%to(i))
-            call condense_link(p, [share(ground%dead(mesh%piece(i)))], [share(ground%live(mesh%piece(i)))], work, beam%links(i))
+            call condense_link(p, [on_part(ground%dead, i)], [on_part(ground%live, i)], work, beam%links(i))
         end do
-        if (any(max(abs(ground%pieces%tension), abs(ground%pieces%tension_change)) > 0.0_wp)) call feel_tension(ground, mesh, beam)
+        if (any(max(abs(ground%pieces%tension), abs(ground%pieces%tension_change)) > 0.0_wp)) then
+            allocate (beam%ground(n))
+            do i = 1, n
+                loads = [on_stretch(on_part(ground%dead, i)), on_stretch(on_part(ground%live, i))]
+                call condense_both(stretch_between(ground%pieces(mesh%piece(i)), mesh%from(i), mesh%to(i)), loads(1), loads(2), &
+                                   beam%links(i), beam%ground(i))
+                call add_end_loads(beam%ground(i), loads, beam%links(i))
+            end do
+        end if
         beam%watch = ground%beam%watch
 
     contains
 
         !> The load on a part
-        pure function share(load) result(found)
-            type(piece_load_type), intent(in) :: load
+        pure function on_part(loads, i) result(found)
+            !> Of all pieces
+            type(piece_load_type), intent(in) :: loads(:)
+            integer, intent(in) :: i
             type(piece_load_type) :: found
 
-            associate (length => ground%pieces(mesh%piece(i))%length)
-                found = piece_load_type(along(load%qa, load%qb, mesh%from(i), length), &
-                                        along(load%qa, load%qb, mesh%to(i), length), load%kappa, 0.0_wp, 0.0_wp)
+            associate (j => mesh%piece(i))
+                found = load_on_part(loads(j), mesh%from(i), mesh%to(i), ground%pieces(j)%length, ends_of_piece(mesh%piece, i))
             end associate
-        end function share
+        end function on_part
 
     end subroutine make_beam
-
-    !> The links as they are under axial forces
-    pure subroutine feel_tension(ground, mesh, beam)
-        type(ground_type), intent(in) :: ground
-        type(mesh_type), intent(in) :: mesh
-        type(beam_type), intent(inout) :: beam
-        integer :: i
-
-        allocate (beam%ground(size(mesh%piece)))
-        do i = 1, size(mesh%piece)
-            associate (j => mesh%piece(i), from => mesh%from(i), to => mesh%to(i), piece => ground%pieces(mesh%piece(i)))
-                call condense_both(stretch_between(piece, from, to), &
-                                   load_between(ground%dead(j), from, to, piece%length), &
-                                   load_between(ground%live(j), from, to, piece%length), beam%links(i), beam%ground(i))
-            end associate
-        end do
-    end subroutine feel_tension
 
 end module gapbeam_ground_nodes

@@ -5,7 +5,8 @@ module gapbeam_rigid_places
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_zone_fields, only: ends_of, fields_at_ends
-    use gapbeam_ground, only: ground_type, combined_load
+    use gapbeam_ground, only: ground_type
+    use gapbeam_stretch_loads, only: combined_load
     use gapbeam_rigid_contact, only: contact_type, level_of, slope_of, place_at_node, binding_layer
     use gapbeam_rigid_state, only: rigid_type, hold_at, add, straightened
     implicit none
@@ -69,7 +70,7 @@ contains
 
         associate (z => rigid%zones, j => rigid%zones%piece(i), s => rigid%grounded%stretches(i), &
                    load => combined_load(rigid%grounded%dead(i), rigid%grounded%live(i), rigid%factor))
-            ends = ends_of(rigid%work, i)
+            ends = ends_of(rigid%grounded, rigid%factor, rigid%work, i)
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (side => ground%layers(k)%side)
                     if (z%from(i) <= 0.0_wp) call stop_at_node(ground, rigid, j - 1, i - 1, side)

@@ -4,7 +4,8 @@ module gapbeam_rigid_state
     use gapbeam_tolerances, only: rigid_noise
     use gapbeam_workspace, only: workspace_type
     use gapbeam_ground_laws, only: along
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type
+    use gapbeam_stretch_loads, only: combined_load
     use gapbeam_rigid_contact, only: contact_type, hold_type, place_at_node, binding_layer
     implicit none
     private

@@ -4,19 +4,20 @@ module gapbeam_zone_fields
     use gapbeam_tolerances, only: straight_field
     use gapbeam_foundation_stretch, only: without_slip
     use gapbeam_foundation_taylor, only: shear_of
-    use gapbeam_foundation, only: stretch_ends_type
+    use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: is_curve, has_curves
     use gapbeam_ground_laws, only: take_curves
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type
+    use gapbeam_stretch_loads, only: combined_load
     implicit none
     private
     public :: ends_of, fields_at_ends, take_curved, take_fields, way_of_fields
 
 contains
 
-    !> Rotations and shears at the two ends of a stretch of a solved beam
+    !> Rotations and shears at the two ends of a stretch of a solved beam, inside what is imposed there
     pure subroutine fields_at_ends(grounded, factor, work, i, rotation, shear)
         type(grounded_type), intent(in) :: grounded
         real(wp), intent(in) :: factor
@@ -25,6 +26,7 @@ contains
         integer, intent(in) :: i
         real(wp), intent(out) :: rotation(2), shear(2)
         real(wp) :: transverse(2)
+        type(stretch_load_type) :: load
 
         associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
             rotation(1) = -g%pa*a%deflection + g%p1*b%deflection + g%faa*a%moment_right + g%fab*b%moment_left &
@@ -36,18 +38,23 @@ contains
             transverse(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
                 + (link%shear_b(1) + factor*link%shear_b(2))
         end associate
+        load = combined_load(grounded%dead(i), grounded%live(i), factor)
+        rotation = rotation + [load%kink_a, -load%kink_b]
         shear = shear_of(grounded%stretches(i), [0.0_wp, 1.0_wp], rotation, transverse)
     end subroutine fields_at_ends
 
-    !> Values at the ends of a stretch of a solved beam
-    pure function ends_of(work, i) result(ends)
+    !> Values at the ends of a stretch of a solved beam, inside couples there
+    pure function ends_of(grounded, factor, work, i) result(ends)
+        type(grounded_type), intent(in) :: grounded
+        real(wp), intent(in) :: factor
         type(workspace_type), intent(in) :: work
         !> Number of the stretch
         integer, intent(in) :: i
         type(stretch_ends_type) :: ends
 
-        associate (a => work%answers(i - 1), b => work%answers(i))
-            ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right, b%moment_left)
+        associate (a => work%answers(i - 1), b => work%answers(i), &
+                   load => combined_load(grounded%dead(i), grounded%live(i), factor))
+            ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right + load%couple_a, b%moment_left - load%couple_b)
         end associate
     end function ends_of
 
@@ -74,9 +81,9 @@ contains
             call fields_at_ends(grounded, factor, work, i, rotation, shear)
             curved%stretch = s
             curved%load = combined_load(grounded%dead(i), grounded%live(i), factor)
-            associate (a => work%answers(i - 1), b => work%answers(i))
-                curved%left = [without_slip(s, 0.0_wp, a%deflection, a%moment_right), rotation(1), a%moment_right, shear(1)]
-                curved%right = [without_slip(s, 1.0_wp, b%deflection, b%moment_left), rotation(2), b%moment_left, shear(2)]
+            associate (at => ends_of(grounded, factor, work, i))
+                curved%left = [without_slip(s, 0.0_wp, at%w_a, at%moment_a), rotation(1), at%moment_a, shear(1)]
+                curved%right = [without_slip(s, 1.0_wp, at%w_b, at%moment_b), rotation(2), at%moment_b, shear(2)]
             end associate
         end associate
     end subroutine take_curved
@@ -98,8 +105,8 @@ contains
             if (from_right) from_right = zones%piece(i - 1) == zones%piece(i) &
                 .and. grounded%stretches(i - 1)%length > grounded%stretches(i)%length
             call fields_at_ends(grounded, factor, work, merge(i - 1, i, from_right), rotation, shear)
-            associate (a => work%answers(i - 1), s => grounded%stretches(i), end => merge(2, 1, from_right))
-                fields(:, i) = [without_slip(s, 0.0_wp, a%deflection, a%moment_right), rotation(end), a%moment_right, shear(end)]
+            associate (at => ends_of(grounded, factor, work, i), s => grounded%stretches(i), end => merge(2, 1, from_right))
+                fields(:, i) = [without_slip(s, 0.0_wp, at%w_a, at%moment_a), rotation(end), at%moment_a, shear(end)]
             end associate
         end do
     end subroutine take_fields

@@ -15,7 +15,8 @@ module gapbeam_zone_margin
     use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_workspace, only: workspace_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, combined_load
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type
+    use gapbeam_stretch_loads, only: combined_load
     use gapbeam_zone_fields, only: ends_of, take_curved
     implicit none
     private
@@ -105,7 +106,7 @@ contains
 
         call take_curved(ground, grounded, zones, factor, work, i, curved)
         load = combined_load(grounded%dead(i), grounded%live(i), factor)
-        ends = ends_of(work, i)
+        ends = ends_of(grounded, factor, work, i)
         first = min(1.0_wp, max(0.0_wp, (change%from - left)/grounded%stretches(i)%length))
         last = min(1.0_wp, max(first, (change%to - left)/grounded%stretches(i)%length))
         call evaluate_at(first, before)

@@ -11,7 +11,7 @@
 !> The position of a train is that of its first axle. All loads of the beam stay, dead and live ones in full
 module gapbeam_api_trains
     use gapbeam_kinds, only: wp
-    use gapbeam_assemble_loads, only: is_alone
+    use gapbeam_assembled_model, only: is_alone
     use gapbeam_piece, only: is_tapered
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
@@ -74,13 +74,11 @@ contains
             if (allocated(beam%lowered%beam%turning)) then
                 call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
                     "at a hinge is not available under a train in this version")
-            else if (any(is_alone(beam%lowered%model%loads))) then
-                call bad_argument(error, "beam", "a support that is turned, a couple at a hinge, or a curvature that "// &
-                    "changes along the beam is not available under a train in this version")
             else if (.not. allocated(beam%lowered%layers) .and. (any(is_tapered(beam%lowered%pieces)) &
-                                                                 .or. any(beam%lowered%joint > 0.0_wp))) then
-                call bad_argument(error, "beam", "a section that tapers, or a hinge with a stiffness, under a train asks for "// &
-                    "with_trains of the model")
+                                                                 .or. any(beam%lowered%joint > 0.0_wp) &
+                                                                 .or. any(is_alone(beam%lowered%model%loads)))) then
+                call bad_argument(error, "beam", "a section that tapers, a hinge with a stiffness, a support that is turned, a "// &
+                    "couple at a hinge or a curvature that changes along the beam under a train asks for with_trains of the model")
             end if
         end if
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)

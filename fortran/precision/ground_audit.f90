@@ -9,6 +9,7 @@ module gapbeam_ground_audit
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_nodes, only: hinge, restrained
     use gapbeam_element, only: field_type
+    use gapbeam_piece, only: piece_load_type, combine_loads, no_load
     use gapbeam_taper, only: softness_at
     use gapbeam_foundation_stretch, only: tension_at
     use gapbeam_foundation_taylor, only: transverse_of
@@ -131,6 +132,7 @@ contains
         !> Forces, moments, rotations, supports and restraint of node j, and of all that acts on its part of the beam left of it
         subroutine audit_node()
             type(field_type) :: a, b
+            type(piece_load_type) :: at_left, at_right
             real(wp) :: load, couple, turn, up, up_size, at, terms, before, after
             integer :: piece, s
             logical :: inside
@@ -147,6 +149,16 @@ contains
             if (j > 0) before = force_at_end(solution, i - 1, 2)
             if (i <= m) b = field_at_end(solution, i, 1)
             if (i <= m) after = force_at_end(solution, i, 1)
+            ! What is imposed beside the node is between the ends of the pieces and the node
+            at_left = no_load
+            at_right = no_load
+            if (j > 0) at_left = combine_loads(ground%dead(j), ground%live(j), factor)
+            if (i <= m) at_right = combine_loads(ground%dead(j + 1), ground%live(j + 1), factor)
+            a%rotation = a%rotation + at_left%kink_b
+            b%rotation = b%rotation - at_right%kink_a
+            a%moment = a%moment + at_left%couple_b
+            b%moment = b%moment - at_right%couple_a
+            call pass_couple(at_left%couple_b)
             associate (w => solution%deflection(j), left => solution%moment_left(j), right => solution%moment_right(j), &
                        beam => ground%beam)
                 call fits(of_bending, deflections, a%deflection - w, sizes%deflection)
@@ -169,7 +181,9 @@ contains
                     call audit_support(beam%order(s))
                 end do
                 call fits(of_equilibrium, forces, (after - before) - (up - load), sizes%shear + up_size)
-                terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j))
+                terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j)) &
+                    + abs(at_left%couple_b) + abs(at_right%couple_a)
+                sizes%rotation = sizes%rotation + abs(at_left%kink_b) + abs(at_right%kink_a)
                 select case (beam%kind(j))
                 case (hinge)
                     call fits(of_equilibrium, moments, max(abs(left), abs(right)), sizes%moment)
@@ -196,8 +210,17 @@ contains
                     part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
                                      part%moment_size + abs(left) + abs(right))
                 end if
+                call pass_couple(at_right%couple_a)
             end associate
         end subroutine audit_node
+
+        !> A couple just inside the end of a piece acts on the part
+        subroutine pass_couple(couple)
+            real(wp), intent(in) :: couple
+
+            part%moment = part%moment + couple
+            part%moment_size = part%moment_size + abs(couple)
+        end subroutine pass_couple
 
         !> Note what is left over at node j
         subroutine fits(what, kind, left_over, sizes)

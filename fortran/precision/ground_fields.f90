@@ -224,13 +224,13 @@ contains
                 square = min(square, 1/sqrt(s%modulus_a)/sqrt(f))
             end if
             sizes%deflection = max(abs(ends%w_a), abs(ends%w_b)) &
-                + square*(f*(moment + square*q) + abs(load%kappa)) + g*(moment + square*q)
+                + square*(f*(moment + square*q) + abs(load%kappa) + abs(load%rise)) + g*(moment + square*q)
             sizes%rotation = maxval(abs(solution%rotation(:, i)))
             sizes%moment = moment + square*(q + modulus*sizes%deflection)
             sizes%shear = maxval(abs(solution%shear(:, i))) + abs(greatest_tension(s))*(sizes%rotation + sizes%deflection/s%length)
             bent = sizes%moment
             if (f > 0.0_wp) then
-                bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa))/f
+                bent = bent + ((sizes%rotation + sizes%deflection/s%length)/s%length + abs(load%kappa) + abs(load%rise))/f
             end if
             least%deflection = lost_digits*s%length*sizes%rotation
             least%rotation = lost_digits*(sizes%deflection/s%length + g*sizes%shear)

@@ -12,7 +12,8 @@ module gapbeam_ground_solution
     use gapbeam_layers_quad, only: fine_law_piece_type => law_piece_type, law_piece, is_curve
     use gapbeam_ground_laws_quad, only: contact_line, slope_of_layer, offset_of_layer
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, combined_load
+        fine_grounded_type => grounded_type
+    use gapbeam_stretch_loads_quad, only: combined_load
     use gapbeam_zone_fields_quad, only: ends_of, fields_at_ends, take_curved
     use gapbeam_curved_quad, only: curved_type, advance_curved, curved_fields
     use gapbeam_laws_quad, only: law_force
@@ -45,8 +46,7 @@ module gapbeam_ground_solution
         real(wp), allocatable :: resultant(:, :)
         !> Of rigid ground, not allocated where there is none: pressure at both ends of every stretch, up, shape (2, m), and point
         !> forces, up, at the right end of every stretch, at the beam's left end for 0, and which layer it is, 0: none; shape (0:m)
-        real(wp), allocatable :: pressure(:, :)
-        real(wp), allocatable :: push(:)
+        real(wp), allocatable :: pressure(:, :), push(:)
         integer, allocatable :: pushing(:)
         !> At the nodes of the beam, shape (0:n)
         real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:)
@@ -83,9 +83,9 @@ contains
         type(fine_stretch_type) :: stretch
         type(fine_ends_type) :: ends
         type(fine_stretch_load_type) :: load
-        real(qp), allocatable :: margin(:), rounding(:)
         type(curved_type), allocatable :: curved
         real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
+        real(qp), dimension(size(closed)) :: margin, rounding
         integer :: i, k, m
 
         m = size(zones%piece)
@@ -100,7 +100,7 @@ contains
         do i = 1, m
             call drop_rounding(grounded, i, work)
             stretch = grounded%stretches(i)
-            ends = ends_of(work, i)
+            ends = ends_of(grounded, factor, work, i)
             load = combined_load(grounded%dead(i), grounded%live(i), factor)
             call fields_at_ends(grounded, factor, work, i, field(:, 1), field(:, 2))
             call drop_small(grounded, factor, work, i, field)
@@ -122,7 +122,6 @@ contains
             solution%shear(:, i) = real(field(:, 2), wp)
             solution%force(:, i) = real(transverse_of(stretch, [0.0_qp, 1.0_qp], field(:, 1), field(:, 2)), wp)
         end do
-        allocate (margin(size(closed)), rounding(size(closed)))
         call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
                           margin, rounding)
         do k = 1, size(closed)
@@ -158,8 +157,8 @@ contains
         s = stretch
         q = load
         ways = [way, way + (length - s%length)]
+        if (all(abs(ways) <= fine_rounding*length)) return
         where (abs(ways) <= fine_rounding*length) ways = 0.0_qp
-        if (.not. any(abs(ways) > 0.0_qp)) return
         call go(ways(1), 0.0_qp, s%modulus_a, q%qa - by_curves(.true.), ends%w_a, ends%moment_a, field(1, :))
         call go(ways(2), 1.0_qp, s%modulus_b, q%qb - by_curves(.false.), ends%w_b, ends%moment_b, field(2, :))
         share = [ways(1), s%length + ways(2)]/s%length
@@ -168,6 +167,8 @@ contains
         load%qa = q%qa + share(1)*(q%qb - q%qa + q%qc*(1 - share(1)))
         load%qb = q%qa + share(2)*(q%qb - q%qa + q%qc*(1 - share(2)))
         load%qc = q%qc*(length/s%length)**2
+        load%kappa = q%kappa + share(1)*q%rise
+        load%rise = (share(2) - share(1))*q%rise
         if (.not. allocated(curved)) return
         curved%stretch = stretch
         curved%load = load
@@ -200,12 +201,13 @@ contains
             !> How far, from which end of the stretch: 0 or 1
             real(qp), intent(in) :: way, xi, modulus, pressure
             real(qp), intent(inout) :: w, moment, turn_and_shear(2)
-            real(qp) :: gain(4), softness(2)
+            real(qp) :: gain(4), softness(2), bent
 
             softness(:) = softness_in(s, xi)
             associate (psi => turn_and_shear(1), shear => turn_and_shear(2))
-                gain = way*[psi + softness(2)*shear, q%kappa - softness(1)*moment, shear, &
-                            (modulus*w - pressure - tension_at(s, xi)*(q%kappa - softness(1)*moment) &
+                bent = q%kappa + xi*q%rise - softness(1)*moment
+                gain = way*[psi + softness(2)*shear, bent, shear, &
+                            (modulus*w - pressure - tension_at(s, xi)*bent &
                              - s%tension_change/s%length*psi)/stretched_shear(s)]
                 w = w + gain(1)
                 psi = psi + gain(2)
@@ -222,17 +224,15 @@ contains
         !> Stretches, most layers under one, pieces of the beam, supports
         integer, intent(in) :: stretches, layers, pieces, supports
         type(ground_solution_type) :: empty
-        integer :: solves
 
-        solves = solution%solves
+        empty%solves = solution%solves
         solution = empty
-        solution%solves = solves
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
-                  solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), &
-                  solution%slope(stretches), solution%rotation(2, stretches), solution%shear(2, stretches), &
-                  solution%force(2, stretches), solution%resultant(layers, stretches), solution%steps(pieces))
-        allocate (solution%deflection(0:pieces), solution%moment_left(0:pieces), solution%moment_right(0:pieces), &
-                  solution%reaction(supports), solution%undecided(supports))
+                  solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), solution%slope(stretches), &
+                  solution%rotation(2, stretches), solution%shear(2, stretches), solution%force(2, stretches), &
+                  solution%resultant(layers, stretches), solution%steps(pieces), solution%deflection(0:pieces), &
+                  solution%moment_left(0:pieces), solution%moment_right(0:pieces), solution%reaction(supports), &
+                  solution%undecided(supports))
     end subroutine make_room
 
     !> Moments that are nothing but rounding beside what the stretch right of them could make are zero

@@ -360,7 +360,7 @@ contains
             real(wp) :: rotation(2), shear(2)
 
             call rough_fields_at_ends(grounded, factor, work, stretch, rotation, shear)
-            ends = rough_ends_of(work, stretch)
+            ends = rough_ends_of(grounded, factor, work, stretch)
             if (at_right) then
                 before = [ends%w_b, rotation(2), ends%moment_b, shear(2)]
             else

@@ -2,7 +2,7 @@
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
     use gapbeam_tolerances, only: min_tied_zone, least_tied_share, no_tied_force
-    use gapbeam_piece_quad, only: greatest_softness
+    use gapbeam_piece_quad, only: piece_load_type, combine_loads, greatest_softness
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
@@ -90,6 +90,7 @@ contains
         real(qp), intent(in) :: factor
         real(qp), intent(out) :: force, way
         real(qp) :: length, kappa, bent, modulus, soft(2, size(ground%pieces))
+        type(piece_load_type) :: load
         integer :: j
 
         length = sum(ground%pieces%length)
@@ -100,9 +101,11 @@ contains
         do j = 1, size(ground%pieces)
             associate (dead => ground%dead(j), live => ground%live(j))
                 force = force + ground%pieces(j)%length*max(abs(dead%qa + factor*live%qa), abs(dead%qb + factor*live%qb))
-                kappa = max(kappa, abs(dead%kappa + factor*live%kappa))
+                load = combine_loads(dead, live, factor)
+                kappa = max(kappa, abs(load%kappa) + abs(load%rise) + max(abs(load%kink_a), abs(load%kink_b))/length)
+                force = force + (abs(load%couple_a) + abs(load%couple_b))/length
                 soft(:, j) = greatest_softness(ground%pieces(j))
-                if (soft(1, j) > 0.0_qp) bent = max(bent, abs(dead%kappa + factor*live%kappa)/(soft(1, j)*length))
+                if (soft(1, j) > 0.0_qp) bent = max(bent, (abs(load%kappa) + abs(load%rise))/(soft(1, j)*length))
             end associate
         end do
         ! The first parameter of a law that is not by points is its stiffness

@@ -101,12 +101,13 @@ contains
                                tension_change=real(fine%tension_change, wp), taper=real(fine%taper, wp), power=fine%power)
     end function rounded_stretch
 
-    !> Its load
+    !> The load along it
     elemental function rounded_load(fine) result(load)
         type(fine_stretch_load_type), intent(in) :: fine
         type(stretch_load_type) :: load
 
-        load = stretch_load_type(real(fine%qa, wp), real(fine%qb, wp), real(fine%qc, wp), real(fine%kappa, wp))
+        load = stretch_load_type(qa=real(fine%qa, wp), qb=real(fine%qb, wp), qc=real(fine%qc, wp), kappa=real(fine%kappa, wp), &
+                                 rise=real(fine%rise, wp))
     end function rounded_load
 
     !> What is at its ends

@@ -5,7 +5,7 @@
 module gapbeam_stretch_audit
     use gapbeam_kinds, only: wp
     use gapbeam_element, only: field_type
-    use gapbeam_piece, only: is_tapered, greatest_softness
+    use gapbeam_piece, only: is_tapered, greatest_softness, curvature_at
     use gapbeam_taper, only: part_of_piece, softness_at
     use gapbeam_layers, only: pieces_of_law, is_curve
     use gapbeam_ground_laws, only: along, distance_to_breakpoint, push_of_layer
@@ -92,10 +92,10 @@ contains
                     call integrate()
                     if (abs(s%tension_change) > 0.0_wp) pull = l*pulled
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
-                              abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa)))
+                              abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa) + abs(load%rise)))
                     call fits(of_bending, deflections, (right%deflection - left%deflection) - l*(left%rotation + l*bent(2)) &
                               - merge(l*slid, g*(right%moment - left%moment), ground%pieces(j)%shear_power > 0), &
-                              wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa))) &
+                              wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa) + abs(load%rise))) &
                               + g*(abs(right%moment) + abs(left%moment)))
                     call fits(of_equilibrium, forces, (push(2) - push(1)) - l*pressed(1), sum(abs(push)) + sizes%shear &
                               + l*(sum(terms(:n)) + qsize))
@@ -185,7 +185,7 @@ contains
                             total = total + push
                         end do
                         if (is_tapered(ground%pieces(j))) here(:) = softness_at(ground%pieces(j), place)
-                        curvature = load%kappa - here(1)*field%moment
+                        curvature = curvature_at(load, place, ground%pieces(j)%length) - here(1)*field%moment
                         slid = slid + weights(t)*here(2)*field%shear
                         pulled = pulled + weights(t)*tension_at(solution%stretches(i), points(t))*field%rotation
                         bent = bent + weights(t)*curvature*[1.0_wp, 1 - points(t)]
@@ -217,10 +217,10 @@ contains
                     here(:) = softness_at(ground%pieces(j), solution%to(i))
                     y(1) = y(1) + here(2)*y(3)
                     slope = abs(left%rotation) + abs(soft(2)*left%shear)
-                    call fits(of_bending, deflections, right%deflection - y(1), wsize + l*(slope + l*(soft(1)*msize &
-                                                                                                     + abs(load%kappa))))
+                    call fits(of_bending, deflections, right%deflection - y(1), wsize + l*(slope &
+                              + l*(soft(1)*msize + abs(load%kappa) + abs(load%rise))))
                     call fits(of_bending, rotations, right%rotation - y(2), abs(right%rotation) + slope &
-                              + l*(soft(1)*msize + abs(load%kappa)))
+                              + l*(soft(1)*msize + abs(load%kappa) + abs(load%rise)))
                     call fits(of_equilibrium, moments, right%moment - y(3), msize + l*(abs(left%shear) + l*(sum(terms) + qsize)))
                     call fits(of_equilibrium, forces, right%shear - y(4), abs(left%shear) + abs(right%shear) &
                               + l*(sum(terms) + qsize))

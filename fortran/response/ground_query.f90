@@ -4,7 +4,7 @@ module gapbeam_ground_query
     use gapbeam_tolerances, only: same_extreme
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, combine_loads
-    use gapbeam_piece, only: is_tapered
+    use gapbeam_piece, only: is_tapered, curvature_at
     use gapbeam_fields, only: bending_values
     use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived
     use gapbeam_foundation, only: stretch_ends_type
@@ -167,7 +167,7 @@ contains
                     end do
                 end do
             end do
-            if (.not. is_tapered(assembled%pieces(solution%piece(i)))) cycle
+            if (.not. (is_tapered(assembled%pieces(solution%piece(i))) .or. abs(load%rise) > 0.0_wp)) cycle
             ! There the curvature is not a multiple of the moment
             call peaks_in(solution, i, slope_of_curvature, 0.0_wp, curved, xi, number)
             do j = 1, number
@@ -187,7 +187,9 @@ contains
             real(wp) :: all_of_them(bending_count), value, place
 
             place = along(solution%from(i), solution%to(i), at, 1.0_wp)
-            all_of_them(:) = bending_values(field, assembled%pieces(solution%piece(i)), load%kappa, place)
+            associate (piece => assembled%pieces(solution%piece(i)))
+                all_of_them(:) = bending_values(field, piece, curvature_at(load, place, piece%length), place)
+            end associate
             value = all_of_them(k)
             if (value > values(1, k) + same_extreme*abs(values(1, k))) then
                 values(1, k) = value

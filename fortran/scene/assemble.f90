@@ -10,7 +10,7 @@ module gapbeam_assemble
     use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_movement, gapbeam_dead, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
-    use gapbeam_axial_force, only: in_stretches, what_stretches, check_axial_force, check_masses, axial_loads_may_bend
+    use gapbeam_axial_force, only: check_axial_force, check_masses, axial_loads_may_bend
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
@@ -326,9 +326,6 @@ contains
             associate (n => size(assembled%model%loads))
                 if (.not. is_hinge(point)) then
                     call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
-                else if (in_stretches(assembled%model)) then
-                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "beside "//trim(what_stretches(assembled%model))// &
-                                " it is not available in this version; put the couple on one side of the hinge")
                 end if
             end associate
         end subroutine check_couple

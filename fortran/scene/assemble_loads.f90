@@ -5,10 +5,11 @@ module gapbeam_assemble_loads
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_piece, only: is_tapered
     use gapbeam_range, only: first_lost_link
+    use gapbeam_axial_force, only: in_stretches
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_curvature, gapbeam_linear_curvature, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_dead
+        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_dead
     use gapbeam_fingerprint, only: fingerprint
-    use gapbeam_assembled_model, only: assembled_type, is_along, is_movement, is_stretch
+    use gapbeam_assembled_model, only: assembled_type, is_along, is_movement, is_stretch, is_beside_point
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_assemble_axial, only: assemble_axial
     use gapbeam_assemble_foundations, only: assemble_foundations
@@ -17,7 +18,7 @@ module gapbeam_assemble_loads
     use gapbeam_input_error, only: refuse, of_loads, bad_load
     implicit none
     private
-    public :: assemble_loads, find_loaded, put_load, is_alone
+    public :: assemble_loads, find_loaded, put_load
 
 contains
 
@@ -68,6 +69,7 @@ contains
         do k = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(k), point => assembled%support_point)
                 if (load%kind == gapbeam_linear_curvature) then
+                    if (in_stretches(assembled%model)) cycle
                     if (.not. any(is_tapered(assembled%pieces(assembled%load_from(k) + 1:assembled%load_to(k))))) cycle
                     call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, "value_to", "a curvature that "// &
                                 "changes along a section that tapers is not available in this version; give short ones")
@@ -142,23 +144,7 @@ contains
         end if
     end subroutine add_to_piece
 
-    !> Does a load act on the ends of the pieces beside a point: a rotation of a support, a couple on one side of a hinge
-    elemental function is_beside_point(load) result(yes)
-        type(load_type), intent(in) :: load
-        logical :: yes
-
-        yes = any(load%kind == [gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right])
-    end function is_beside_point
-
-    !> Is a load such a one, or a curvature that changes along the beam: cases with those are solved one by one, trains refused
-    elemental function is_alone(load) result(yes)
-        type(load_type), intent(in) :: load
-        logical :: yes
-
-        yes = is_beside_point(load) .or. load%kind == gapbeam_linear_curvature
-    end function is_alone
-
-    !> Put such a load on the pieces beside its point
+    !> Put a load that acts on the ends of the pieces beside its point on these
     pure subroutine put_beside(load, point, piece_loads)
         type(load_type), intent(in) :: load
         integer, intent(in) :: point

@@ -7,15 +7,15 @@ module gapbeam_assembled_model
     use gapbeam_model, only: beam_type, node_support_type
     use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
         gapbeam_linear_curvature, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, &
-        gapbeam_support_rotation, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_rotational, gapbeam_relative, &
-        gapbeam_rotational_left, gapbeam_rotational_right
+        gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_force, gapbeam_axial_distributed, &
+        gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_stations, only: place_span_ends
     use gapbeam_units, only: units_type, rotation_unit, moment_unit
     implicit none
     private
     public :: in_bending, in_shear, along_axis, axial_force_in, kinds
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, is_stretch, &
-        is_along, is_movement, is_of_support, point_x, piece_length, find_length_errors
+        is_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, piece_length, find_length_errors
 
     !> What spans and sections give: EI, GA, EA, and the axial force in bending
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3, axial_force_in = 4, kinds = 4
@@ -177,6 +177,23 @@ contains
 
         yes = any(load%kind == [gapbeam_axial_force, gapbeam_axial_distributed])
     end function is_along
+
+    !> Does a load act on the ends of the pieces beside a point: a rotation of a support, a couple on one side of a hinge
+    elemental function is_beside_point(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = any(load%kind == [gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right])
+    end function is_beside_point
+
+    !> Is a load such a one, or a curvature that changes along the beam: cases with those are solved one by one, and influence lines
+    !> of cubic pieces do not know them
+    elemental function is_alone(load) result(yes)
+        type(load_type), intent(in) :: load
+        logical :: yes
+
+        yes = is_beside_point(load) .or. load%kind == gapbeam_linear_curvature
+    end function is_alone
 
     !> Does a load move something, a support or a foundation
     elemental function is_movement(load) result(yes)

@@ -11,7 +11,6 @@ module gapbeam_check
         gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_axial_distributed, gapbeam_linear_curvature, gapbeam_live, gapbeam_dead
     use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns
-    use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_limits, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
@@ -227,7 +226,7 @@ contains
             .or. any(model%sections%friction > 0.0_wp)
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
-                call check_load(load, model, here, ends, held, error)
+                call check_load(load, here, ends, held, error)
                 if (allocated(error)) return
                 if (is_movement(load) .or. is_of_support(load)) call check_movement(model, load, here, error)
             end associate
@@ -236,9 +235,8 @@ contains
     end subroutine check_loads
 
     !> One load
-    pure subroutine check_load(load, model, here, ends, axially_held, error)
+    pure subroutine check_load(load, here, ends, axially_held, error)
         type(load_type), intent(in) :: load
-        type(model_type), intent(in) :: model
         type(entry_type), intent(in) :: here
         real(wp), intent(in) :: ends(0:)
         !> Does anything hold the beam along its axis
@@ -266,9 +264,6 @@ contains
         else if (any(load%kind == [gapbeam_distributed, gapbeam_temperature, gapbeam_ground_movement, gapbeam_linear_curvature]) &
                  .and. .not. abs(load%value_to) <= huge(1.0_wp)) then
             call refuse_number(error, here, "value_to", load%value_to, "a finite number")
-        else if (load%kind == gapbeam_linear_curvature .and. in_stretches(model)) then
-            call refuse_entry(error, here, "value_to", bad_load, "a curvature that changes along the beam beside "// &
-                            trim(what_stretches(model))//" is not available in this version; give short stretches of one curvature")
         else if (is_along(load) .and. .not. axially_held) then
             call refuse_entry(error, here, "", not_held, &
                               "nothing holds the beam along its axis; give a support with direction 1 (axial), or friction")
@@ -312,9 +307,6 @@ contains
             if (.not. s%rotation > 0.0_wp) then
                 call refuse_entry(error, here, "support", bad_load, "it leaves the rotation of the beam free, so it cannot "// &
                                   "turn it; make its rotation fixed, or give it a stiffness")
-            else if (in_stretches(model)) then
-                call refuse_entry(error, here, "rotation", bad_load, "beside "//trim(what_stretches(model))// &
-                                  " no support is turned in this version")
             end if
         end associate
     end subroutine check_rotation

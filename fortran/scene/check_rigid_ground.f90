@@ -4,10 +4,10 @@ module gapbeam_check_rigid_ground
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_scene, only: gapbeam_normal, gapbeam_unchanged
-    use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear
+    use gapbeam_scene, only: gapbeam_normal, gapbeam_unchanged, gapbeam_linear_curvature
+    use gapbeam_assembled_model, only: assembled_type, is_alone, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of
-    use gapbeam_input_error, only: refuse, of_sections, of_supports, of_foundations, bad_law
+    use gapbeam_input_error, only: refuse, of_sections, of_supports, of_foundations, of_loads, bad_law, bad_load
     implicit none
     private
     public :: check_rigid_ground, is_on_rigid_ground
@@ -41,6 +41,15 @@ contains
         do s = 1, size(assembled%model%sections)
             call check_section(assembled, s, error)
             if (allocated(error)) return
+        end do
+        do k = 1, size(assembled%model%loads)
+            associate (load => assembled%model%loads(k))
+                if (.not. is_alone(load)) cycle
+                call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, merge("value_to", "rotation", &
+                            load%kind == gapbeam_linear_curvature), "a support that is turned, a couple at a hinge, or a "// &
+                            "curvature that changes along the beam is not available over rigid ground; give the ground a stiffness")
+                return
+            end associate
         end do
         do j = 1, size(assembled%pieces)
             if (assembled%layer_first(j + 1) > assembled%layer_first(j)) call check_piece(assembled, j, error)

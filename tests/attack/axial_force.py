@@ -34,6 +34,8 @@ def draw_scene(seed):
     made = draw_of(kind, rng, seed)
     if made["beam"].get("hinges") and rng.random() < 0.4:  # what is stiffer is as stable
         made = with_joints(rng, made)
+    if rng.random() < 0.5:
+        made = drawn.with_imposed(rng, made)
     return kind, made
 
 

@@ -132,6 +132,7 @@ class Beam:
         self.one_sided = [i for i, s in enumerate(self.supports) if s.side]
         self.masses = [(self.place(m), mp.mpf(m["mass"])) for m in scene.get("masses", [])]
         self.forces, self.couples, spread = [], [], []
+        self.turned = {}  # rotation of a support, by its place in the scene
         for load in scene.get("loads", []):
             factor = mp.mpf(1 if load.get("case") == "dead" else load_factor)
             kind = load["type"]
@@ -139,6 +140,8 @@ class Beam:
                 self.forces.append((self.place(load), factor * mp.mpf(load["F"])))
             elif kind == "moment":
                 self.couples.append((self.place(load), factor * mp.mpf(load["M"]), load.get("at_hinge")))
+            elif kind == "movement" and load.keys() <= {"type", "support", "rotation", "case"}:
+                self.turned[load["support"]] = self.turned.get(load["support"], 0) + factor * mp.mpf(load["rotation"])
             elif kind in ("uniform", "linear", "curvature"):
                 ends = [factor * v for v in pair(load["kappa" if kind == "curvature" else "q"])]
                 spread.append((*self.extent(load), "kappa" if kind == "curvature" else "q", ends))

@@ -135,7 +135,11 @@ class System:
                     row[("C", i)] = one  # couple on the beam, clockwise
                     self.columns.append(("C", i))
                     psi = (left if at == "left" else right)[1]
-                    self.rows.append({psi: one} if mp.isinf(s.rotation) else {psi: s.rotation, ("C", i): one})
+                    turned = beam.turned.get(i, mp.mpf(0))
+                    row_of = {psi: one, "load": turned}
+                    if not mp.isinf(s.rotation):
+                        row_of = {psi: s.rotation, ("C", i): one, "load": s.rotation * turned}
+                    self.rows.append(row_of)
             self.rows.append(row)
         for end, state in ((0, left), (len(beam.marks) - 1, right)):
             if j == end:

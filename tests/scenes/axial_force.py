@@ -148,6 +148,37 @@ def _load(rng, made, length, size, EI):
     return curvature(digits(F * length / EI / 30), **case)
 
 
+def with_imposed(rng, made):
+    """The scene with rotations imposed on supports, couples beside hinges and curvatures that change, of the size of its loads.
+
+    Parameters
+    ----------
+    rng : random.Random
+    made : dict
+
+    Returns
+    -------
+    dict
+        A new one.
+    """
+    beam, length = made["beam"], nodes_of(made)[-1]
+    EI = max(beam["EI"]) if isinstance(beam["EI"], list) else beam["EI"]
+    F = max([abs(load.get("F", 0.0)) for load in made["loads"]] + [1e-9 * EI / length**2])
+    loads = list(made["loads"])
+    for k, support in enumerate(made["supports"]):
+        alone = sum(place(made, other) == place(made, support) for other in made["supports"]) == 1
+        if "rotation" in support and alone and rng.random() < 0.8:
+            turn = {"type": "movement", "support": k, "rotation": digits(F * length**2 / EI * rng.uniform(-0.1, 0.1))}
+            loads.append(turn | rng.choice(({}, {"case": "dead"})))
+    for x in beam.get("hinges", ()):
+        sides = [side for side in ("left", "right") if rng.random() < 0.6]
+        loads += [moment(x, digits(F * length * rng.uniform(-0.2, 0.2)), at_hinge=side) for side in sides]
+    if rng.random() < 0.7:
+        ends = [digits(F * length / EI * rng.uniform(-0.1, 0.1)) for _ in range(2)]
+        loads.append({"type": "curvature", "kappa": ends, **(stretch(*part(rng, length)) if rng.random() < 0.6 else {})})
+    return made | {"loads": loads}
+
+
 def _compressed(rng, made, share):
     """Some spans compressed, and all N scaled to a part of the first buckling factor."""
     beam, count = made["beam"], len(made["beam"]["spans"])

@@ -54,15 +54,6 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
     if which_turn(scene.supports).any():
         what = "a restraint or hinge with a law, a slack or a side, or a restraint at a hinge,"
         raise SceneError("supports", f"{what} under trains is not available in this version; leave one of them out")
-    for k, load in enumerate(scene.loads):
-        if getattr(load, "at_hinge", None):
-            what = "a couple at a hinge under trains is not available in this version; put it on one side of the hinge"
-            raise SceneError(f"loads[{k}].at_hinge", what)
-        if isinstance(getattr(load, "kappa", None), tuple) and load.kappa[0] != load.kappa[1]:
-            what = "a curvature that changes along the beam under trains is not available in this version; give short stretches"
-            raise SceneError(f"loads[{k}].kappa", what)
-        if getattr(load, "rotation", None) is not None:
-            raise SceneError(f"loads[{k}].rotation", "a support that is turned under trains is not available in this version")
     if beam.depends_on_path:
         refuse_movements(scene, "a support cannot be moved by a load under trains")
         if beam.has_links_along:
@@ -129,7 +120,7 @@ def _refuse_beyond_bounds(result: Result) -> None:
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation, and with an axial force that bending feels."""
     forced = "axial loads that bend it" if beam.feels_axial_loads else "an axial force N"
-    rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over tapers or elastic hinges"
+    rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over what takes stretches"
     there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else rest
     if beam.beyond_one_search is not None:
         what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]

@@ -93,8 +93,6 @@ def test_cases_and_events():
 @pytest.mark.parametrize(("changes", "words"), [
     ({"loads": [{"type": "moment", "node": 1, "M": 1.0}]}, 'say at_hinge = "left" or "right"'),
     ({"loads": [{"type": "moment", "x": 1.0, "M": 1.0, "at_hinge": "left"}]}, "loads[0].at_hinge: there is no hinge at its place"),
-    ({"foundation": [{"k": 10.0}], "loads": [couple("left")]}, "loads[0].at_hinge: beside a foundation"),
-    ({"trains": [{"axles": [[0.0, 1.0]]}], "loads": [couple("left")]}, "loads[0].at_hinge: a couple at a hinge under trains"),
     ({"loads": [couple("middle")]}, 'loads[0].at_hinge: expected "left" or "right"'),
 ])  # fmt: skip
 def test_refused(changes, words):

@@ -131,9 +131,7 @@ def test_pairs_columns_and_scales():
 
 
 @pytest.mark.parametrize(("changes", "words"), [
-    ({"foundation": [{"k": 10.0}]}, "loads[0].kappa: a curvature that changes along the beam beside a foundation is not available"),
     ({"sections": [{"EI": [100.0, 300.0]}]}, "loads[0].kappa: a curvature that changes along a section that tapers"),
-    ({"trains": [{"axles": [[0.0, 1.0]]}]}, "loads[0].kappa: a curvature that changes along the beam under trains"),
     ({"loads": [{"type": "curvature", "kappa": [0.0, np.inf]}]}, "loads[0].kappa: expected finite numbers, got [0.0, inf]"),
     ({"loads": [{"type": "curvature", "kappa": [0.0, 1.0, 2.0]}]}, "loads[0].kappa: expected"),
 ])  # fmt: skip

@@ -116,8 +116,6 @@ def test_moved_from_the_start_under_trains():
     ({"supports": [{"node": 0, "name": "A", "rotation": 9.0}, {"node": 0, "side": "above", "gap": 1.0, "rotation": 9.0},
                    {"node": 1}]},
      "another support at its place holds the rotation of the beam, too"),
-    ({"foundation": [{"k": 10.0}]}, "beside a foundation no support is turned"),
-    ({"trains": [{"axles": [[0.0, 1.0]]}]}, "loads[0].rotation: a support that is turned under trains"),
 ])  # fmt: skip
 def test_what_turns_nothing(changes, words):
     with pytest.raises(SceneError) as caught:
