@@ -140,7 +140,7 @@ class BranchPath(Pickled):
         breakpoints : numpy.ndarray or None
             The laws of supports as they have become, if there are any.
         factors : list of float
-            Load factors at start and stop of every segment.
+            Load factors at which segments start and stop.
         tensions : numpy.ndarray
             Axial force of every piece there, a row a load factor.
         """
@@ -149,8 +149,10 @@ class BranchPath(Pickled):
             segments = list(group)
             closed, breakpoints = self._followed.pieces(segments[0].number)
             factors = [factor for segment in segments for factor in (segment.start, segment.stop)]
-            rows = ends[:, [segment.number for segment in segments]].T.ravel() - 1
-            yield closed, breakpoints if self._beam.has_laws else None, factors, tensions[rows]
+            # Where one segment stops the next one starts
+            rows, first = np.unique(ends[:, [segment.number for segment in segments]].T.ravel() - 1, return_index=True)
+            there = slice(rows[0], rows[-1] + 1) if rows[-1] - rows[0] < len(rows) else rows  # a slice is no copy
+            yield closed, breakpoints if self._beam.has_laws else None, [factors[k] for k in first.tolist()], tensions[there]
 
     def beam(self, segment: BranchSegment) -> Beam:
         """Give the beam with the laws of its supports as they are on a segment.

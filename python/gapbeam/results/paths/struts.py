@@ -150,9 +150,11 @@ class Struts:
         if id(stretches) not in self._columns:  # kept as long as the stretches are
             self._columns[id(stretches)] = tuple(np.array(column) for column in zip(*stretches, strict=True))
         first, last, length = self._columns[id(stretches)]
+        if len(first) < len(EI):
+            EI, tension = np.minimum.reduceat(EI, first), np.minimum.reduceat(tension, first, axis=-1)
         with np.errstate(all="ignore"):
-            critical = np.pi / length * np.minimum.reduceat(EI, first) * (np.pi / length)
-        return -np.minimum.reduceat(tension, first, axis=-1), critical, length != self.x[last] - self.x[first]
+            critical = np.pi / length * EI * (np.pi / length)
+        return -tension, critical, length != self.x[last] - self.x[first]
 
     def _compressed(self, a: int, b: int, length: float, tension: np.ndarray) -> tuple[int, int, float]:
         """The same stretch and length; of an overhang without what is beyond all compression: that follows as it is."""
