@@ -17,7 +17,7 @@ FORTRAN = {
     "base": "precisions, errors and status codes, memory, whether a call may go on",
     "beam": "a stretch of beam: stiffness, loads, fields, on elastic ground too",
     "elimination": "one linear system: elimination, three-moment equations, residuals",
-    "contact": "which supports act: laws, signs, the search for the contact state, zones of contact with the ground",
+    "contact": "which supports act: laws, signs, search for the contact state, zones on the ground",
     "precision": "extended precision, audit of every answer, certificates and error bounds",
     "scene": "from the user's numbers to the assembled model",
     "response": "what is asked of a state: fields, extremes, pressures, values at supports",

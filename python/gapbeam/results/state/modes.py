@@ -13,8 +13,8 @@ from ...engine.modes import BUCKLING, VIBRATION, shape_of_mode, values_of_modes
 from .arguments import whole
 
 if TYPE_CHECKING:
+    from ...engine.states import Solution
     from ...scene.structs import Scene
-    from .step import Step
     from .steps import Steps
 
 KINDS = {"buckling": BUCKLING, "vibration": VIBRATION}
@@ -50,53 +50,78 @@ class Mode(Record):
     support: int | None
 
 
-def modes_of(step: Step, kind: str, count: int) -> tuple[float, ...]:
-    """Find the first values of modes of a state.
+class StepModes:
+    """What a state is asked about its modes: how it buckles under more of its axial forces, and how it vibrates."""
 
-    Parameters
-    ----------
-    step : Step
-        The state.
-    kind : {"buckling", "vibration"}
-        Factors of its axial forces, or circular frequencies.
-    count : int
-        How many.
+    solution: Solution
 
-    Returns
-    -------
-    tuple of float
-        In rising order; fewer where there are no more.
+    def modes(self, kind: str, count: int = 1) -> tuple[float, ...]:
+        """Find the first values of modes with the supports and the ground that act in this state.
 
-    Raises
-    ------
-    EngineError
-        They are not available for this beam.
-    """
-    return tuple(values_of_modes(step.solution.state, KINDS[kind], count).tolist())
+        Parameters
+        ----------
+        kind : {"buckling", "vibration"}
+            Factors of its axial forces, or circular frequencies (rad per unit of time); these if `analysis.frequencies` asks for
+            some, else the engine is given no mass.
+        count : int
+            How many.
+
+        Returns
+        -------
+        tuple of float
+            In rising order; fewer where there are no more.
+
+        Raises
+        ------
+        ValueError
+            There is no such kind, or `count` is not 1 or more.
+        EngineError
+            Modes are not available for this beam.
+        """
+        if kind not in KINDS:
+            raise ValueError(f'kind: expected "buckling" or "vibration", got {kind!r}')
+        count = _positive("count", count)
+        return tuple(values_of_modes(self.solution.state, KINDS[kind], count).tolist())
+
+    def mode(self, kind: str, number: int = 1) -> Mode:
+        """Find how the beam moves in a mode.
+
+        Parameters
+        ----------
+        kind
+            As for `modes`.
+        number : int
+            Which of them, from 1.
+
+        Returns
+        -------
+        Mode
+
+        Raises
+        ------
+        ValueError
+            There is no such mode.
+        EngineError
+            Modes are not available for this beam.
+        """
+        number = _positive("number", number)
+        values = self.modes(kind, number)
+        if number > len(values):
+            asked = "buckling" if kind == "buckling" else "frequencies"
+            there = f"there are {len(values)} such modes, got {number}"
+            raise ValueError(f"number: {there}; analysis.{asked} and the beam say how many")
+        value = values[number - 1]
+        shape = shape_of_mode(self.solution.state, KINDS[kind], value)
+        support = None if shape.support < 0 else int(shape.support)
+        return Mode(kind, value, *map(read_only, shape[:3]), float(shape.amplitude), support)
 
 
-def mode_of(step: Step, kind: str, value: float) -> Mode:
-    """Find how a beam moves in a mode.
-
-    Parameters
-    ----------
-    step, kind
-        As for `modes_of`.
-    value : float
-        One of its values.
-
-    Returns
-    -------
-    Mode
-
-    Raises
-    ------
-    EngineError
-        They are not available for this beam.
-    """
-    shape = shape_of_mode(step.solution.state, KINDS[kind], value)
-    support = None if shape.support < 0 else int(shape.support)
-    return Mode(kind, value, *map(read_only, shape[:3]), float(shape.amplitude), support)
+def _positive(key: str, value: int) -> int:
+    """Check a whole number that is 1 or more."""
+    value = whole(key, value)
+    if value < 1:
+        raise ValueError(f"{key}: expected 1 or more, got {value}")
+    return value
 
 
 class WithModes:
@@ -109,13 +134,13 @@ class WithModes:
     def buckling(self) -> tuple[float, ...]:
         """Factors of all axial forces at which the beam buckles as it stands at the end; see `analysis.buckling`."""
         count = self.scene.analysis.buckling
-        return modes_of(self.steps[-1], "buckling", count) if count else ()
+        return self.steps[-1].modes("buckling", count) if count else ()
 
     @cached_property
     def frequencies(self) -> tuple[float, ...]:
         """Circular frequencies (rad per unit of time) of the beam as it stands at the end; see `analysis.frequencies`."""
         count = self.scene.analysis.frequencies
-        return modes_of(self.steps[-1], "vibration", count) if count else ()
+        return self.steps[-1].modes("vibration", count) if count else ()
 
     def mode(self, kind: str, number: int = 1) -> Mode:
         """Find how the beam moves in a mode.
@@ -138,12 +163,4 @@ class WithModes:
         EngineError
             Modes are not available for this beam.
         """
-        if kind not in KINDS:
-            raise ValueError(f'kind: expected "buckling" or "vibration", got {kind!r}')
-        number = whole("number", number)
-        asked = "buckling" if kind == "buckling" else "frequencies"
-        values = modes_of(self.steps[-1], kind, max(number, getattr(self.scene.analysis, asked)))
-        if not 1 <= number <= len(values):
-            there = f"there are {len(values)} such modes, got {number}"
-            raise ValueError(f"number: {there}; analysis.{asked} and the beam say how many")
-        return mode_of(self.steps[-1], kind, values[number - 1])
+        return self.steps[-1].mode(kind, number)

@@ -23,6 +23,7 @@ from ...scene.places import nearest
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
+from .modes import StepModes
 from .slip_zones import SlipZone, slip_zones
 from .state_extremes import extremes_of_state
 
@@ -60,7 +61,7 @@ class HingeState(NamedTuple):
     rotation: float
 
 
-class Step(Pickled):
+class Step(Pickled, StepModes):
     """The state at one load factor; arrays have one entry per support, in the order of the scene, and are read-only.
 
     It is solved when something is first asked for. Two steps are equal if the beam, the load factor and all values are.

@@ -102,3 +102,34 @@ def test_what_is_refused(mass, place, words):
         gapbeam.solve({**simple, "masses": [mass], "analysis": {"frequencies": 1}})
     assert caught.value.place == place
     assert words in str(caught.value)
+
+
+def test_modes_of_steps_and_under_trains():
+    """Every state has modes of its own: under half the load a support is still open, and an axle opens another one."""
+    supports = [{"node": 0}, {"node": 1}, {"node": 2, "side": "below", "gap": 0.008}]
+    made = scene([4.0, 4.0], supports, [uniform(3.0)], EI=1e4, mass=0.5)
+    made |= {"analysis": {"frequencies": 2, "steps": 8}, "trains": [{"axles": [[0.0, 90.0]]}]}
+    still = {key: value for key, value in made.items() if key != "trains"}
+    steps = gapbeam.solve(still).steps
+    assert [step.state[2] for step in steps] == sorted((step.state[2] for step in steps), reverse=True)
+    assert {step.state[2] for step in steps} == {"open", "closed"}
+    for step in steps:
+        alone = gapbeam.solve(still | {"supports": made["supports"][: 2 + (step.state[2] == "closed")]})
+        assert step.modes("vibration", 2) == pytest.approx(alone.frequencies, rel=1e-12)
+    train = gapbeam.solve(made).trains["train 1"]
+    for position, state in ((2.0, "open"), (6.0, "closed")):
+        under = train.state(position)
+        loaded = gapbeam.solve(still | {"loads": [*made["loads"], force(position, 90.0)]})
+        assert under.state[2] == loaded.steps[-1].state[2] == state
+        assert under.modes("vibration", 2) == under.result.frequencies == pytest.approx(loaded.frequencies, rel=1e-13)
+        assert under.mode("vibration", 2).amplitude == pytest.approx(loaded.mode("vibration", 2).amplitude, rel=1e-9)
+
+
+@pytest.mark.parametrize(("kind", "count", "words"), [
+    ("sideways", 1, 'kind: expected "buckling" or "vibration", got \'sideways\''),
+    ("vibration", 0, "count: expected 1 or more, got 0"),
+])  # fmt: skip
+def test_what_has_no_modes(kind, count, words):
+    made = scene([4.0], [{"node": 0}, {"node": 1}], [], EI=1.0, mass=1.0) | {"analysis": {"frequencies": 1}}
+    with pytest.raises(ValueError, match=words):
+        gapbeam.solve(made).steps[-1].modes(kind, count)
