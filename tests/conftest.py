@@ -1,4 +1,4 @@
-"""Settings of hypothesis (the same examples in every run; HYPOTHESIS_PROFILE=explore draws many new ones), and fixtures."""
+"""Settings of hypothesis (the same examples in every run; HYPOTHESIS_PROFILE=explore draws new ones), other seeds, fixtures."""
 
 import os
 import subprocess
@@ -15,6 +15,21 @@ settings.register_profile(
 )
 settings.register_profile("explore", deadline=None, max_examples=3000, suppress_health_check=CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
+
+
+def pytest_addoption(parser):
+    """``--seeds FIRST:END`` gives tests of random scenes other seeds than those they are run with."""
+    parser.addoption("--seeds", metavar="FIRST:END", help="seeds of tests that draw scenes, instead of their own")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_generate_tests(metafunc):
+    """Give a test its seeds."""
+    seeds = metafunc.config.getoption("--seeds")
+    for k, mark in enumerate(metafunc.definition.own_markers if seeds else ()):
+        if mark.name == "parametrize" and mark.args[0] == "seed":
+            other = pytest.mark.parametrize("seed", range(*map(int, seeds.split(":"))))
+            metafunc.definition.own_markers[k] = other.mark
 
 
 @pytest.fixture(scope="session")

@@ -108,7 +108,7 @@ contains
         end if
         if (status == gapbeam_solved) then
             associate (now => combined%assembled)
-                values(:n) = scale(state%deflection, now%units%deflection)
+                values(:n) = scale(state%deflection(0:n - 1), now%units%deflection)
                 values(n + 1:2*n) = scale(state%moment_left, moment_unit(now%units))
                 values(2*n + 1:3*n) = scale(state%moment_right, moment_unit(now%units))
                 values(3*n + 1:3*n + m) = scale(state%reaction, [(push_unit(now, now%normal(k)), k=1, m)])

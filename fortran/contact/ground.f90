@@ -13,7 +13,7 @@ module gapbeam_ground
     use gapbeam_stretch_loads, only: add_end_loads, ends_of_piece, load_on_part, on_stretch, on_piece, combined_load
     use gapbeam_ground_steps, only: steps_on, border_of_step
     use gapbeam_ground_laws, only: contact_line, slope_of_layer, offset_of_layer, take_curves
-    use gapbeam_model, only: beam_type, node_support_type, order_supports
+    use gapbeam_model, only: beam_type, take_supports
     implicit none
     private
     public :: ground_type, moving_type, zones_type, grounded_type
@@ -190,7 +190,6 @@ contains
         real(wp), intent(in) :: factor
         !> The beam, ready to be solved
         type(grounded_type), intent(out) :: grounded
-        type(node_support_type), allocatable :: supports(:)
         integer :: i, j, m, n
 
         m = size(zones%piece)
@@ -216,10 +215,7 @@ contains
                 beam%force(:, i) = given%force(:, j)
                 beam%couple(:, i) = given%couple(:, j)
             end do
-            allocate (supports(size(given%supports)))
-            supports(:) = given%supports
-            supports%node = grounded%node(given%supports%node)
-            call order_supports(supports, beam)
+            call take_supports(given, grounded%node, beam)
         end associate
     end subroutine place_stretches
 

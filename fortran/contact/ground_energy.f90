@@ -15,7 +15,8 @@ module gapbeam_ground_energy
         gapbeam_no_memory, gapbeam_stopped
     use gapbeam_law, only: both
     use gapbeam_law_kinematics, only: find_level_forces
-    use gapbeam_model, only: beam_type, node_support_type, order_supports, softest
+    use gapbeam_model, only: beam_type, node_support_type, order_supports, last_place, softest
+    use gapbeam_turning, only: turn_with
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_line_search, only: bracket_type, place_inside, narrow
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -51,14 +52,14 @@ contains
         type(workspace_type) :: work
         type(point_type), allocatable :: points(:)
         type(node_support_type), allocatable :: own(:)
-        !> Of the nodes: deflection, what the beam asks ground and supports for there, force and slope of the ground, force of the
-        !> model, a step, the change of what is asked for, loads
+        !> Of the nodes, and of rotations that supports hold: deflection, what the beam asks ground and supports for there, force
+        !> and slope of the ground, force of the model, a step, the change of what is asked for, loads
         real(wp), allocatable, dimension(:) :: w, asked, push, slope, modelled, step, change, load
         real(wp), allocatable :: proximal_weight
         logical, allocatable :: acting(:)
         real(wp) :: way, force
         integer(int64) :: asked_for
-        integer :: round, n
+        integer :: round, n, last
         logical :: begun, stopped
 
         n = size(mesh%piece)
@@ -67,10 +68,13 @@ contains
         exhausted = .false.
         call make_beam(ground, mesh, beam)
         call list_points(ground, mesh, points)
-        allocate (own(size(closed)), w(0:n), asked(0:n), push(0:n), slope(0:n), modelled(0:n), step(0:n), change(0:n), load(0:n))
+        last = last_place(beam)
+        allocate (own(size(closed)), w(0:last), asked(0:last), push(0:last), slope(0:last), modelled(0:last), step(0:last), &
+                  change(0:last), load(0:n))
         own(:) = beam%supports
         load(:) = beam%force(1, :)
-        w(:) = mesh%deflection
+        w(:) = 0.0_wp
+        w(0:n) = mesh%deflection
         asked(:) = 0.0_wp
         call press(ground, points, w, push, slope, pressed, full=.not. mesh%solved)
         begun = .false.
@@ -107,16 +111,16 @@ contains
             call press(ground, points, w, push, slope, pressed)
             force = sum(abs(push)) + sum(work%load_size)
             ! A rounding of deflections is a force on stiff ground
-            force = balanced*force + mesh_rounding*sum(slope)*maxval(abs(w))
+            force = balanced*force + mesh_rounding*sum(slope)*maxval(abs(w(0:n)))
             if (.not. (force <= huge(force) .and. maxval(abs(w)) <= huge(force))) then
                 call out_of_range(error)
                 return
             end if
             if (begun .and. way >= 1.0_wp .and. sum(abs(push - modelled)) <= force) then
                 closed(:) = acting(:size(closed))
-                mesh%deflection(:) = w
-                mesh%moment_left(:) = work%answers%moment_left
-                mesh%moment_right(:) = work%answers%moment_right
+                mesh%deflection(:) = w(0:n)
+                mesh%moment_left(:) = work%answers(0:n)%moment_left
+                mesh%moment_right(:) = work%answers(0:n)%moment_right
                 mesh%solved = .true.
                 return
             end if
@@ -209,7 +213,7 @@ contains
         function energy_slope(t) result(at)
             real(wp), intent(in) :: t
             real(wp) :: at
-            real(wp) :: force(0:n), ignored(0:n)
+            real(wp) :: force(0:last), ignored(0:last)
             integer :: nodes
 
             asked_for = asked_for + n
@@ -222,17 +226,19 @@ contains
             !> Does it fall for a part of the way only
             logical, intent(out) :: stopped
             real(wp), allocatable :: motion(:)
-            real(wp) :: level(0:n), gain, parts, length, t
+            real(wp) :: level(0:last), gain, parts, length, t
             type(bracket_type) :: bracket
             integer :: number
 
-            step(:) = outcome%motion
+            step(:) = 0.0_wp
+            step(0:n) = outcome%motion
+            call turn_with(beam, step)
             call find_level_forces(own, acting(:size(own)), level)
-            call work_of_loads(beam, factor, step, [0, n], gain, parts)
+            call work_of_loads(beam, factor, step(0:n), [0, n], gain, parts)
             gain = gain - dot_product(step, level)
             modelled(:) = push
             change(:) = 0.0_wp
-            length = max(sum(ground%pieces%length), maxval(abs(w)))
+            length = max(sum(ground%pieces%length), maxval(abs(w(0:n))))
             bracket = bracket_type(0.0_wp, first_way*length, -gain, 0.0_wp)
             do
                 bracket%at_high = energy_slope(bracket%high) - gain

@@ -7,7 +7,7 @@ module gapbeam_ground_nodes
     use gapbeam_link, only: piece_type, piece_load_type, condense_link
     use gapbeam_taper, only: part_of_piece
     use gapbeam_band, only: plain
-    use gapbeam_model, only: beam_type, node_support_type, order_supports
+    use gapbeam_model, only: beam_type, take_supports
     use gapbeam_ground_laws, only: along, piece_of_deflection, push_of_layer, slope_at
     use gapbeam_foundation_stretch, only: stretch_between, stretch_load_type
     use gapbeam_ground, only: ground_type, condense_both
@@ -106,7 +106,6 @@ contains
         type(ground_type), intent(in) :: ground
         type(mesh_type), intent(in) :: mesh
         type(beam_type), intent(out) :: beam
-        type(node_support_type), allocatable :: supports(:)
         type(piece_type) :: p(1)
         type(stretch_load_type) :: loads(2)
         real(wp) :: work(1)
@@ -122,10 +121,6 @@ contains
         beam%compliance(mesh%node) = ground%beam%compliance
         beam%force(:, mesh%node) = ground%beam%force
         beam%couple(:, mesh%node) = ground%beam%couple
-        allocate (supports(size(ground%beam%supports)))
-        supports(:) = ground%beam%supports
-        supports(:)%node = mesh%node(supports(:)%node)
-        call order_supports(supports, beam)
         do i = 1, n
             p = part_of_piece(ground%pieces(mesh%piece(i)), mesh%from(i), mesh%to(i))
             call condense_link(p, [on_part(ground%dead, i)], [on_part(ground%live, i)], work, beam%links(i))
@@ -139,6 +134,7 @@ contains
                 call add_end_loads(beam%ground(i), loads, beam%links(i))
             end do
         end if
+        call take_supports(ground%beam, mesh%node, beam)
         beam%watch = ground%beam%watch
 
     contains

@@ -9,7 +9,7 @@ module gapbeam_model
     use gapbeam_law_adapters, only: least_stiffness
     implicit none
     private
-    public :: beam_type, new_beam, order_supports, last_place, node_of_support, has_other_supports, softest
+    public :: beam_type, new_beam, order_supports, take_supports, last_place, node_of_support, has_other_supports, softest
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
     public :: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
@@ -111,6 +111,35 @@ contains
         end do
         beam%first(0) = 1
     end subroutine order_supports
+
+    !> Give a beam that is another one cut finer the supports of that, and the rotations that they hold
+    pure subroutine take_supports(given, node, beam)
+        type(beam_type), intent(in) :: given
+        !> Node of the finer beam for every node of the given one, shape (0:n)
+        integer, intent(in) :: node(0:)
+        !> With its links
+        type(beam_type), intent(inout) :: beam
+        type(node_support_type), allocatable :: supports(:)
+        integer :: k, n
+
+        n = size(given%links)
+        if (allocated(given%turning)) then
+            beam%turning = node(given%turning)
+            beam%turned = given%turned
+        end if
+        allocate (supports(size(given%supports)))
+        supports(:) = given%supports
+        do k = 1, size(supports)
+            associate (i => supports(k)%node)
+                if (i > n) then
+                    i = size(beam%links) + (i - n)
+                else
+                    i = node(i)
+                end if
+            end associate
+        end do
+        call order_supports(supports, beam)
+    end subroutine take_supports
 
     !> The last node that supports can have: that of the beam, or the last rotation
     pure function last_place(beam) result(last)

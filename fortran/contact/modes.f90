@@ -14,6 +14,7 @@ module gapbeam_modes
     use gapbeam_ground_laws, only: between
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
     use gapbeam_moved_ground, only: under_share
+    use gapbeam_model, only: last_place
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_system, only: complete_scheme
     implicit none
@@ -86,9 +87,11 @@ contains
                 end associate
             end do
         end if
-        call factor_foundation_chain(work%nodes, grounded%beam%ground, work%pivots, state, place)
-        if (state /= band_ok .and. place < size(grounded%beam%links)) return
-        number = count_unstable_pivots(work%nodes, work%pivots)
+        associate (n => size(grounded%beam%links))
+            call factor_foundation_chain(work%nodes(0:n), grounded%beam%ground, work%pivots, state, place)
+            if (state /= band_ok .and. place < n) return
+            number = count_unstable_pivots(work%nodes(0:n), work%pivots)
+        end associate
         if (state /= band_ok .and. number == 0) number = -1
     end subroutine count_modes
 
@@ -285,16 +288,16 @@ contains
                 work%rhs(i)%moment = 0.0_wp
                 work%rhs(i)%deflection = 0.0_wp
             end do
-            call solve_foundation_chain(work%nodes, grounded%beam%ground, grounded%beam%links%length, work%pivots, work%rhs, &
-                                        work%eliminated, work%answers)
-            largest = maxloc(abs(work%answers%deflection), 1) - 1
-            work%rhs%shear = work%answers%deflection/abs(work%answers(largest)%deflection)
+            call solve_foundation_chain(work%nodes(0:n), grounded%beam%ground, grounded%beam%links%length, work%pivots, &
+                                        work%rhs(0:n), work%eliminated, work%answers(0:n))
+            largest = maxloc(abs(work%answers(0:n)%deflection), 1) - 1
+            work%rhs(0:n)%shear = work%answers(0:n)%deflection/abs(work%answers(largest)%deflection)
         end do
         associate (scale => 1/work%answers(largest)%deflection, node => grounded%node, piece => shape%piece, &
                    distance => shape%distance)
-            shape%deflection(:) = scale*work%answers%deflection
-            shape%moment(1, :) = scale*work%answers%moment_left
-            shape%moment(2, :) = scale*work%answers%moment_right
+            shape%deflection(:) = scale*work%answers(0:n)%deflection
+            shape%moment(1, :) = scale*work%answers(0:n)%moment_left
+            shape%moment(2, :) = scale*work%answers(0:n)%moment_right
             piece(1) = 1
             distance(1) = 0.0_wp
             n = 1
@@ -307,8 +310,10 @@ contains
             ! Supports push from where they stand now
             grounded%beam%supports%contact = 0.0_wp
             call complete_scheme(grounded%beam, acting, work)
-            allocate (shape%at_nodes(0:ubound(node, 1)))
-            shape%at_nodes(:) = scale*work%answers(node)%deflection
+            allocate (shape%at_nodes(0:last_place(ground%beam)))
+            n = ubound(node, 1)
+            shape%at_nodes(0:n) = scale*work%answers(node)%deflection
+            shape%at_nodes(n + 1:) = scale*work%answers(size(grounded%stretches) + 1:)%deflection
             shape%reaction = scale*work%reaction(:size(acting))
         end associate
     end subroutine find_mode_shape

@@ -169,10 +169,12 @@ contains
         integer, intent(out) :: state, place
 
         work%method = method_mixed
-        call factor_foundation_chain(work%nodes, beam%ground, work%pivots, state, place)
-        if (state /= band_ok) return
-        call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%pivots, work%rhs, work%eliminated, &
-                                    work%answers)
+        associate (n => size(beam%links))
+            call factor_foundation_chain(work%nodes(0:n), beam%ground, work%pivots, state, place)
+            if (state /= band_ok) return
+            call solve_foundation_chain(work%nodes(0:n), beam%ground, beam%links%length, work%pivots, work%rhs(0:n), &
+                                        work%eliminated, work%answers(0:n))
+        end associate
     end subroutine solve_on_ground
 
     !> Is the force of some node's supports falling: only pivoting minds signs
@@ -242,23 +244,24 @@ contains
         type(workspace_type), intent(inout) :: work
         type(rhs_type), allocatable :: residual(:)
         real(wp) :: share, before
-        integer :: step
+        integer :: step, n
 
         if (.not. loses_digits(beam)) return
-        allocate (residual(0:size(beam%links)))
+        n = size(beam%links)
+        allocate (residual(0:n))
         before = huge(before)
         do step = 1, most_refinements
-            call residual_on_ground(work%nodes, beam%ground, work%rhs, work%answers, residual)
-            call solve_foundation_chain(work%nodes, beam%ground, beam%links%length, work%pivots, residual, work%eliminated, &
-                                        work%correction)
-            share = max(share_of(work%correction%deflection, work%answers%deflection), &
-                        share_of(work%correction%moment_left, work%answers%moment_left), &
-                        share_of(work%correction%moment_right, work%answers%moment_right))
-            ! Not worth while, or beyond what this precision tells
-            if (.not. share < before/2) exit
-            work%answers%deflection = work%answers%deflection + work%correction%deflection
-            work%answers%moment_left = work%answers%moment_left + work%correction%moment_left
-            work%answers%moment_right = work%answers%moment_right + work%correction%moment_right
+            associate (nodes => work%nodes(0:n), a => work%answers(0:n), change => work%correction)
+                call residual_on_ground(nodes, beam%ground, work%rhs(0:n), a, residual)
+                call solve_foundation_chain(nodes, beam%ground, beam%links%length, work%pivots, residual, work%eliminated, change)
+                share = max(share_of(change%deflection, a%deflection), share_of(change%moment_left, a%moment_left), &
+                            share_of(change%moment_right, a%moment_right))
+                ! Not worth while, or beyond what this precision tells
+                if (.not. share < before/2) exit
+                a%deflection = a%deflection + change%deflection
+                a%moment_left = a%moment_left + change%moment_left
+                a%moment_right = a%moment_right + change%moment_right
+            end associate
             work%complete = .false.
             if (share <= epsilon(share)) exit
             before = share

@@ -174,23 +174,42 @@ contains
         !> The node
         integer, intent(in) :: i
         real(wp), intent(out) :: turn(2), terms(2)
+        real(wp) :: chord, by_moments(2)
 
         turn(:) = 0.0_wp
         terms(:) = huge(1.0_wp)
         if (i > 0) then
             associate (link => beam%links(i), a => answers(i - 1), b => answers(i))
-                turn(1) = (b%deflection - a%deflection)*link%inverse - (link%fab*a%moment_right + link%fbb*b%moment_left) &
-                    - loads(i)%left
-                terms(1) = (abs(b%deflection) + abs(a%deflection))*link%inverse + abs(link%fab*a%moment_right) &
-                    + link%fbb*abs(b%moment_left) + turn_size(i)
+                if (allocated(beam%ground)) then
+                    associate (g => beam%ground(i))
+                        chord = g%pb*b%deflection - g%p2*a%deflection
+                        by_moments(:) = [g%fab*a%moment_right, g%fbb*b%moment_left]
+                        terms(1) = g%pb*abs(b%deflection) + abs(g%p2*a%deflection)
+                    end associate
+                else
+                    chord = (b%deflection - a%deflection)*link%inverse
+                    by_moments(:) = [link%fab*a%moment_right, link%fbb*b%moment_left]
+                    terms(1) = (abs(b%deflection) + abs(a%deflection))*link%inverse
+                end if
+                turn(1) = chord - (by_moments(1) + by_moments(2)) - loads(i)%left
+                terms(1) = terms(1) + abs(by_moments(1)) + abs(by_moments(2)) + turn_size(i)
             end associate
         end if
         if (i < size(beam%links)) then
             associate (link => beam%links(i + 1), a => answers(i), b => answers(i + 1))
-                turn(2) = (b%deflection - a%deflection)*link%inverse + (link%faa*a%moment_right + link%fab*b%moment_left) &
-                    + loads(i)%right
-                terms(2) = (abs(b%deflection) + abs(a%deflection))*link%inverse + link%faa*abs(a%moment_right) &
-                    + abs(link%fab*b%moment_left) + turn_size(i + 1)
+                if (allocated(beam%ground)) then
+                    associate (g => beam%ground(i + 1))
+                        chord = g%p1*b%deflection - g%pa*a%deflection
+                        by_moments(:) = [g%faa*a%moment_right, g%fab*b%moment_left]
+                        terms(2) = abs(g%p1*b%deflection) + g%pa*abs(a%deflection)
+                    end associate
+                else
+                    chord = (b%deflection - a%deflection)*link%inverse
+                    by_moments(:) = [link%faa*a%moment_right, link%fab*b%moment_left]
+                    terms(2) = (abs(b%deflection) + abs(a%deflection))*link%inverse
+                end if
+                turn(2) = chord + (by_moments(1) + by_moments(2)) + loads(i)%right
+                terms(2) = terms(2) + abs(by_moments(1)) + abs(by_moments(2)) + turn_size(i + 1)
             end associate
         end if
     end subroutine turns_beside

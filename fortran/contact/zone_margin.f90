@@ -61,7 +61,7 @@ contains
         place = change%from
         if (change%support > 0) then
             associate (s => change%support)
-                call margin_in_scheme(ground%beam%supports, closed, s, work%answers(grounded%node(ground%beam%supports(s)%node)) &
+                call margin_in_scheme(ground%beam%supports, closed, s, work%answers(grounded%beam%supports(s)%node) &
                                       %deflection, 0.0_wp, work%reaction, work%reaction_error, margin, rounding)
                 if (closed(s) .eqv. change%closed) margin = -margin
             end associate

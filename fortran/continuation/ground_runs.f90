@@ -83,7 +83,9 @@ contains
         end if
         supported(:) = .false.
         do k = 1, size(assembled%beam%supports)
-            if (assembled%beam%supports(k)%stiffness > huge(1.0_wp)) supported(assembled%beam%supports(k)%node) = .true.
+            associate (s => assembled%beam%supports(k))
+                if (s%stiffness > huge(1.0_wp) .and. s%node < size(supported)) supported(s%node) = .true.
+            end associate
         end do
         last_run(:) = 0
         last_stretch(:) = 0

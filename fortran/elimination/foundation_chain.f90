@@ -67,7 +67,7 @@ contains
                 associate (link => links(i + 1), carried => p%c)
                     p%a = phi + link%faa
                     p%b = beta + link%pa
-                    if (floating .or. node%kind == hinge) then
+                    if (floating .or. node%kind == hinge .or. node%kind == hinge_left) then
                         if (held) then
                             p%kind = both_known
                             next = [link%fbb, link%pb, link%gbb]

@@ -6,7 +6,8 @@
 module gapbeam_foundation_residual
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_band, only: node_type, rhs_type, answer_type, plain, restrained
+    use gapbeam_nodes, only: jointed, joint_left, joint_right, is_hinge, is_restrained, takes_left, takes_right
+    use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_foundation, only: stretch_link_type
     implicit none
     private
@@ -25,7 +26,7 @@ contains
         !> Right-hand side of the correction, shape (0:n)
         type(rhs_type), intent(inout) :: residual(0:)
         !> Rotation and shear left and right of a node by the links there
-        real(wp) :: before(2), after(2), next(2), turn
+        real(wp) :: before(2), after(2), next(2), turn, joint(2)
         integer :: i, n
 
         n = size(links)
@@ -38,12 +39,15 @@ contains
             if (i < n) call ends_of_link(links(i + 1), answers(i), answers(i + 1), after, next)
             residual(i) = rhs_type()
             associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i))
-                if (node%kind == restrained) then
+                if (is_restrained(node%kind)) then
                     turn = node%compliance*((a%moment_left - a%moment_right) + b%couple)
-                    if (i > 0) r%left = (turn - before(1)) + b%left
-                    if (i < n) r%right = (after(1) - turn) + b%right
-                else if (node%kind == plain .and. i > 0 .and. i < n) then
+                    joint = [merge(node%joint*a%moment_left, 0.0_wp, node%kind == joint_right), &
+                             merge(node%joint*a%moment_right, 0.0_wp, node%kind == joint_left)]
+                    if (takes_left(node%kind) .and. i > 0) r%left = ((turn + joint(1)) - before(1)) + b%left
+                    if (takes_right(node%kind) .and. i < n) r%right = (after(1) - (turn - joint(2))) + b%right
+                else if (.not. is_hinge(node%kind) .and. i > 0 .and. i < n) then
                     r%right = ((after(1) - before(1)) + b%left) + b%right
+                    if (node%kind == jointed) r%right = r%right + node%compliance*a%moment_left
                 end if
                 if (node%held) then
                     r%deflection = b%deflection - a%deflection

@@ -71,14 +71,13 @@ contains
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
         if (.not. allocated(error)) then
-            if (allocated(beam%lowered%beam%turning)) then
-                call bad_argument(error, "beam", "a support or hinge that holds a rotation by a law, a slack, one way or "// &
-                    "at a hinge is not available under a train in this version")
-            else if (.not. allocated(beam%lowered%layers) .and. (any(is_tapered(beam%lowered%pieces)) &
-                                                                 .or. any(beam%lowered%joint > 0.0_wp) &
-                                                                 .or. any(is_alone(beam%lowered%model%loads)))) then
-                call bad_argument(error, "beam", "a section that tapers, a hinge with a stiffness, a support that is turned, a "// &
-                    "couple at a hinge or a curvature that changes along the beam under a train asks for with_trains of the model")
+            if (.not. allocated(beam%lowered%layers) .and. (any(is_tapered(beam%lowered%pieces)) &
+                                                            .or. any(beam%lowered%joint > 0.0_wp) &
+                                                            .or. allocated(beam%lowered%beam%turning) &
+                                                            .or. any(is_alone(beam%lowered%model%loads)))) then
+                call bad_argument(error, "beam", "a section that tapers, a hinge with a stiffness, a restraint or hinge with a "// &
+                    "law, a slack or a side, a support that is turned, a couple at a hinge or a curvature that changes along "// &
+                    "the beam under a train asks for with_trains of the model")
             end if
         end if
         if (.not. allocated(error)) call check_train(beam%lowered, train, from, to, error)

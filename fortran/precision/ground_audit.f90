@@ -7,7 +7,9 @@
 module gapbeam_ground_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: lost_digits
-    use gapbeam_nodes, only: hinge, restrained
+    use gapbeam_nodes, only: hinge, hinge_left, hinge_right, joint_left, joint_right, is_hinge, is_restrained, takes_left, &
+        takes_right
+    use gapbeam_band, only: node_type, rhs_type
     use gapbeam_element, only: field_type
     use gapbeam_piece, only: piece_load_type, combine_loads, no_load
     use gapbeam_taper, only: softness_at
@@ -22,6 +24,7 @@ module gapbeam_ground_audit
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_contact, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch
+    use gapbeam_rotation_audit, only: turned_nodes, audit_rotations
     implicit none
     private
     public :: audit_ground
@@ -46,9 +49,13 @@ contains
         type(field_type) :: sizes_of(size(solution%piece)), least_of(size(solution%piece)), sizes, least
         !> Rounding errors of the reactions
         real(wp) :: errors(size(closed))
+        !> Nodes of the beam as the supports that hold rotations make them
+        type(node_type), allocatable :: nodes(:)
+        type(rhs_type), allocatable :: rhs(:)
         integer :: i, j, m
 
         m = size(solution%piece)
+        call turned_nodes(ground%beam, factor, closed, nodes, rhs)
         residuals = 0.0_wp
         call audit_places()
         if (ledger%wrong /= 0) return
@@ -160,13 +167,13 @@ contains
             b%moment = b%moment - at_right%couple_a
             call pass_couple(at_left%couple_b)
             associate (w => solution%deflection(j), left => solution%moment_left(j), right => solution%moment_right(j), &
-                       beam => ground%beam)
+                       beam => ground%beam, node => nodes(j), known => rhs(j))
                 call fits(of_bending, deflections, a%deflection - w, sizes%deflection)
                 call fits(of_bending, deflections, b%deflection - w, sizes%deflection)
                 call fits(of_equilibrium, moments, a%moment - left, sizes%moment)
                 call fits(of_equilibrium, moments, b%moment - right, sizes%moment)
                 load = beam%force(1, j) + factor*beam%force(2, j)
-                couple = beam%couple(1, j) + factor*beam%couple(2, j)
+                couple = known%couple
                 up = push_at(i - 1)
                 call audit_push(i - 1, piece, at, w)
                 up_size = abs(up) + abs(beam%force(1, j)) + abs(factor*beam%force(2, j))
@@ -180,32 +187,36 @@ contains
                 do s = beam%first(j), beam%first(j + 1) - 1
                     call audit_support(beam%order(s))
                 end do
+                call audit_rotations(beam, j, closed, solution, a, b, sizes, least, ledger)
                 call fits(of_equilibrium, forces, (after - before) - (up - load), sizes%shear + up_size)
                 terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j)) &
-                    + abs(at_left%couple_b) + abs(at_right%couple_a)
-                sizes%rotation = sizes%rotation + abs(at_left%kink_b) + abs(at_right%kink_a)
-                select case (beam%kind(j))
-                case (hinge)
-                    call fits(of_equilibrium, moments, max(abs(left), abs(right)), sizes%moment)
-                case (restrained)
-                    turn = beam%compliance(j)*((left - right) + couple)
-                    terms = beam%compliance(j)*terms
-                    if (j > 0) call fits(of_restraints, rotations, a%rotation - turn, sizes%rotation + terms)
-                    if (i <= m) call fits(of_restraints, rotations, b%rotation - turn, sizes%rotation + terms)
-                case default
+                    + abs(couple) + abs(known%moment) + abs(at_left%couple_b) + abs(at_right%couple_a)
+                sizes%rotation = sizes%rotation + abs(at_left%kink_b) + abs(at_right%kink_a) + abs(known%left) + abs(known%right)
+                if (node%kind == hinge_left) call fits(of_equilibrium, moments, right - known%moment, terms)
+                if (node%kind == hinge_right) call fits(of_equilibrium, moments, left - known%moment, terms)
+                if (is_restrained(node%kind)) then
+                    turn = node%compliance*((left - right) + couple)
+                    terms = node%compliance*terms + node%joint*(abs(left) + abs(right))
+                    if (takes_left(node%kind) .and. j > 0) call fits(of_restraints, rotations, a%rotation - turn - known%left &
+                        - merge(node%joint*left, 0.0_wp, node%kind == joint_right), sizes%rotation + terms)
+                    if (takes_right(node%kind) .and. i <= m) call fits(of_restraints, rotations, b%rotation - turn + known%right &
+                        + merge(node%joint*right, 0.0_wp, node%kind == joint_left), sizes%rotation + terms)
+                else if (node%kind == hinge) then
+                    call fits(of_equilibrium, moments, max(abs(left - known%moment), abs(right - left - couple)), terms)
+                else
                     call fits(of_equilibrium, moments, (right - left) - couple, terms)
                     ! A joint lets the beam turn by what its moment makes of its compliance, another node by nothing
-                    turn = -beam%compliance(j)*left
+                    turn = -node%compliance*left - (known%left + known%right)
                     if (inside) call fits(of_bending, rotations, b%rotation - a%rotation - turn, sizes%rotation + abs(turn))
-                end select
+                end if
                 if (j > 0) then
                     ! Under couples alone there is no force but what moments leave by rounding
                     call fits(of_parts, forces, part%force - before, part%force_size + sizes%shear &
                               + part%moment_size/sum(ground%pieces%length))
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
-                if (beam%kind(j) == hinge) then
-                    part = sums_type(after, 0.0_wp, max(abs(after), sizes%shear), 0.0_wp)
+                if (beam%kind(j) == hinge .or. is_hinge(node%kind)) then
+                    part = sums_type(after, right, max(abs(after), sizes%shear), abs(right))
                 else
                     part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
                                      part%moment_size + abs(left) + abs(right))

@@ -50,10 +50,11 @@ contains
         call work_of_loads(ground%beam, factor, share, [0, size(ground%pieces)], work(2), parts(2))
         most = 0.0_qp
         best = 0.0_qp
-        stands = .true.
+        ! What supports that hold rotations resist is not looked into
+        stands = .not. allocated(ground%beam%turning)
         do k = 1, size(start, 2)
             call find_allowed(ground, share, start(:, k), way(:, k), low, high)
-            if (any(ground%beam%kind == restrained) &
+            if (any(ground%beam%kind == restrained) .or. allocated(ground%beam%turning) &
                 .or. sum((ground%pieces%tension + ground%pieces%tension_change/2)*ground%pieces%length) > 0.0_qp) then
                 ! Down or up as a whole, both ends by as much: tension keeps its direction, and resists rotations however great
                 low = max(low, sum(start(:, k)))
@@ -124,7 +125,10 @@ contains
         high = 1.0_qp
         do k = 1, size(ground%beam%supports)
             associate (s => ground%beam%supports(k))
-                if (s%stiffness > 0.0_qp) call keep_off(start, way, share(s%node), s%side, low, high)
+                if (s%node >= size(share)) cycle
+                if (.not. s%more .and. s%stiffness > 0.0_qp) call keep_off(start, way, share(s%node), s%side, low, high)
+                ! A law that begins with a piece without end
+                if (s%breakpoint == 1 .and. s%before > 0.0_qp) call keep_off(start, way, share(s%node), -s%side, low, high)
             end associate
         end do
         do j = 1, size(ground%pieces)
@@ -198,7 +202,7 @@ contains
 
     end function most_work
 
-    !> What ground at its limit resists a motion with, as work per displacement of the left and the right end of the beam
+    !> What ground and supports at their limits resist a motion with, as work per displacement of the left and the right end
     pure function resistance(ground, share, y) result(force)
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: share(0:)
@@ -208,7 +212,7 @@ contains
         real(qp) :: moves(2), limits(2)
         integer :: j, k, sense
 
-        force = 0.0_qp
+        force = by_supports()
         do j = 1, size(ground%pieces)
             moves = y(1) + share(j - 1:j)*(y(2) - y(1))
             do k = ground%first(j), ground%first(j + 1) - 1
@@ -221,6 +225,24 @@ contains
         end do
 
     contains
+
+        !> What supports whose laws end level resist with
+        pure function by_supports() result(added)
+            real(qp) :: added(2), at(2)
+            integer :: i
+            logical :: last, first
+
+            added = 0.0_qp
+            do i = 1, size(ground%beam%supports)
+                associate (s => ground%beam%supports(i))
+                    if (s%breakpoint == 0 .or. s%node >= size(share)) cycle
+                    at = [1 - share(s%node), share(s%node)]*s%side
+                    last = .not. s%more .and. .not. s%stiffness > 0.0_qp .and. dot_product(at, y) > 0.0_qp
+                    first = s%breakpoint == 1 .and. .not. s%before > 0.0_qp .and. dot_product(at, y) < 0.0_qp
+                    if (last .or. first) added = added + s%force*at
+                end associate
+            end do
+        end function by_supports
 
         !> What resists on the part of a piece that goes the way of a force
         pure function pressed(toward) result(added)

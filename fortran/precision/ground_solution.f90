@@ -48,7 +48,7 @@ module gapbeam_ground_solution
         !> forces, up, at the right end of every stretch, at the beam's left end for 0, and which layer it is, 0: none; shape (0:m)
         real(wp), allocatable :: pressure(:, :), push(:)
         integer, allocatable :: pushing(:)
-        !> At the nodes of the beam, shape (0:n)
+        !> At the nodes of the beam, shape (0:n); behind these of the deflections rotations that supports hold
         real(wp), allocatable :: deflection(:), moment_left(:), moment_right(:)
         !> Of the supports
         real(wp), allocatable :: reaction(:)
@@ -90,7 +90,7 @@ contains
 
         m = size(zones%piece)
         from = 0.0_qp
-        call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), size(closed))
+        call make_room(solution, m, size(zones%acts, 1), size(fine%pieces), ubound(work%answers, 1) - m, size(closed))
         solution%factor = real(factor, wp)
         solution%steps(:) = zones%steps
         solution%piece(:) = zones%piece
@@ -130,11 +130,9 @@ contains
             solution%undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             if (closed(k) .and. abs(margin(k)) <= ground_fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
-        associate (a => work%answers(grounded%node))
-            solution%deflection(:) = real(a%deflection, wp)
-            solution%moment_left(:) = real(a%moment_left, wp)
-            solution%moment_right(:) = real(a%moment_right, wp)
-        end associate
+        solution%deflection(:) = real(work%answers([grounded%node, (i, i=m + 1, ubound(work%answers, 1))])%deflection, wp)
+        solution%moment_left(:) = real(work%answers(grounded%node)%moment_left, wp)
+        solution%moment_right(:) = real(work%answers(grounded%node)%moment_right, wp)
         solution%reaction(:) = real(work%reaction, wp)
     end subroutine take_rounded
 
@@ -219,10 +217,10 @@ contains
     end subroutine go_with_ends
 
     !> A solution without numbers, but for those of the solves
-    pure subroutine make_room(solution, stretches, layers, pieces, supports)
+    pure subroutine make_room(solution, stretches, layers, pieces, rotations, supports)
         type(ground_solution_type), intent(inout) :: solution
-        !> Stretches, most layers under one, pieces of the beam, supports
-        integer, intent(in) :: stretches, layers, pieces, supports
+        !> Stretches, most layers under one, pieces of the beam, rotations that supports hold, supports
+        integer, intent(in) :: stretches, layers, pieces, rotations, supports
         type(ground_solution_type) :: empty
 
         empty%solves = solution%solves
@@ -230,7 +228,7 @@ contains
         allocate (solution%piece(stretches), solution%from(stretches), solution%to(stretches), solution%acts(layers, stretches), &
                   solution%stretches(stretches), solution%loads(stretches), solution%ends(stretches), solution%slope(stretches), &
                   solution%rotation(2, stretches), solution%shear(2, stretches), solution%force(2, stretches), &
-                  solution%resultant(layers, stretches), solution%steps(pieces), solution%deflection(0:pieces), &
+                  solution%resultant(layers, stretches), solution%steps(pieces), solution%deflection(0:pieces + rotations), &
                   solution%moment_left(0:pieces), solution%moment_right(0:pieces), solution%reaction(supports), &
                   solution%undecided(supports))
     end subroutine make_room

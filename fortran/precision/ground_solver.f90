@@ -21,6 +21,8 @@ module gapbeam_ground_solver
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_law, only: both
     use gapbeam_law_kinematics, only: is_blocked
+    use gapbeam_model, only: last_place
+    use gapbeam_turning, only: turn_with
     use gapbeam_refined, only: detail_type
     use gapbeam_refined_ground, only: refine_ground, refine_links, refine_zones
     use gapbeam_layers_quad, only: has_curves
@@ -156,7 +158,7 @@ contains
             end if
             outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_displacement)
             ! No support would stop it sooner or later
-            if (.not. is_blocked(ground%beam%supports, outcome%motion)) return
+            if (.not. is_stopped_by(outcome%motion)) return
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")
@@ -213,9 +215,24 @@ contains
 
             tips = .false.
             if (.not. allocated(motion)) return
-            tips = .not. (is_blocked(ground%beam%supports, motion) &
-                          .or. any(abs(motion(ground%beam%supports%node)) <= no_displacement))
+            tips = .not. is_stopped_by(motion)
+            associate (node => ground%beam%supports%node)
+                if (tips) tips = .not. any(abs(motion(pack(node, node < size(motion)))) <= no_displacement)
+            end associate
         end function tips_over
+
+        !> Does some support stop a motion
+        pure function is_stopped_by(motion) result(it_is)
+            !> Of the nodes, shape (0:n)
+            real(wp), intent(in) :: motion(0:)
+            logical :: it_is
+            real(wp) :: moved(0:last_place(ground%beam))
+
+            moved(:) = 0.0_wp
+            moved(0:ubound(motion, 1)) = motion
+            call turn_with(ground%beam, moved)
+            it_is = is_blocked(ground%beam%supports, moved)
+        end function is_stopped_by
 
         !> Solve on the first mesh, or on one that is finer where zones end
         subroutine solve_on_mesh()
@@ -303,7 +320,9 @@ contains
             ! So it tips over the edge
             outcome = outcome_type(status=gapbeam_no_equilibrium)
             allocate (outcome%motion(0:size(fine%pieces)))
-            outcome%motion(:) = solution%deflection/maxval(abs(solution%deflection))
+            associate (w => solution%deflection(0:size(fine%pieces)))
+                outcome%motion(:) = w/maxval(abs(w))
+            end associate
             return
         end if
         outcome%indifferent = found%indifferent

@@ -7,7 +7,8 @@ module gapbeam_ground_ties
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
-    use gapbeam_model_quad, only: beam_type
+    use gapbeam_model_quad, only: beam_type, last_place
+    use gapbeam_turning_quad, only: turn_with
     use gapbeam_law_kinematics_quad, only: leaves_all
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
@@ -35,7 +36,8 @@ contains
         call size_of_loads(ground, factor, force, way)
         associate (supports => grounded%beam%supports)
             do i = 1, size(supports)
-                if (abs(work%reaction(i)) > 0.0_qp) way = max(way, abs(work%answers(supports(i)%node)%deflection))
+                if (supports(i)%node > size(zones%piece) .or. .not. abs(work%reaction(i)) > 0.0_qp) cycle
+                way = max(way, abs(work%answers(supports(i)%node)%deflection))
             end do
         end associate
         stands = .false.
@@ -135,6 +137,7 @@ contains
         type(beam_type) :: beam
         type(motion_type), allocatable :: motions(:)
         logical :: idle(size(zones%piece))
+        real(qp) :: moved(0:last_place(grounded%beam))
         real(qp) :: forces(size(zones%piece)), length, force, way
         integer :: i, m, sense
 
@@ -154,11 +157,12 @@ contains
         end where
         call free_motions(beam, closed .and. .not. undecided, motions)
         do m = 1, size(motions)
+            moved(:) = 0.0_qp
+            moved(motions(m)%first:motions(m)%last) = motions(m)%displacement
+            call turn_with(beam, moved)
             do sense = -1, 1, 2
-                associate (motion => motions(m))
-                    free = free .or. (leaves_all(beam%supports, undecided, motion%first, motion%last, motion%displacement, sense) &
-                                      .and. leaves_ground(motion, sense))
-                end associate
+                free = free .or. (leaves_all(beam%supports, undecided, 0, ubound(moved, 1), moved, sense) &
+                                  .and. leaves_ground(motions(m), sense))
             end do
         end do
 

@@ -120,7 +120,9 @@ contains
         if (size(assembled%law) == 0) return
         depends = depends .or. any(assembled%model%supports(assembled%law%support)%unloading /= gapbeam_elastic)
         if (depends) return
-        ! What yields may let go of a beam that nothing else holds: only its path tells at which load
+        ! What yields may let go of a beam that nothing else holds: only its path tells at which load. Stretches tell that by
+        ! limit analysis, as of ground that yields
+        if (allocated(assembled%layers)) return
         associate (s => assembled%beam%supports)
             if (.not. any(s%breakpoint > 0 .and. abs(s%force) > 0.0_wp .and. &
                           .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp))) return

@@ -12,7 +12,7 @@ module gapbeam_axial_force
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
     use gapbeam_laws, only: is_smooth
     use gapbeam_units, only: rotation_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone
+    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone, turns
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
@@ -91,6 +91,7 @@ contains
         it_is = size(model%foundations) > 0
         if (.not. it_is) it_is = has_axial_force(model) .or. any(model%spans%mass > 0.0_wp) .or. size(model%masses) > 0
         if (.not. it_is .and. model%with_trains) it_is = any(model%hinge_stiffness > 0.0_wp) .or. any(is_alone(model%loads)) &
+            .or. any(turns(model%supports)) &
             .or. any(max(model%sections%EI_to, model%sections%GA_to) > gapbeam_unchanged)
     end function in_stretches
 

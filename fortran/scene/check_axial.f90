@@ -35,7 +35,8 @@ contains
         !> Which supports have a law
         logical, intent(in) :: with_law(:)
         type(error_type), allocatable, intent(out) :: error
-        character(len=*), parameter :: in_version = " is not available in this version"
+        character(len=*), parameter :: in_version = " is not available in this version", &
+            beside_curve = " beside a support whose law is a curve"//in_version//"; give the points of the curve"
         character(len=:), allocatable :: which, where
         logical, allocatable :: falls(:)
         logical :: curved, stiff
@@ -67,9 +68,10 @@ contains
                 else if (with_law(k) .and. falls(k)) then
                     call say("law", "a force that falls "//where//in_version//"; give a law that rises or stays")
                 else if (turns(s)) then
-                    call check_rest("direction", "a support that holds a rotation by a law, a slack, one way or at a "// &
-                                    "hinge")
-                    if (.not. allocated(error) .and. stiff) then
+                    if (curved) then
+                        call say("direction", "a support that holds a rotation by a law, a slack, one way or at a hinge"// &
+                                 beside_curve)
+                    else if (stiff) then
                         call say("direction", "beside a rigid beam (infinite EI) it"//in_version//"; give EI")
                     end if
                 else if (with_law(k)) then
@@ -97,7 +99,7 @@ contains
             if (in_stretches(model)) then
                 call say(key, what//" beside "//trim(what_stretches(model))//in_version//"; leave one of them out")
             else if (curved) then
-                call say(key, what//" beside a support whose law is a curve"//in_version//"; give the points of the curve")
+                call say(key, what//beside_curve)
             end if
         end subroutine check_rest
 

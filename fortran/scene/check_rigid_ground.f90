@@ -5,7 +5,7 @@ module gapbeam_check_rigid_ground
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_scene, only: gapbeam_normal, gapbeam_unchanged, gapbeam_linear_curvature
-    use gapbeam_assembled_model, only: assembled_type, is_alone, point_x, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, is_alone, turns, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_input_error, only: refuse, of_sections, of_supports, of_foundations, of_loads, bad_law, bad_load
     implicit none
@@ -56,6 +56,12 @@ contains
             if (allocated(error)) return
         end do
         do s = 1, size(assembled%model%supports)
+            if (turns(assembled%model%supports(s))) then
+                call refuse(error, of_supports, s, size(assembled%model%supports), bad_law, "direction", "a support that holds "// &
+                            "a rotation by a law, a slack, one way or at a hinge is not available over rigid ground; give the "// &
+                            "ground a stiffness")
+                return
+            end if
             if (assembled%model%supports(s)%direction /= gapbeam_normal) cycle
             call check_support(assembled, s, error)
             if (allocated(error)) return

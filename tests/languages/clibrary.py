@@ -589,7 +589,8 @@ class F77Beam:
         sides, foundations = a["foundation_side"], ("from", "to", "k", "k_to", "gap", "gap_to")
         rubs = a["support_friction"].any()
         named = a["support_law"].any() or rubs
-        pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], (KINDS["axial"], KINDS["temperature"])).any()
+        along = [KINDS[name] for name in ("axial", "temperature", "axial_uniform")]
+        pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], along).any()
         feels = pressed or a["stretching"] or a["with_trains"] or a["N"].any() or a["mass"].any() or len(a["mass_x"])
         feels = feels or a["foundation_shear"].any()
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"

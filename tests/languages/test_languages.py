@@ -547,8 +547,9 @@ def soft_scene(seed):
     }  # fmt: skip
 
 
-def test_turned_supports_and_loads_along_the_beam_agree(library):
-    """From C and Fortran 77, elastic and rigid ones, dead and live, beside couples at a hinge."""
+@pytest.mark.parametrize("ground", [[], [{"k": 20.0}]])
+def test_turned_supports_and_loads_along_the_beam_agree(library, ground):
+    """From C and Fortran 77, elastic and rigid ones, dead and live, beside couples at a hinge, on ground as well."""
     scene = {
         "beam": {"spans": [3.0, 2.0], "EI": 80.0, "EA": 300.0, "hinges": [4.0]},
         "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2, "rotation": 40.0},
@@ -557,6 +558,7 @@ def test_turned_supports_and_loads_along_the_beam_agree(library):
                   {"type": "movement", "support": 2, "rotation": -0.01, "case": "dead"},
                   {"type": "axial_uniform", "q": 1.5, "from": 0.5, "to": 4.5},
                   *({"type": "moment", "x": 4.0, "M": 0.7, "at_hinge": side} for side in ("left", "right"))],
+        "foundation": ground,
     }  # fmt: skip
     result = python_result(scene)
     beam, message = library.prepare(scene)
@@ -617,7 +619,8 @@ def test_restraints_and_hinges_with_laws_agree(library):
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_supports_and_couples_at_hinges_agree(library, side, hinge):
     """Rigid, elastic and with a law, left and right of free hinges and others, beside a couple."""
-    for rotation in ("fixed", 40.0, {"law": [[0.02, 1.0], [0.2, 1.5]]}):
+    law = {"law": [[0.02, 1.0], [0.2, 1.5]]}
+    for rotation, ground in (("fixed", []), (40.0, []), (law, []), (law, [{"k": 20.0, "side": "below"}])):
         scene = {
             "beam": {"spans": [3.0, 2.0], "EI": 80.0, "hinges": [] if hinge else [3.0]},
             "hinges": [{"x": 3.0, **hinge}] if hinge else [],
@@ -625,6 +628,7 @@ def test_supports_and_couples_at_hinges_agree(library, side, hinge):
                          {"node": 1, "side": "below", "gap": 0.001, "rotation": rotation, "at_hinge": side}],
             "loads": [{"type": "uniform", "q": 1.0},
                       {"type": "moment", "x": 3.0, "M": 0.7, "at_hinge": "right"}],
+            "foundation": ground,
         }  # fmt: skip
         result = python_result(scene)
         beam, message = library.prepare(scene)
@@ -639,11 +643,13 @@ def test_supports_and_couples_at_hinges_agree(library, side, hinge):
         assert abs(step.couple[2]) > 0.0
 
 
-def test_curvatures_that_change_agree(library):
+@pytest.mark.parametrize("ground", [[], [{"k": 20.0, "side": "below"}]])
+def test_curvatures_that_change_agree(library, ground):
     scene = {
         "beam": {"spans": [3.0, 2.0], "EI": 80.0, "GA": 50.0},
         "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2}],
         "loads": [{"type": "curvature", "from": 0.5, "to": 4.0, "kappa": [0.01, -0.03]}, {"type": "uniform", "q": 1.0}],
+        "foundation": ground,
     }  # fmt: skip
     result = python_result(scene)
     beam, message = library.prepare(scene)

@@ -289,7 +289,7 @@ def turns(cell, value, change, samples):
     t = np.linspace(0, 1, samples)
     f = np.polyval([float(c / size) for c in reversed(change)], t)
     some = []
-    for n in np.flatnonzero(f[:-1] * f[1:] < 0):
+    for n in np.flatnonzero((f[:-1] * f[1:] <= 0) & (f[:-1] != 0)):
         middle = mp.mpf(t[n] + t[n + 1]) / 2
         some.append((polynomial(value, middle), cell.a + middle * cell.h, (cell, value, change, t[n], t[n + 1])))
     return some

@@ -13,7 +13,6 @@ from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.movements import refuse_movements
-from ...scene.rotations import which_turn
 from ...scene.structs import Scene
 from ..state.motion import buckling_of
 from ..state.schemes import starting_scheme
@@ -51,9 +50,6 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         follow_scene(result, closed)
         check_compression(result)
         return
-    if which_turn(scene.supports).any():
-        what = "a restraint or hinge with a law, a slack or a side, or a restraint at a hinge,"
-        raise SceneError("supports", f"{what} under trains is not available in this version; leave one of them out")
     if beam.depends_on_path:
         refuse_movements(scene, "a support cannot be moved by a load under trains")
         if beam.has_links_along:

@@ -244,10 +244,3 @@ def test_names_report_and_file():
     assert [one["direction"] for one in data["steps"][-1]["supports"]] == ["normal", "normal", "rotational", "rotational", "hinge"]
     again = gapbeam.solve(result.scene)
     assert again.steps[-1] == result.steps[-1]
-
-
-def test_under_trains_it_is_refused():
-    scene = {**CLAMPED, "trains": [{"axles": [[0.0, 1.0]]}]}
-    del scene["analysis"]
-    with pytest.raises((gapbeam.SceneError, gapbeam.EngineError), match="not available"):
-        gapbeam.solve(scene).envelope()

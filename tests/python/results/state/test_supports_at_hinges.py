@@ -213,7 +213,6 @@ def test_names_report_picture_and_file():
     ({"supports": [*BRACKET["supports"], {"node": 1, "direction": "rotational", "at_hinge": "right", "name": "B"}]},
      'supports "rotation of 1".at_hinge: the other side of the hinge is held too'),
     ({"foundation": [{"k": 10.0}]}, "at a hinge beside a foundation is not available"),
-    ({"trains": [{"axles": [[0.0, 1.0]]}]}, "a restraint at a hinge, under trains"),
     ({"beam": {"spans": [4.0, 4.0], "EI": [INF, 1.0], "hinges": [4.0]}}, "beside a rigid beam"),
 ])  # fmt: skip
 def test_refused(changes, words):
