@@ -299,6 +299,8 @@ contains
                 a(0) = p%rise/(s%flexibility*s%length)
             case (slope_of_transverse)
                 a(0) = 2*s%tension*w(2)/(half*s%length)**2
+            case default
+                continue
             end select
         end associate
     end subroutine middle_piece

@@ -212,7 +212,6 @@ def test_names_report_picture_and_file():
      'supports[1].rotation: expected "free", "fixed" or a number, 0 or more'),
     ({"supports": [*BRACKET["supports"], {"node": 1, "direction": "rotational", "at_hinge": "right", "name": "B"}]},
      'supports "rotation of 1".at_hinge: the other side of the hinge is held too'),
-    ({"foundation": [{"k": 10.0}]}, "at a hinge beside a foundation is not available"),
     ({"beam": {"spans": [4.0, 4.0], "EI": [INF, 1.0], "hinges": [4.0]}}, "beside a rigid beam"),
 ])  # fmt: skip
 def test_refused(changes, words):
