@@ -4,7 +4,7 @@ module gapbeam_capi_model
         c_f_pointer, c_loc, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
-    use gapbeam_scene, only: model_type, load_type, gapbeam_temperature
+    use gapbeam_scene, only: model_type, section_type, load_type, gapbeam_temperature
     use gapbeam_assembled_model, only: is_movement, is_of_support
     implicit none
     private
@@ -45,6 +45,12 @@ module gapbeam_capi_model
         type(c_ptr) :: N = c_null_ptr, mass = c_null_ptr, foundation_shear = c_null_ptr
         integer(c_int) :: N_grows = 0, first_order = 0, stretching = 0, with_trains = 0, masses = 0
         type(c_ptr) :: mass_x = c_null_ptr, lumped_mass = c_null_ptr
+        integer(c_int) :: sections = 0
+        type(c_ptr) :: section_from = c_null_ptr, section_to = c_null_ptr
+        type(c_ptr) :: section_EI = c_null_ptr, section_GA = c_null_ptr, section_EA = c_null_ptr
+        type(c_ptr) :: section_EI_to = c_null_ptr, section_GA_to = c_null_ptr, section_EA_to = c_null_ptr
+        type(c_ptr) :: section_EI_power = c_null_ptr, section_GA_power = c_null_ptr, section_EA_power = c_null_ptr
+        type(c_ptr) :: section_friction = c_null_ptr, section_N = c_null_ptr
     end type c_model
 
 contains
@@ -122,6 +128,7 @@ contains
                                                          .eqv. c_associated(c%support_parameter), &
                                                          "support_law and support_parameter need each other", error)
             if (.not. allocated(error)) call foundations_from_c(c, model, error)
+            if (.not. allocated(error)) call sections_from_c(c, model%sections, error)
         end if
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
@@ -254,6 +261,41 @@ contains
             if (has_reals(c%ground_law_force, n, reals)) points%force = reals
         end associate
     end subroutine foundations_from_c
+
+    !> Copy the sections of a model
+    subroutine sections_from_c(c, sections, error)
+        !> Of the structure's size now
+        type(c_model), intent(in) :: c
+        type(section_type), allocatable, intent(out) :: sections(:)
+        !> As for model_from_c
+        type(error_type), allocatable, intent(out) :: error
+        real(c_double), pointer :: reals(:)
+        integer(c_int), pointer :: integers(:)
+        integer :: stat
+
+        call check_array("sections", c%sections, .true., "", error)
+        if (allocated(error)) return
+        allocate (sections(c%sections), stat=stat)
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
+        associate (s => sections, n => c%sections)
+            if (has_reals(c%section_from, n, reals)) s%from = reals
+            if (has_reals(c%section_to, n, reals)) s%to = reals
+            if (has_reals(c%section_EI, n, reals)) s%EI = reals
+            if (has_reals(c%section_GA, n, reals)) s%GA = reals
+            if (has_reals(c%section_EA, n, reals)) s%EA = reals
+            if (has_reals(c%section_EI_to, n, reals)) s%EI_to = reals
+            if (has_reals(c%section_GA_to, n, reals)) s%GA_to = reals
+            if (has_reals(c%section_EA_to, n, reals)) s%EA_to = reals
+            if (has_integers(c%section_EI_power, n, integers)) s%EI_power = integers
+            if (has_integers(c%section_GA_power, n, integers)) s%GA_power = integers
+            if (has_integers(c%section_EA_power, n, integers)) s%EA_power = integers
+            if (has_reals(c%section_friction, n, reals)) s%friction = reals
+            if (has_reals(c%section_N, n, reals)) s%N = reals
+        end associate
+    end subroutine sections_from_c
 
     !> Copy the loads of a model
     subroutine loads_from_c(c, loads, error)

@@ -296,6 +296,15 @@ function gbinf() result(value)
     value = gapbeam_infinity
 end function gbinf
 
+! What stands for a number of a section that stays as it is
+function gbsame() result(value)
+    use gapbeam_scene, only: gapbeam_unchanged
+    implicit none
+    double precision :: value
+
+    value = gapbeam_unchanged
+end function gbsame
+
 ! Version of the library
 subroutine gbvers(major, minor, patch)
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch

@@ -1,11 +1,11 @@
-!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL, GHPRFR, GHPRFD and GHPRAF do
+!> Models from the arrays of the Fortran 77 interface: what GHPREP, GHPRLW, GHPRSL, GHPRFR, GHPRFD, GHPRAF and GHPRSC do
 module gapbeam_fortran77_model
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_bad_input
     use gapbeam_laws, only: parameters_of_law
-    use gapbeam_scene, only: model_type, gapbeam_table_of_gap
-    use gapbeam_input_error, only: of_spans, of_supports, of_foundations, not_expected
+    use gapbeam_scene, only: model_type, section_type, gapbeam_table_of_gap
+    use gapbeam_input_error, only: of_spans, of_supports, of_sections, of_foundations, not_expected
     use gapbeam_check_ground_laws, only: has_parameter
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
     use gapbeam_handles, only: handle_type, number_of
@@ -19,7 +19,7 @@ contains
     !> Prepare a beam, with the arguments of GHPRFD
     subroutine prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
                        found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, islaw, &
-                       slaw, fric, axial, shear, igrow, nmass, amass)
+                       slaw, fric, axial, shear, igrow, nmass, amass, nsec, isec, sec)
         integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
         real(wp), intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *), &
                                 glaw(2*parameters_of_law, *), atab(2, *)
@@ -35,6 +35,11 @@ contains
         !> GHPRAF
         real(wp), intent(in), optional :: axial(2, *), shear(*), amass(2, *)
         integer, intent(in), optional :: igrow, nmass
+        !> Sections, as for GHPRSC
+        integer, intent(in), optional :: nsec, isec(3, *)
+        real(wp), intent(in), optional :: sec(10, *)
+        !> Arguments that are numbers of entries
+        integer, parameter :: place_of_count(9) = [1, 3, 5, 8, 11, 15, 18, 21, 26]
         type(model_type) :: model
         type(handle_type), pointer :: handle
         type(error_type), allocatable :: error
@@ -45,15 +50,9 @@ contains
         beam = 0
         ientry = 0
         info = 0
-        if (ntab < 0) info = -26
-        if (nflaw < 0) info = -21
-        if (nprof < 0) info = -18
-        if (nfound < 0) info = -15
-        if (nlaw < 0) info = -11
-        if (nload < 0) info = -8
-        if (nsup < 0) info = -5
-        if (nhinge < 0) info = -3
-        if (nspan < 1) info = -1
+        if (present(nsec)) info = merge(-34, 0, nsec < 0)
+        k = findloc([nspan - 1, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab] < 0, .true., 1)
+        if (k > 0) info = -place_of_count(k)
         if (info /= 0) return
         allocate (ground(7 + 2*parameters_of_law, nfound), points(3, nprof + ntab), owners(nprof + ntab), &
                   stat=stat)
@@ -96,6 +95,7 @@ contains
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
             if (present(nmass)) model%masses = amass(:, 1:max(nmass, 0))
+            if (present(nsec)) model%sections = sections_of(isec(:, 1:nsec), sec(:, 1:nsec))
             model%first_order = .true.
             if (present(igrow)) then
                 model%N_grows = modulo(igrow, 2) /= 0
@@ -114,6 +114,32 @@ contains
         if (error%code == gapbeam_bad_input) info = -argument_of(error, nprof)
     end subroutine prepare
 
+    !> Sections from ISEC and SEC
+    pure function sections_of(isec, sec) result(sections)
+        integer, intent(in) :: isec(:, :)
+        real(wp), intent(in) :: sec(:, :)
+        type(section_type) :: sections(size(sec, 2))
+        integer :: i
+
+        do i = 1, size(sections)
+            associate (s => sections(i), a => sec(:, i))
+                s%from = a(1)
+                s%to = a(2)
+                s%EI = a(3)
+                s%EI_to = a(4)
+                s%GA = a(5)
+                s%GA_to = a(6)
+                s%EA = a(7)
+                s%EA_to = a(8)
+                s%N = a(9)
+                s%friction = a(10)
+                s%EI_power = isec(1, i)
+                s%GA_power = isec(2, i)
+                s%EA_power = isec(3, i)
+            end associate
+        end do
+    end function sections_of
+
     !> The argument of GHPRAF, or of GHPRSL and GHPRFR, that bad input is about
     pure function argument_of(error, nprof) result(place)
         type(error_type), intent(in) :: error
@@ -128,6 +154,8 @@ contains
         select case (error%table)
         case (of_spans)
             if (error%key == "N" .or. error%key == "mass") place = 29
+        case (of_sections)
+            place = 36
         case (of_supports)
             if (error%key == "law") place = 12
             if (index(error%key, "law.") == 1) place = 16

@@ -12,6 +12,11 @@
 !     AMASS(2, NMASS)   of lumped masses, for frequencies: x, and the mass, 0 or more, in the unit of force times the square of that
 !                       of time over that of length
 !
+!     ISEC(3, NSEC)     of sections: which powers of a linear depth EI, GA and EA are, 1 to 4
+!     SEC(10, NSEC)     of sections: left and right end; EI at both; GA at both; EA at both; N; most force per length with which
+!                       ground holds the beam along its axis, 0 or more. GBSAME() stands for what stays as it is, and for the
+!                       right end of the beam; at the right end of a stiffness for the value at the left one
+!
 !     KIND              of modes: 1 buckling, 2 vibration, with the supports and the ground that act in a solved state
 
 ! Prepare a beam whose bending feels axial forces, also on foundations, and whose supports may follow laws
@@ -62,6 +67,33 @@ subroutine ghprlm(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
                  found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, &
                  axial=axial, shear=shear, igrow=igrow, nmass=nmass, amass=amass)
 end subroutine ghprlm
+
+! The same with sections
+subroutine ghprsc(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &
+                  nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, axial, shear, igrow, nmass, &
+                  amass, nsec, isec, sec, beam, ientry, info)
+    use gapbeam_fortran77_model, only: prepare
+    implicit none
+    ! As for GHPRLM
+    integer, intent(in) :: nspan, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab
+    double precision, intent(in) :: span(4, *), hinge(*), sup(5, *), aload(4, *), alaw(2, *), found(6, *), aprof(2, *), aflaw(2, *)
+    double precision, intent(in) :: glaw(6, *), atab(2, *)
+    integer, intent(in) :: isup(3, *), iload(3, *), ilaw(*), iunl(*), ifound(*), iprof(*), iflaw(*), iglaw(*), itab(2, *)
+    double precision, intent(in) :: axial(2, *), shear(*), amass(2, *)
+    integer, intent(in) :: igrow, nmass
+    ! See above; NSEC 0 or more
+    integer, intent(in) :: nsec, isec(3, *)
+    double precision, intent(in) :: sec(10, *)
+    ! As from GHPREP
+    integer(8), intent(out) :: beam
+    integer, intent(out) :: ientry
+    ! -1 to -33 as from GHPRLM; -34: NSEC; -36: SEC(., IENTRY) or ISEC(., IENTRY); 14, 15
+    integer, intent(out) :: info
+
+    call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &
+                 found, nprof, iprof, aprof, nflaw, iflaw, aflaw, iglaw, glaw, ntab, itab, atab, beam, ientry, info, &
+                 axial=axial, shear=shear, igrow=igrow, nmass=nmass, amass=amass, nsec=nsec, isec=isec, sec=sec)
+end subroutine ghprsc
 
 ! Is a solved state known to be the only one
 subroutine ghuniq(state, iuniq, info)

@@ -2,6 +2,7 @@
 
 import ctypes as c
 import math
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -101,6 +102,10 @@ class Model(c.Structure):
         *((name, REAL) for name in ("N", "mass", "foundation_shear")),
         *((name, c.c_int) for name in ("N_grows", "first_order", "stretching", "with_trains", "masses")),
         *((name, REAL) for name in ("mass_x", "lumped_mass")),
+        ("sections", c.c_int),
+        *((f"section_{name}", REAL) for name in ("from", "to", "EI", "GA", "EA", "EI_to", "GA_to", "EA_to")),
+        *((f"section_{name}_power", INTEGER) for name in ("EI", "GA", "EA")),
+        *((f"section_{name}", REAL) for name in ("friction", "N")),
     )
 
 
@@ -190,8 +195,27 @@ def with_rotations(scene):
     return {**scene, "supports": supports + held, "hinges": [hinge for hinge in scene.get("hinges", ()) if hinge not in more]}
 
 
+UNCHANGED = -sys.float_info.max
+
+
+def sections_of(scene):
+    """The arrays of sections, with ground along the beam."""
+    rows = [*scene.get("sections", ()), *({**one, "friction": one["limit"]} for one in scene.get("axial_ground", ()))]
+    found = {f"section_{key}": np.array([row.get(key, UNCHANGED) for row in rows], dtype=float) for key in ("to", "N")}
+    for key in ("from", "friction"):
+        found[f"section_{key}"] = np.array([row.get(key, 0.0) for row in rows], dtype=float)
+    for key in ("EI", "GA", "EA"):
+        given = [row.get(key, UNCHANGED) for row in rows]
+        given = [dict(zip(("from", "to"), one, strict=True)) if isinstance(one, list) else one for one in given]
+        tapers = [one if isinstance(one, dict) else {"from": one} for one in given]
+        found[f"section_{key}"] = np.array([one["from"] for one in tapers], dtype=float)
+        found[f"section_{key}_to"] = np.array([one.get("to", UNCHANGED) for one in tapers], dtype=float)
+        found[f"section_{key}_power"] = np.array([one.get("power", 1) for one in tapers], dtype=np.int32)
+    return found
+
+
 def columns(scene):
-    """The arrays of the C interface for a scene without sections."""
+    """The arrays of the C interface for a scene."""
     scene = with_rotations(scene)
     spans, supports, loads = scene["beam"]["spans"], scene["supports"], scene["loads"]
     end = math.fsum(scene["beam"]["spans"])
@@ -231,6 +255,7 @@ def columns(scene):
         "with_trains": int(bool(scene.get("trains"))),
         "mass_x": np.array([one["x"] for one in scene.get("masses", ())], dtype=float),
         "lumped_mass": np.array([one["mass"] for one in scene.get("masses", ())], dtype=float),
+        **sections_of(scene),
         "hinge_x": np.array([*scene["beam"].get("hinges", []), *(one["x"] for one in scene.get("hinges", ()))], dtype=float),
         "hinge_stiffness": np.array(
             [0.0 for _ in scene["beam"].get("hinges", [])] + [one["stiffness"] for one in scene.get("hinges", ())], dtype=float
@@ -329,7 +354,7 @@ class Library:
         sizes = {"spans": "length", "masses": "mass_x", "hinges": "hinge_x", "supports": "support_x", "loads": "load_value",
                  "law_points": "law_force",
                  "foundations": "foundation_k", "profile_points": "profile_x", "ground_law_points": "ground_law_force",
-                 "table_points": "table_x"}  # fmt: skip
+                 "table_points": "table_x", "sections": "section_from"}  # fmt: skip
         for name, key in sizes.items():
             setattr(made, name, len(arrays[key]))
         return made
@@ -592,7 +617,8 @@ class F77Beam:
         along = [KINDS[name] for name in ("axial", "temperature", "axial_uniform")]
         pressed = not (a["first_order"] or named) and np.isin(a["load_kind"], along).any()
         feels = pressed or a["stretching"] or a["with_trains"] or a["N"].any() or a["mass"].any() or len(a["mass_x"])
-        feels = feels or a["foundation_shear"].any()
+        cut = len(a["section_from"])
+        feels = feels or a["foundation_shear"].any() or cut
         plain = "ghprfr" if rubs else "ghprsl" if named else "ghprlw" if len(ilaw) else "ghprep"
         prepare = "ghpraf" if feels else "ghprfd" if len(sides) else plain
         if len(ilaw) or len(sides) or named or feels:
@@ -612,7 +638,13 @@ class F77Beam:
             model += [np.array([a["N"], a["mass"]]).T.copy(), a["foundation_shear"], forces]
         if len(a["mass_x"]):
             prepare = "ghprlm"
+        if len(a["mass_x"]) or cut:
             model += [len(a["mass_x"]), np.array([a["mass_x"], a["lumped_mass"]]).T.copy()]
+        if cut:
+            prepare = "ghprsc"
+            powers = np.array([a[f"section_{key}_power"] for key in ("EI", "GA", "EA")], np.int32).T.copy()
+            numbers = ("from", "to", "EI", "EI_to", "GA", "GA_to", "EA", "EA_to", "N", "friction")
+            model += [cut, powers, np.array([a[f"section_{key}"] for key in numbers]).T.copy()]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)
         assert self.call("ghstat", self.state) == 0

@@ -572,9 +572,10 @@ def test_turned_supports_and_loads_along_the_beam_agree(library, ground):
     assert result.steps[-1].reaction[3:].sum() == pytest.approx(-6.0, rel=1e-14)
 
 
-def states_on_history(library, example):
-    """Follow the history of an example in all languages: the same events, and every state in Python, C and Fortran 77."""
-    scene = tomllib.loads((TOP / "examples" / f"{example}.toml").read_text())
+def states_on_history(library, scene):
+    """Follow the history of a scene, or of an example by its name, in all languages: the same events, and every state of each."""
+    if isinstance(scene, str):
+        scene = tomllib.loads((TOP / "examples" / f"{scene}.toml").read_text())
     result = python_result(scene)
     beam, message = library.prepare(scene)
     assert not message
@@ -601,6 +602,45 @@ def test_friction_agrees(library):
             for values, expected in zip(one.friction(), (step.friction, step.slip, ways), strict=True):
                 np.testing.assert_array_equal(values, expected)
     assert step.friction.any()
+
+
+@pytest.mark.parametrize("changes", [
+    {"sections": [{"from": 1.0, "to": 3.0, "EI": [80.0, 20.0]}, {"from": 3.0, "EI": {"from": 20.0, "to": 90.0, "power": 3},
+                                                                  "GA": [40.0, 90.0]}]},
+    {"sections": [{"from": 2.0, "to": 4.0, "EI": 30.0, "N": -1.0}, {"to": 2.0, "EI": {"from": 90.0, "to": 20.0, "power": 2}}],
+     "masses": [{"x": 2.0, "mass": 0.3}], "beam": {"spans": [3.0, 2.0], "EI": 80.0, "N": 2.0, "mass": 0.1}},
+    {"sections": [{"from": 1.0, "to": 4.0, "EI": [80.0, 20.0]}], "foundation": [{"k": 9.0, "side": "below"}]},
+])  # fmt: skip
+def test_sections_agree(library, changes):
+    """Steps, tapers, axial forces of sections: reactions have the digits of Python."""
+    scene = {
+        "beam": {"spans": [3.0, 2.0], "EI": 80.0}, "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}],
+        "loads": [{"type": "uniform", "q": 1.0}, {"type": "force", "x": 4.0, "F": 3.0}], **changes,
+    }  # fmt: skip
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    for one in (beam, f77):
+        np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
+    wrong = scene | {"sections": [*scene["sections"], {"from": 0.0, "to": 1.0, "EI": [1.0, -3.0]}]}
+    assert "number above 0" in library.prepare(wrong)[1]
+    f77 = F77Beam(library, wrong)
+    assert (f77.info_, f77.entry[0]) == (-36, len(wrong["sections"]))
+
+
+def test_ground_along_the_beam_agrees(library):
+    """A pipe that is heated, cooled and pulled slips in its ground: events and states have the digits of Python."""
+    scene = {
+        "beam": {"spans": [40.0, 20.0], "EI": 10.0, "EA": 2000.0, "alpha": 1e-5}, "supports": [{"node": k} for k in range(3)],
+        "loads": [{"type": "temperature", "dT": 50.0, "to": 40.0}, {"type": "axial", "node": 2, "F": 0.4}],
+        "axial_ground": [{"limit": 0.05}, {"from": 40.0, "limit": 0.02}],
+        "analysis": {"history": [1.0, -0.5], "follow": "events", "first_order": True},
+    }  # fmt: skip
+    for step, *beams in states_on_history(library, scene):
+        for one in beams:
+            np.testing.assert_array_equal(one.at_supports()[0], step.reaction)
 
 
 def test_restraints_and_hinges_with_laws_agree(library):
