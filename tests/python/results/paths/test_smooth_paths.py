@@ -273,7 +273,7 @@ def apart(step, exact):
 def test_random_paths():
     """A few have turns smaller than the error of the polylines, or a turn and an event in one step of the other solution."""
     turned, left_out = 0, []
-    for seed in range(100):
+    for seed in range(50):
         scene = drawn(seed)
         problem = Problem(*scene)
         rows = problem.follow(1.0)
@@ -309,7 +309,7 @@ def test_random_paths():
             released.add(limit.released)
         assert max(released) == pytest.approx(min(released), rel=1e-9)
         assert min(released) > 0.0
-    assert turned > 25
+    assert turned > 12
     assert len(left_out) < 5, left_out
 
 

@@ -30,7 +30,7 @@ STRIP = {
 FIELDS = ("deflection", "rotation", "moment", "shear")
 
 
-@pytest.mark.parametrize("first", [0, 8, 16])
+@pytest.mark.parametrize("first", [0, 8])
 def test_random_tapers_agree_with_the_reference(first):
     solved = 0
     for seed in range(first, first + 8):
