@@ -2,6 +2,7 @@
 module gapbeam_axial_loads
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type
+    use gapbeam_path_tolerances, only: no_friction
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_polyline_quad, only: node_support_type
     use gapbeam_scene, only: gapbeam_elastic
@@ -132,9 +133,12 @@ contains
             if (.not. rubs(l)) cycle
             j = beam%beam_support(support(l))
             if (j == 0) cycle
-            reaction(l) = scale(sum(state%reaction(j:last_breakpoint(beam%beam%supports, j))), &
-                                beam%units%force - beam%axial%units%force)
+            reaction(l) = sum(state%reaction(j:last_breakpoint(beam%beam%supports, j)))
         end do
+        associate (across => beam%beam%supports%node <= size(beam%beam%links))
+            where (abs(reaction) <= no_friction*maxval(abs(state%reaction), across)) reaction = 0.0_wp
+        end associate
+        reaction(:) = scale(reaction, beam%units%force - beam%axial%units%force)
     end subroutine find_reactions
 
     !> Load factors between two at which reactions change their sign, in their order

@@ -349,8 +349,9 @@ class Beside:
         return True
 
 
-# Of 89 both ends slide at once from the start: where the beam is then follows from nothing
-@pytest.mark.parametrize("seed", sorted(set(range(120)) - {89}))
+# Of 89 both ends slide at once from the start: where the beam is then follows from nothing. Of the last two a rounding of friction
+# was left where a support opened, which nothing held beyond: they were told to slide without end
+@pytest.mark.parametrize("seed", [*sorted(set(range(120)) - {89}), 10280, 11690])
 def test_beside_a_chain_in_rationals(seed):
     """Forces and displacements at the end of every leg; a limit where the chain in rationals finds one."""
     compare(*random_scene(random.Random(seed)))
