@@ -60,8 +60,7 @@ module gapbeam_path_tolerances
     !> Share of the way over which a beam begins to slide over ground along it: small, as what else changes is left out, by its
     !> square. Read by continuation/ground_along_steps
     real(wp), parameter :: first_slip = 2.0_wp**(-28)
-    !> Share of the way to which a change of what slides is found. Read by continuation/ground_along_path,
-    !> continuation/ground_along_steps
+    !> Share of the way to which a change of what slides is found. Read by continuation/ground_along_path
     real(wp), parameter :: found_slip = 2.0_wp**(-50)
     !> Share of the way that is rounding. Read by continuation/ground_along_path
     real(wp), parameter :: nothing_left = 2.0_wp**(-46)

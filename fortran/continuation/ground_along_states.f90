@@ -5,8 +5,9 @@ module gapbeam_ground_along_states
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, first_parts, length_of, force_in
-    use gapbeam_ground_along_steps, only: begin, go_on
+    use gapbeam_ground_along, only: ground_along_type, rates_type, first_parts, length_of, force_in
+    use gapbeam_ground_along_slip, only: find_motion
+    use gapbeam_ground_along_path, only: go_to_change
     use gapbeam_history_record, only: history_type
     use gapbeam_solution, only: state_type
     implicit none
@@ -30,7 +31,8 @@ contains
         type(rates_type) :: rates
         real(wp), allocatable :: longer(:)
         real(wp) :: way, gone, worst
-        integer :: first(size(beam%axial%limit) + 1), i, k
+        integer :: first(size(beam%axial%limit) + 1), i, k, idle
+        logical :: settled
 
         associate (known => history%along%on_ground, s => history%stretches(stretch))
             k = 0
@@ -44,11 +46,14 @@ contains
             way = abs(factor - known(k)%factor)
             if (known(k)%stretch < stretch .or. s%skipped) way = 0.0_wp
         end associate
-        if (way > 0.0_wp) then
-            call find_rates(ground, rates)
-            call begin(ground, rates, way, gone)
-            call go_on(ground, way, gone)
-        end if
+        ! As the path itself goes: a part may end by rounding; what does not get there the audit tells
+        idle = 0
+        do while (way > 0.0_wp .and. idle <= size(ground%parts))
+            call find_motion(ground, rates, settled)
+            call go_to_change(ground, rates, way, gone)
+            idle = merge(0, idle + 1, gone > 0.0_wp)
+            way = way - gone
+        end do
         associate (axial => beam%axial)
             state%displacement(:) = ground%displacement
             state%tension(:) = least_forces(ground)

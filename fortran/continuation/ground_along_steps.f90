@@ -2,42 +2,18 @@
 !> and Stoer; Hairer, Norsett and Wanner, Solving ordinary differential equations I, II.9).
 module gapbeam_ground_along_steps
     use gapbeam_kinds, only: wp
-    use gapbeam_path_tolerances, only: first_slip, found_slip, slip_settled, stiff_part
+    use gapbeam_path_tolerances, only: first_slip, slip_settled, stiff_part
     use gapbeam_ground_along, only: ground_along_type, rates_type, find_rates, length_of
     use gapbeam_ground_along_slip, only: find_motion, start_sliding, longest_start
     use gapbeam_ground_along_stiff, only: take_stiff_step
     implicit none
     private
-    public :: begin, first_step, go_on, take_step
+    public :: begin, first_step, take_step
 
     !> Columns of the extrapolation; rounds in which parts begin
     integer, parameter :: most_columns = 12, most_rounds = 200
 
 contains
-
-    !> Go a way with the load, on which no part begins or ends and no node stops; less where steps become too small, which the audit
-    !> of the state tells
-    pure subroutine go_on(ground, way, gone)
-        type(ground_along_type), intent(inout) :: ground
-        !> How far, and how far parts that begin have gone of it
-        real(wp), intent(in) :: way
-        real(wp), intent(inout) :: gone
-        real(wp) :: step
-        logical :: done
-
-        step = first_step(way, gone)
-        do while (way - gone > epsilon(way)*way)
-            step = min(step, way - gone)
-            call take_step(ground, step, done)
-            if (done) then
-                gone = gone + step
-                step = 2*step
-                cycle
-            end if
-            step = step/2
-            if (step < found_slip*way) return
-        end do
-    end subroutine go_on
 
     !> Go a little way on which parts begin, and more of them as these push others
     pure subroutine begin(ground, rates, most, gone)
