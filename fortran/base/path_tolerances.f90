@@ -66,7 +66,7 @@ module gapbeam_path_tolerances
     real(wp), parameter :: nothing_left = 2.0_wp**(-46)
     !> Share of a bar below which a part that becomes shorter is none: where two vanish together one is left. Read by
     !> continuation/ground_along_path
-    real(wp), parameter :: shortest_part = 2.0_wp**(-40)
+    real(wp), parameter :: shortest_part = 2.0_wp**(-36)
     !> Share of the largest by which a state on ground along the beam may be off, as it comes of steps. Read by
     !> continuation/ground_along_states
     real(wp), parameter :: slip_audited = 1e-10_wp
