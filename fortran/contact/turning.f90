@@ -174,45 +174,50 @@ contains
         !> The node
         integer, intent(in) :: i
         real(wp), intent(out) :: turn(2), terms(2)
-        real(wp) :: chord, by_moments(2)
 
         turn(:) = 0.0_wp
         terms(:) = huge(1.0_wp)
         if (i > 0) then
-            associate (link => beam%links(i), a => answers(i - 1), b => answers(i))
-                if (allocated(beam%ground)) then
-                    associate (g => beam%ground(i))
-                        chord = g%pb*b%deflection - g%p2*a%deflection
-                        by_moments(:) = [g%fab*a%moment_right, g%fbb*b%moment_left]
-                        terms(1) = g%pb*abs(b%deflection) + abs(g%p2*a%deflection)
-                    end associate
-                else
-                    chord = (b%deflection - a%deflection)*link%inverse
-                    by_moments(:) = [link%fab*a%moment_right, link%fbb*b%moment_left]
-                    terms(1) = (abs(b%deflection) + abs(a%deflection))*link%inverse
-                end if
-                turn(1) = chord - (by_moments(1) + by_moments(2)) - loads(i)%left
-                terms(1) = terms(1) + abs(by_moments(1)) + abs(by_moments(2)) + turn_size(i)
-            end associate
+            call turn_of_end(beam, answers, i, 2, turn(1), terms(1))
+            turn(1) = turn(1) - loads(i)%left
+            terms(1) = terms(1) + turn_size(i)
         end if
         if (i < size(beam%links)) then
-            associate (link => beam%links(i + 1), a => answers(i), b => answers(i + 1))
-                if (allocated(beam%ground)) then
-                    associate (g => beam%ground(i + 1))
-                        chord = g%p1*b%deflection - g%pa*a%deflection
-                        by_moments(:) = [g%faa*a%moment_right, g%fab*b%moment_left]
-                        terms(2) = abs(g%p1*b%deflection) + g%pa*abs(a%deflection)
-                    end associate
-                else
-                    chord = (b%deflection - a%deflection)*link%inverse
-                    by_moments(:) = [link%faa*a%moment_right, link%fab*b%moment_left]
-                    terms(2) = (abs(b%deflection) + abs(a%deflection))*link%inverse
-                end if
-                turn(2) = chord + (by_moments(1) + by_moments(2)) + loads(i)%right
-                terms(2) = terms(2) + abs(by_moments(1)) + abs(by_moments(2)) + turn_size(i + 1)
-            end associate
+            call turn_of_end(beam, answers, i + 1, 1, turn(2), terms(2))
+            turn(2) = turn(2) + loads(i)%right
+            terms(2) = terms(2) + turn_size(i + 1)
         end if
     end subroutine turns_beside
+
+    !> Rotation of an end of a link without its loads, and the size of the terms
+    pure subroutine turn_of_end(beam, answers, i, end, turn, terms)
+        !> As for find_turning
+        type(beam_type), intent(in) :: beam
+        type(answer_type), intent(in) :: answers(0:)
+        !> The link; its left end, 1, or its right one, 2
+        integer, intent(in) :: i, end
+        real(wp), intent(out) :: turn, terms
+        real(wp) :: w(2), m(2), chord(2), by_moments(2)
+
+        w(:) = answers(i - 1:i)%deflection
+        m(:) = [answers(i - 1)%moment_right, answers(i)%moment_left]
+        associate (link => beam%links(i))
+            if (allocated(beam%ground)) then
+                associate (g => beam%ground(i))
+                    chord(:) = merge([g%pa, g%p1], [g%p2, g%pb], end == 1)*w
+                    turn = chord(2) - chord(1)
+                    terms = abs(chord(2)) + abs(chord(1))
+                    by_moments(:) = merge([g%faa, g%fab], [g%fab, g%fbb], end == 1)*m
+                end associate
+            else
+                turn = (w(2) - w(1))*link%inverse
+                terms = (abs(w(2)) + abs(w(1)))*link%inverse
+                by_moments(:) = merge([link%faa, link%fab], [link%fab, link%fbb], end == 1)*m
+            end if
+        end associate
+        turn = turn + merge(1, -1, end == 1)*(by_moments(1) + by_moments(2))
+        terms = terms + abs(by_moments(1)) + abs(by_moments(2))
+    end subroutine turn_of_end
 
     !> Kinds of the nodes of a beam while a scheme acts: a hinge that acts is none, a restraint that does not either
     pure subroutine find_kinds(beam, acting, kind)

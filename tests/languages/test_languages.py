@@ -71,6 +71,16 @@ def python_result(scene):
         return error
 
 
+def solved_everywhere(library, scene):
+    """The result of a scene that is solved, and its beam in C and in Fortran 77, solved under all of its loads."""
+    result = python_result(scene)
+    beam, message = library.prepare(scene)
+    assert not message
+    f77 = F77Beam(library, scene)
+    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    return result, beam, f77
+
+
 def assert_same_state(beam, f77, result, scene, rng, bounds_too=True):
     """Everything a state says; its error bounds only if it was looked for from the same zones."""
     step = result.steps[-1]
@@ -175,11 +185,7 @@ def test_a_long_beam(library):
         x = rng.uniform(0.0, end)
         scene["loads"] += [{"type": "force", "x": x, "F": 3.0}, {"type": "moment", "x": rng.uniform(0.0, end), "M": -2.0}]
         scene["loads"].append({"type": "linear", "q": [1.0, -3.0], "from": x / 2, "to": x / 2 + 7.0})
-    result = gapbeam.solve(scene)
-    beam, _ = library.prepare(scene)
-    f77 = F77Beam(library, scene)
-    assert beam.solve(1.0) == (0, "")
-    assert f77.solve(1.0) == 0
+    result, beam, f77 = solved_everywhere(library, scene)
     assert_same_state(beam, f77, result, scene, rng)
     beam.close()
 
@@ -560,13 +566,7 @@ def test_turned_supports_and_loads_along_the_beam_agree(library, ground):
                   *({"type": "moment", "x": 4.0, "M": 0.7, "at_hinge": side} for side in ("left", "right"))],
         "foundation": ground,
     }  # fmt: skip
-    result = python_result(scene)
-    beam, message = library.prepare(scene)
-    assert not message
-    f77 = F77Beam(library, scene)
-    assert f77.info_ == 0
-    assert beam.solve(1.0) == (0, "")
-    assert f77.solve(1.0) == 0
+    result, beam, f77 = solved_everywhere(library, scene)
     for one in (beam, f77):
         np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
     assert result.steps[-1].reaction[3:].sum() == pytest.approx(-6.0, rel=1e-14)
@@ -617,11 +617,7 @@ def test_sections_agree(library, changes):
         "beam": {"spans": [3.0, 2.0], "EI": 80.0}, "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}],
         "loads": [{"type": "uniform", "q": 1.0}, {"type": "force", "x": 4.0, "F": 3.0}], **changes,
     }  # fmt: skip
-    result = python_result(scene)
-    beam, message = library.prepare(scene)
-    assert not message
-    f77 = F77Beam(library, scene)
-    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    result, beam, f77 = solved_everywhere(library, scene)
     for one in (beam, f77):
         np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
     wrong = scene | {"sections": [*scene["sections"], {"from": 0.0, "to": 1.0, "EI": [1.0, -3.0]}]}
@@ -670,11 +666,7 @@ def test_supports_and_couples_at_hinges_agree(library, side, hinge):
                       {"type": "moment", "x": 3.0, "M": 0.7, "at_hinge": "right"}],
             "foundation": ground,
         }  # fmt: skip
-        result = python_result(scene)
-        beam, message = library.prepare(scene)
-        assert not message
-        f77 = F77Beam(library, scene)
-        assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+        result, beam, f77 = solved_everywhere(library, scene)
         step = result.steps[-1]
         for one in (beam, f77):
             expected = step.reaction, step.deflection, step.opening, step.couple
@@ -691,11 +683,7 @@ def test_curvatures_that_change_agree(library, ground):
         "loads": [{"type": "curvature", "from": 0.5, "to": 4.0, "kappa": [0.01, -0.03]}, {"type": "uniform", "q": 1.0}],
         "foundation": ground,
     }  # fmt: skip
-    result = python_result(scene)
-    beam, message = library.prepare(scene)
-    assert not message
-    f77 = F77Beam(library, scene)
-    assert (f77.info_, beam.solve(1.0), f77.solve(1.0)) == (0, (0, ""), 0)
+    result, beam, f77 = solved_everywhere(library, scene)
     for one in (beam, f77):
         np.testing.assert_array_equal(one.at_supports()[0], result.steps[-1].reaction)
 

@@ -174,6 +174,38 @@ def frozen(made, s, mirrored=False):
     return {**{key: item for key, item in made.items() if key != "trains"}, "loads": made["loads"] + loads}
 
 
+def assert_as_forces(made, solve, x, positions):
+    """States under the first train are those of the scene with its axles as forces, and inside the envelope.
+
+    Parameters
+    ----------
+    made : dict
+        The scene, whose train runs to the right.
+    solve : callable
+        Solves a scene.
+    x : numpy.ndarray
+        Where fields are compared.
+    positions : numpy.ndarray
+        Of the train.
+
+    Returns
+    -------
+    object
+        The result with the train.
+    """
+    result = solve(made)
+    (train,), envelope = result.trains.values(), result.envelope().extremes
+    for position in positions.tolist():
+        still, found = solve(frozen(made, position)), train.at(x, position=position)
+        for quantity in ("deflection", "moment", "shear"):
+            expected = getattr(still.at(x), quantity)
+            assert abs(getattr(found, quantity) - expected).max() <= 1e-11 * abs(expected).max(), quantity
+            for way, sign in (("max", 1), ("min", -1)):
+                value = still.extremes[quantity][way].value
+                assert sign * (envelope[quantity][way].value - value) >= -1e-10 * abs(value), (quantity, way)
+    return result
+
+
 # Comparison with a result in plain data (`gapbeam run --json`)
 
 

@@ -10,6 +10,7 @@ from gapbeam import SceneError
 from oracle.axial_force import solve
 from oracle.axial_ground import Unsettled, solve_on_ground
 from scenes.axial_force import random_scene, with_imposed
+from scenes.train import assert_as_forces
 
 EI, K, TURN = 300.0, 50.0, 0.01
 BETA = (K / (4 * EI)) ** 0.25
@@ -114,20 +115,8 @@ def test_under_trains(seed):
     }  # fmt: skip
     if seed % 2:
         scene["foundation"] = [{"k": 200.0, "from": spans[0] / 2, "to": spans[0]}]
-    result = gapbeam.solve(scene)
-    train, envelope = result.trains["train 1"], result.envelope().extremes
-    for position in np.linspace(0.5, sum(spans) - 0.5, 7):
-        axles = [{"type": "force", "x": float(position + at), "F": F} for at, F in ((0.0, 20.0), (-1.5, 10.0))
-                 if 0.0 <= position + at <= sum(spans)]  # fmt: skip
-        alone = {key: value for key, value in scene.items() if key != "trains"}
-        still = gapbeam.solve(alone | {"loads": [*scene["loads"], *axles]})
-        found, x = train.at(np.linspace(0.1, sum(spans) - 0.1, 9), position=float(position)), np.linspace(0.1, sum(spans) - 0.1, 9)
-        for quantity in ("deflection", "moment", "shear"):
-            expected = getattr(still.at(x), quantity)
-            assert np.abs(getattr(found, quantity) - expected).max() <= 1e-11 * np.abs(expected).max(), quantity
-            for way, sign in (("max", 1), ("min", -1)):
-                value = still.extremes[quantity][way].value
-                assert sign * (envelope[quantity][way].value - value) >= -1e-10 * abs(value), (quantity, way)
+    end = sum(spans)
+    assert_as_forces(scene, gapbeam.solve, np.linspace(0.1, end - 0.1, 9), np.linspace(0.5, end - 0.5, 7))
 
 
 def test_steps_events_combinations_and_cases():

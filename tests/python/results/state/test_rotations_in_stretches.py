@@ -12,6 +12,7 @@ from oracle.axial_ground import Unsettled, solve_on_ground
 from scenes.axial_force import random_scene
 from scenes.foundation import digits, eighths
 from scenes.plain import nodes_of, place
+from scenes.train import assert_as_forces
 
 EI, K = 300.0, 50.0
 BETA = (K / (4 * EI)) ** 0.25
@@ -216,21 +217,9 @@ def test_under_trains(ground):
     }  # fmt: skip
     if ground:
         scene["foundation"] = [{"k": 300.0, "from": 8.0}]
-    result = gapbeam.solve(scene)
-    train, envelope, x = result.trains["train 1"], result.envelope().extremes, np.linspace(0.1, 11.9, 12)
-    events = {(event.support, event.event) for one in train.traversals for event in one.events}
+    result = assert_as_forces(scene, gapbeam.solve, np.linspace(0.1, 11.9, 12), np.linspace(0.5, 11.5, 12))
+    events = {(event.support, event.event) for one in result.trains["train 1"].traversals for event in one.events}
     assert {number for number, _ in events} >= {4, 5}  # the restraint yields, the joint closes
-    for position in np.linspace(0.5, 11.5, 12):
-        axles = [{"type": "force", "x": float(position + at), "F": 20.0} for at in (0.0, -1.5) if position + at >= 0.0]
-        alone = {key: value for key, value in scene.items() if key != "trains"}
-        still = gapbeam.solve(alone | {"loads": [*scene["loads"], *axles]})
-        found = train.at(x, position=float(position))
-        for quantity in ("deflection", "moment", "shear"):
-            expected = getattr(still.at(x), quantity)
-            assert np.abs(getattr(found, quantity) - expected).max() <= 1e-11 * np.abs(expected).max(), quantity
-            for way, sign in (("max", 1), ("min", -1)):
-                value = still.extremes[quantity][way].value
-                assert sign * (envelope[quantity][way].value - value) >= -1e-10 * abs(value), (quantity, way)
 
 
 def test_modes_with_a_joint_that_is_loose_and_one_that_is_not():
