@@ -61,8 +61,8 @@ class StepModes:
         Parameters
         ----------
         kind : {"buckling", "vibration"}
-            Factors of its axial forces, or circular frequencies (rad per unit of time); these if `analysis.frequencies` asks for
-            some, else the engine is given no mass.
+            Factors of its axial forces, or circular frequencies (rad per unit of time), which need `analysis.frequencies`
+            above 0.
         count : int
             How many.
 

@@ -190,6 +190,19 @@ def test_combinations_and_cases_are_states():
             assert other.tolist() == pytest.approx(step.reaction.tolist(), abs=1e-13)
 
 
+@pytest.mark.parametrize("follow", ["steps", "events"])
+@pytest.mark.parametrize("ground", [[], [{"k": 5.0}]])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_restraint_at_a_hinge_that_yields(side, ground, follow):
+    """Its couple is the moment on its side of the free hinge, and there is none on the other."""
+    held = {"node": 1, "rotation": {"law": [[0.001, 0.5], [1.0, 0.5]]}, "at_hinge": side}
+    scene = {"beam": {"spans": [2.0, 2.0], "EI": 100.0, "hinges": [2.0]}, "supports": [{"node": 0}, held, {"node": 2}],
+             "loads": [{"type": "uniform", "q": 5.0}], "foundation": ground, "analysis": {"follow": follow}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    assert result.steps[-1].state[3] == "branch 2"
+    assert {at: result.at(2.0, side=at).moment for at in ("left", "right")} == {"left": 0.0, "right": 0.0, side: -0.5}
+
+
 def test_names_report_picture_and_file():
     result = gapbeam.solve(BRACKET | {"supports": held_by(rotation=5.0, at_hinge="left", name="wall")})
     assert [one.name for one in result.scene.supports] == [None, "wall", None, "rotation of wall"]
