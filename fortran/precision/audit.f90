@@ -7,14 +7,14 @@
 module gapbeam_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: most_left_out, everywhere, audit_allows
-    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, joint_left, joint_right, is_restrained, &
-        takes_left, takes_right
+    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, is_restrained, takes_left, takes_right
     use gapbeam_band, only: node_type, rhs_type, answer_type
     use gapbeam_law, only: is_plainly_right, force_by_spring
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
-    use gapbeam_model, only: beam_type, softest
+    use gapbeam_model, only: beam_type, last_place, softest
     use gapbeam_turning, only: apply_turning, find_turning
     use gapbeam_workspace, only: workspace_type
+    use gapbeam_rotation_audit, only: turned_type, ends_type, find_turned, audit_rotations
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_supports, of_restraints, rotations, moments, &
         forces, deflections, beyond, pulls, kinds
     implicit none
@@ -24,7 +24,7 @@ module gapbeam_audit
 contains
 
     !> Audit a solution of a beam
-    recursive subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
+    subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
         !> The beam
         type(beam_type), intent(in) :: beam
         !> The scheme, and which supports may have either state, shape (m)
@@ -45,17 +45,17 @@ contains
         logical, intent(in), optional :: measured
         real(wp) :: turn, turn_size, before, before_size, after, after_size, up, up_size, jump, slope, slope_size
         real(wp) :: passed, passed_size, farthest, most_load, limit, least(kinds)
+        !> Rotations that supports hold, and their numbers at the nodes
+        type(turned_type), allocatable :: turned(:)
+        integer, allocatable :: numbers(:, :)
         integer :: i, j, n
 
         n = size(beam%links)
-        if (allocated(beam%turning)) then
-            call audit_turning()
-            return
-        end if
         limit = audit_allows*epsilon(1.0_wp)
         if (present(measured)) limit = merge(0.0_wp, limit, measured)
         farthest = maxval(abs(answers(:n)%deflection))
         least(:) = -1.0_wp
+        if (allocated(beam%turning)) call find_rotations()
         before = 0.0_wp
         before_size = 0.0_wp
         slope = 0.0_wp
@@ -96,7 +96,9 @@ contains
                 end do
                 ! Moments and rotations
                 jump = a%moment_left - a%moment_right + r%couple
-                if (is_restrained(beam%kind(i))) then
+                if (is_turned()) then
+                    call audit_turned(a, r)
+                else if (is_restrained(beam%kind(i))) then
                     call audit_restraint(a, r, jump)
                 else if (beam%kind(i) == hinge) then
                     call hold(of_equilibrium, moments, max(abs(a%moment_left - r%moment), abs(jump)), &
@@ -128,131 +130,109 @@ contains
 
     contains
 
-        !> A node with a restraint, and where there is a hinge or a joint beside that
+        !> A node with a restraint, and where there is a hinge beside that
         subroutine audit_restraint(a, r, jump)
             type(answer_type), intent(in) :: a
             type(rhs_type), intent(in) :: r
             !> What of the moment the restraint takes
             real(wp), intent(in) :: jump
-            real(wp) :: turn, turn_size, joint
+            real(wp) :: turn, turn_size
 
             turn = beam%compliance(i)*jump
             turn_size = beam%compliance(i)*(abs(a%moment_left) + abs(a%moment_right) + abs(r%couple))
-            if (takes_left(beam%kind(i)) .and. i > 0) then
-                joint = merge(work%nodes(i)%joint*a%moment_left, 0.0_wp, beam%kind(i) == joint_right)
-                call hold(of_restraints, rotations, before - (turn + joint), before_size + turn_size + abs(joint))
-            end if
-            if (takes_right(beam%kind(i)) .and. i < n) then
-                joint = merge(work%nodes(i)%joint*a%moment_right, 0.0_wp, beam%kind(i) == joint_left)
-                call hold(of_restraints, rotations, after - (turn - joint), after_size + turn_size + abs(joint))
-            end if
+            if (takes_left(beam%kind(i)) .and. i > 0) call hold(of_restraints, rotations, before - turn, before_size + turn_size)
+            if (takes_right(beam%kind(i)) .and. i < n) call hold(of_restraints, rotations, after - turn, after_size + turn_size)
             if (beam%kind(i) == hinge_left) call hold(of_equilibrium, moments, a%moment_right - r%moment, abs(r%moment))
             if (beam%kind(i) == hinge_right) call hold(of_equilibrium, moments, a%moment_left - r%moment, abs(r%moment))
         end subroutine audit_restraint
 
-        !> The same where supports hold rotations: the beam with what they do as couples, restraints and joints, then their laws
-        subroutine audit_turning()
-            type(beam_type) :: without
-            type(workspace_type) :: loaded
-            type(node_type), allocatable :: nodes(:)
-            type(rhs_type), allocatable :: rhs(:)
-            type(answer_type), allocatable :: turned(:)
-            real(wp), allocatable :: level(:), turn_size(:), couple(:), couple_size(:)
-            real(wp) :: hidden_couple, left_out, hidden_rotation
-            integer :: r, v
+        !> Do supports hold a rotation of the node at hand
+        pure function is_turned() result(it_is)
+            logical :: it_is
 
-            r = size(beam%turning)
-            farthest = maxval(abs(answers(:n)%deflection))
-            allocate (nodes(0:n + r), rhs(0:n + r), turned(0:n + r), level(0:n + r), turn_size(r), couple(r), couple_size(r))
+            it_is = .false.
+            if (allocated(numbers)) it_is = any(numbers(:, i) > 0)
+        end function is_turned
+
+        !> Rotations that supports hold, as the driver finds them
+        subroutine find_rotations()
+            type(node_type) :: nodes(0:last_place(beam))
+            type(rhs_type) :: rhs(0:last_place(beam))
+            type(answer_type) :: found(0:last_place(beam))
+            real(wp), dimension(size(beam%turning)) :: rotation_size, couple, couple_size
+            real(wp) :: level(0:last_place(beam))
+
             nodes(0:n)%kind = beam%kind
             nodes(0:n)%compliance = beam%compliance
             rhs(0:n) = work%loads(0:n)
             level(:) = 0.0_wp
             call apply_turning(beam, closed, [0, n], nodes, rhs, level)
-            turned(0:n) = answers(0:n)
-            call find_turning(beam, nodes, rhs, work%loads, work%turn_size, turned, turn_size, couple, couple_size)
-            without = beam
-            deallocate (without%turning)
-            without%kind(:) = nodes(0:n)%kind
-            without%compliance(:) = nodes(0:n)%compliance
-            loaded = work
-            loaded%loads(0:n) = rhs(0:n)
-            loaded%nodes(0:n) = nodes(0:n)
-            call audit_beam(without, closed, undecided, floats, leeway, answers(0:n), shear, reaction, loaded, ledger, measured)
-            hidden_couple = everywhere*maxval(abs(answers(:n)%moment_left))
-            left_out = maxval(work%load_size)*maxval(beam%links%length)
-            hidden_rotation = everywhere*maxval(abs(answers(:n)%deflection))*maxval(beam%links%inverse)
-            do v = n + 1, n + r
-                call audit_rotation(beam%turning(v - n), beam%order(beam%first(v):beam%first(v + 1) - 1), turned(v)%deflection, &
-                                    turn_size(v - n) + hidden_rotation, couple(v - n), couple_size(v - n) + hidden_couple, left_out)
-            end do
-        end subroutine audit_turning
+            found(0:n) = answers(0:n)
+            call find_turning(beam, nodes, rhs, work%loads, work%turn_size, found, rotation_size, couple, couple_size)
+            call find_turned(beam, numbers)
+            allocate (turned(size(beam%turning)))
+            turned%rotation = found(n + 1:)%deflection
+            turned%rotation_size = rotation_size + everywhere*farthest*maxval(beam%links%inverse)
+            turned%couple_size = couple_size + everywhere*maxval(abs(answers(:n)%moment_left))
+        end subroutine find_rotations
 
-        !> Are the supports of a rotation on their laws, in the right states, and is the couple theirs
-        subroutine audit_rotation(at, numbers, rotation, of_rotation, couple, couple_size, left_out)
-            !> Node of the beam, and the numbers of the supports
-            integer, intent(in) :: at, numbers(:)
-            !> The rotation and the couple, each with the size of its terms, and the couple that the largest load can make
-            real(wp), intent(in) :: rotation, of_rotation, couple, couple_size, left_out
-            real(wp) :: force, rounding, margin, of_couple, bent
-            logical :: acts, rigid, by_force
-            integer :: j, k
+        !> A node whose rotations supports hold
+        subroutine audit_turned(a, r)
+            type(answer_type), intent(in) :: a
+            type(rhs_type), intent(in) :: r
+            type(ends_type) :: ends
+            real(wp) :: bent
 
+            if (least(forces) < 0.0_wp) call find_least()
             ! Couples that are nothing but rounding, of what holds links straight or of the largest load, may have been left out
             bent = 0.0_wp
-            if (at > 0) bent = forced(at)*beam%links(at)%length
-            if (at < n) bent = bent + forced(at + 1)*beam%links(at + 1)%length
-            of_couple = couple_size + everywhere*bent
-            if (.not. abs(sum(reaction(numbers))) > 0.0_wp) then
-                of_couple = of_couple + most_left_out/epsilon(1.0_wp)*(left_out + bent)
-            end if
-            call note(ledger, of_equilibrium, moments, couple - sum(reaction(numbers)), of_couple + sum(abs(reaction(numbers))), &
-                      at, 0.0_wp)
-            do j = 1, size(numbers)
-                k = numbers(j)
-                associate (supports => beam%supports)
-                    call force_by_spring(supports, closed, k, rotation, of_rotation, acts, rigid, force, rounding)
-                    if (acts .and. rigid) then
-                        call note(ledger, of_supports, rotations, rotation - supports(k)%contact, of_rotation, at, 0.0_wp)
-                    else
-                        call note(ledger, of_supports, moments, reaction(k) - force, of_couple + rounding/epsilon(1.0_wp), at, &
-                                  0.0_wp)
-                    end if
-                    if (undecided(k) .or. .not. is_watched_in(supports, closed, k)) cycle
-                    if (supports(k)%breakpoint > 0 .and. .not. abs(supports(k)%stiffness - supports(k)%before) > 0.0_wp) cycle
-                    call margin_in_scheme(supports, closed, k, rotation, of_rotation, reaction, reaction, margin, rounding, &
-                                          by_force)
-                    if (margin >= 0.0_wp) cycle
-                    call note(ledger, of_supports, merge(pulls, beyond, by_force), margin, &
-                              leeway*merge(of_couple, rounding/epsilon(1.0_wp), by_force), at, 0.0_wp)
+            if (i > 0) bent = forced(i)*beam%links(max(i, 1))%length
+            if (i < n) bent = bent + forced(i + 1)*beam%links(min(i + 1, n))%length
+            ends = ends_type(rotation=[before, after], rotation_size=before_size + after_size + hidden(rotations), &
+                             moment=[a%moment_left, a%moment_right], couple=r%couple, &
+                             moment_size=abs(a%moment_left) + abs(a%moment_right) + abs(r%couple) + hidden(moments), &
+                             is_there=[i > 0, i < n])
+            do j = 1, 2
+                if (numbers(j, i) == 0) cycle
+                associate (rotation => turned(numbers(j, i)))
+                    rotation%couple_size = rotation%couple_size + everywhere*bent
+                    rotation%left_out = most_left_out/epsilon(1.0_wp)*(maxval(work%load_size)*maxval(beam%links%length) + bent)
                 end associate
             end do
-        end subroutine audit_rotation
+            call audit_rotations(beam, i, numbers(:, i), closed, undecided, leeway, ends, turned, reaction, ledger)
+        end subroutine audit_turned
 
         !> Note what is left over of a sum at node i
         subroutine hold(what, kind, left, terms)
             integer, intent(in) :: what, kind
             real(wp), intent(in) :: left, terms
-            real(wp) :: bent(2), rest
 
             if (.not. abs(left) > 0.0_wp) return
             if (least(forces) < 0.0_wp) call find_least()
+            call note(ledger, what, kind, left, terms + hidden(kind), i, 0.0_wp)
+            if (.not. terms <= huge(terms)) call note(ledger, what, 0, terms, terms, i, 0.0_wp)
+        end subroutine hold
+
+        !> Sizes of the terms of a sum at node i that are not seen there
+        pure function hidden(kind) result(terms)
+            integer, intent(in) :: kind
+            real(wp) :: terms, bent(2)
+
             bent = 0.0_wp
             if (i > 0) bent(1) = forced(i)
             if (i < n) bent(2) = forced(i + 1)
             select case (kind)
             case (forces, pulls)
-                rest = everywhere*sum(bent) + size_left_out(sum(bent))
+                terms = everywhere*sum(bent) + size_left_out(sum(bent))
             case (moments)
-                rest = everywhere*sum(bent)*beam%links(max(i, 1))%length
+                terms = everywhere*sum(bent)*beam%links(max(i, 1))%length
             case (rotations)
-                rest = everywhere*turned()
+                terms = everywhere*turned_by()
             case default
-                rest = 0.0_wp
+                terms = 0.0_wp
             end select
-            call note(ledger, what, kind, left, terms + least(kind) + rest, i, 0.0_wp)
-            if (.not. terms <= huge(terms)) call note(ledger, what, 0, terms, terms, i, 0.0_wp)
-        end subroutine hold
+            terms = terms + least(kind)
+        end function hidden
 
         !> What the largest terms of the beam leave everywhere
         subroutine find_least()
@@ -291,14 +271,14 @@ contains
 
         !> By how much the moments at node i would turn the links beside it: what a bar without moment passes by is known to a
         !> rounding of them only
-        pure function turned() result(turn)
+        pure function turned_by() result(turn)
             real(wp) :: turn
 
             turn = 0.0_wp
             if (i > 0) turn = beam%links(i)%fbb
             if (i < n) turn = turn + beam%links(i + 1)%faa
             turn = turn*(abs(answers(i)%moment_left) + abs(answers(i)%moment_right) + abs(work%loads(i)%couple))
-        end function turned
+        end function turned_by
 
         !> Force that it would take to hold a link straight against its deflections and imposed curvatures; of a rigid one, which
         !> passes on what others make, the most of all

@@ -7,9 +7,7 @@
 module gapbeam_ground_audit
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: lost_digits
-    use gapbeam_nodes, only: hinge, hinge_left, hinge_right, joint_left, joint_right, is_hinge, is_restrained, takes_left, &
-        takes_right
-    use gapbeam_band, only: node_type, rhs_type
+    use gapbeam_nodes, only: hinge, jointed, hinge_left, hinge_right, is_hinge, is_restrained, takes_left, takes_right
     use gapbeam_element, only: field_type
     use gapbeam_piece, only: piece_load_type, combine_loads, no_load
     use gapbeam_taper, only: softness_at
@@ -24,7 +22,7 @@ module gapbeam_ground_audit
     use gapbeam_ledger, only: ledger_type, note, of_bending, of_equilibrium, of_parts, of_zone_ends, of_contact, of_supports, &
         of_restraints, of_places, deflections, rotations, moments, forces, beyond, pulls
     use gapbeam_stretch_audit, only: sums_type, audit_stretch
-    use gapbeam_rotation_audit, only: turned_nodes, audit_rotations
+    use gapbeam_rotation_audit, only: turned_type, ends_type, find_turned, audit_rotations
     implicit none
     private
     public :: audit_ground
@@ -49,13 +47,14 @@ contains
         type(field_type) :: sizes_of(size(solution%piece)), least_of(size(solution%piece)), sizes, least
         !> Rounding errors of the reactions
         real(wp) :: errors(size(closed))
-        !> Nodes of the beam as the supports that hold rotations make them
-        type(node_type), allocatable :: nodes(:)
-        type(rhs_type), allocatable :: rhs(:)
+        !> Rotations that supports hold, and their numbers at every node
+        type(turned_type), allocatable :: turned(:)
+        integer, allocatable :: numbers(:, :)
         integer :: i, j, m
 
         m = size(solution%piece)
-        call turned_nodes(ground%beam, factor, closed, nodes, rhs)
+        call find_turned(ground%beam, numbers)
+        allocate (turned(maxval(numbers)))
         residuals = 0.0_wp
         call audit_places()
         if (ledger%wrong /= 0) return
@@ -167,13 +166,13 @@ contains
             b%moment = b%moment - at_right%couple_a
             call pass_couple(at_left%couple_b)
             associate (w => solution%deflection(j), left => solution%moment_left(j), right => solution%moment_right(j), &
-                       beam => ground%beam, node => nodes(j), known => rhs(j))
+                       beam => ground%beam)
                 call fits(of_bending, deflections, a%deflection - w, sizes%deflection)
                 call fits(of_bending, deflections, b%deflection - w, sizes%deflection)
                 call fits(of_equilibrium, moments, a%moment - left, sizes%moment)
                 call fits(of_equilibrium, moments, b%moment - right, sizes%moment)
                 load = beam%force(1, j) + factor*beam%force(2, j)
-                couple = known%couple
+                couple = beam%couple(1, j) + factor*beam%couple(2, j)
                 up = push_at(i - 1)
                 call audit_push(i - 1, piece, at, w)
                 up_size = abs(up) + abs(beam%force(1, j)) + abs(factor*beam%force(2, j))
@@ -187,26 +186,26 @@ contains
                 do s = beam%first(j), beam%first(j + 1) - 1
                     call audit_support(beam%order(s))
                 end do
-                call audit_rotations(beam, j, closed, solution, a, b, sizes, least, ledger)
                 call fits(of_equilibrium, forces, (after - before) - (up - load), sizes%shear + up_size)
                 terms = sizes%moment + abs(left) + abs(right) + abs(beam%couple(1, j)) + abs(factor*beam%couple(2, j)) &
-                    + abs(couple) + abs(known%moment) + abs(at_left%couple_b) + abs(at_right%couple_a)
-                sizes%rotation = sizes%rotation + abs(at_left%kink_b) + abs(at_right%kink_a) + abs(known%left) + abs(known%right)
-                if (node%kind == hinge_left) call fits(of_equilibrium, moments, right - known%moment, terms)
-                if (node%kind == hinge_right) call fits(of_equilibrium, moments, left - known%moment, terms)
-                if (is_restrained(node%kind)) then
-                    turn = node%compliance*((left - right) + couple)
-                    terms = node%compliance*terms + node%joint*(abs(left) + abs(right))
-                    if (takes_left(node%kind) .and. j > 0) call fits(of_restraints, rotations, a%rotation - turn - known%left &
-                        - merge(node%joint*left, 0.0_wp, node%kind == joint_right), sizes%rotation + terms)
-                    if (takes_right(node%kind) .and. i <= m) call fits(of_restraints, rotations, b%rotation - turn + known%right &
-                        + merge(node%joint*right, 0.0_wp, node%kind == joint_left), sizes%rotation + terms)
-                else if (node%kind == hinge) then
-                    call fits(of_equilibrium, moments, max(abs(left - known%moment), abs(right - left - couple)), terms)
+                    + abs(at_left%couple_b) + abs(at_right%couple_a)
+                sizes%rotation = sizes%rotation + abs(at_left%kink_b) + abs(at_right%kink_a)
+                if (beam%kind(j) == hinge_left) call fits(of_equilibrium, moments, right, terms)
+                if (beam%kind(j) == hinge_right) call fits(of_equilibrium, moments, left, terms)
+                if (any(numbers(:, j) > 0)) then
+                    call audit_turned(a%rotation, b%rotation, left, right, couple, terms)
+                else if (is_restrained(beam%kind(j))) then
+                    turn = beam%compliance(j)*((left - right) + couple)
+                    terms = sizes%rotation + beam%compliance(j)*terms
+                    if (takes_left(beam%kind(j)) .and. j > 0) call fits(of_restraints, rotations, a%rotation - turn, terms)
+                    if (takes_right(beam%kind(j)) .and. i <= m) call fits(of_restraints, rotations, b%rotation - turn, terms)
+                else if (beam%kind(j) == hinge) then
+                    call fits(of_equilibrium, moments, max(abs(left), abs(right - left - couple)), terms)
                 else
                     call fits(of_equilibrium, moments, (right - left) - couple, terms)
                     ! A joint lets the beam turn by what its moment makes of its compliance, another node by nothing
-                    turn = -node%compliance*left - (known%left + known%right)
+                    turn = 0.0_wp
+                    if (beam%kind(j) == jointed) turn = -beam%compliance(j)*left
                     if (inside) call fits(of_bending, rotations, b%rotation - a%rotation - turn, sizes%rotation + abs(turn))
                 end if
                 if (j > 0) then
@@ -215,7 +214,7 @@ contains
                               + part%moment_size/sum(ground%pieces%length))
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
-                if (beam%kind(j) == hinge .or. is_hinge(node%kind)) then
+                if (is_hinge(beam%kind(j))) then
                     part = sums_type(after, right, max(abs(after), sizes%shear), abs(right))
                 else
                     part = sums_type(part%force + (up - load), part%moment + (right - left), part%force_size + up_size, &
@@ -224,6 +223,26 @@ contains
                 call pass_couple(at_right%couple_a)
             end associate
         end subroutine audit_node
+
+        !> Rotations of node j that supports hold
+        subroutine audit_turned(turn_left, turn_right, left, right, couple, terms)
+            !> Rotations and moments beside the node, the couple there, and the sizes of moments
+            real(wp), intent(in) :: turn_left, turn_right, left, right, couple, terms
+            logical :: undecided(size(closed))
+            integer :: k, r
+
+            undecided(:) = .false.
+            do k = 1, 2
+                r = numbers(k, j)
+                if (r == 0) cycle
+                associate (rotation => solution%deflection(size(ground%beam%links) + r))
+                    turned(r) = turned_type(rotation, abs(rotation), terms + least%moment, 0.0_wp)
+                end associate
+            end do
+            call audit_rotations(ground%beam, j, numbers(:, j), closed, undecided, 1.0_wp, &
+                                 ends_type([turn_left, turn_right], sizes%rotation + least%rotation, [left, right], couple, &
+                                           terms + least%moment, [j > 0, i <= m]), turned, solution%reaction, ledger)
+        end subroutine audit_turned
 
         !> A couple just inside the end of a piece acts on the part
         subroutine pass_couple(couple)

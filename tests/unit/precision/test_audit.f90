@@ -4,8 +4,9 @@ program test_audit
     use beams, only: sample_type, make_beam, detail_of, draw, draw_magnitude, infinite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_solved
-    use gapbeam_nodes, only: hinge, restrained
-    use gapbeam_model, only: node_support_type, below, both
+    use gapbeam_nodes, only: plain, hinge, restrained
+    use gapbeam_model, only: node_support_type, below, above, both, order_supports, of_node, of_hinge, of_hinge_held_left, &
+        left_of_hinge, right_of_hinge
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: outcome_type
@@ -20,6 +21,7 @@ program test_audit
 
     call what_is_solved_stands()
     call what_is_broken_is_found()
+    call another_hinge()
     call rigid_supports_side_by_side()
     call bars()
     call finish(status)
@@ -61,7 +63,48 @@ contains
                 if (draw(seed) < 0.2_wp .and. beam%kind(i) /= hinge) beam%couple(2, i) = 2*draw(seed) - 1
             end do
         end associate
+        if (draw(seed) < 0.4_wp) call hold_rotations(seed, decades, sample)
     end subroutine draw_beam
+
+    !> Let supports hold the rotation of a node between the spans, or those beside a hinge there
+    subroutine hold_rotations(seed, decades, sample)
+        integer, intent(inout) :: seed
+        real(wp), intent(in) :: decades
+        type(sample_type), intent(inout) :: sample
+        type(node_support_type) :: held
+        type(node_support_type), allocatable :: supports(:)
+        integer :: i, j, n
+
+        associate (beam => sample%beam)
+            n = size(beam%links)
+            i = 1 + int((n - 1)*draw(seed))
+            select case (int(6*draw(seed)))
+            case (0)
+                beam%turned = [of_node]
+            case (1)
+                beam%turned = [of_hinge]
+            case (2)
+                beam%turned = [left_of_hinge]
+            case (3)
+                beam%turned = [right_of_hinge]
+            case (4)
+                beam%turned = [of_hinge_held_left, left_of_hinge]
+            case default
+                beam%turned = [of_hinge, right_of_hinge]
+            end select
+            allocate (beam%turning(size(beam%turned)), source=i)
+            beam%kind(i) = merge(plain, hinge, beam%turned(1) == of_node)
+            supports = beam%supports
+            do j = 1, size(beam%turned)
+                held = node_support_type(n + j, both, draw_magnitude(seed, 3.0_wp - decades, 3.0_wp + decades), 0.0_wp)
+                if (draw(seed) < 0.3_wp) held%stiffness = infinite()
+                if (draw(seed) < 0.5_wp) held%side = merge(above, below, draw(seed) < 0.5_wp)
+                if (draw(seed) < 0.5_wp) held%contact = (2*draw(seed) - 1)*draw_magnitude(seed, -6.0_wp, -2.0_wp)
+                supports = [supports, held]
+            end do
+            call order_supports(supports, beam)
+        end associate
+    end subroutine hold_rotations
 
     !> Solve it
     subroutine solve(sample, closed, work, outcome, stands)
@@ -195,6 +238,34 @@ contains
         call check(found(5) == of_each(5), "a moment right of a node")
         call check(found(6) == of_each(6), "a shear")
     end subroutine what_is_broken_is_found
+
+    !> The solution of a beam in which there is no hinge, or whose restraint is on its other side, or in it
+    subroutine another_hinge()
+        integer, parameter :: turned(4) = [of_node, left_of_hinge, right_of_hinge, of_hinge]
+        type(sample_type), target :: sample(4)
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: closed(:)
+        logical :: stands, refused(4)
+        integer :: i, j
+
+        do i = 1, 4
+            call make_beam([3.0_wp, 2.0_wp], [100.0_wp, 100.0_wp], [0.0_wp, 0.0_wp], [1.0_wp, 2.0_wp], &
+                           [node_support_type(0, both, infinite(), 0.0_wp), node_support_type(1, both, infinite(), 0.0_wp), &
+                            node_support_type(2, both, infinite(), 0.0_wp)], sample(i))
+            sample(i)%beam%turned = turned(i:i)
+            sample(i)%beam%turning = [1]
+            sample(i)%beam%kind(1) = merge(plain, hinge, turned(i) == of_node)
+            call order_supports([sample(i)%beam%supports, node_support_type(3, both, 50.0_wp, 0.0_wp)], sample(i)%beam)
+        end do
+        do i = 1, 4
+            call solve(sample(i), closed, work, outcome, stands)
+            do j = 1, 4
+                refused(j) = is_refused(sample(j), closed, outcome, work, work%reaction)
+            end do
+            call check(stands .and. all(refused .neqv. turned == turned(i)), "only the beam that was solved")
+        end do
+    end subroutine another_hinge
 
     !> One of a kind broken; was it refused
     subroutine note_case(of_each, found, refused)
