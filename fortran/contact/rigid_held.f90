@@ -8,6 +8,7 @@ module gapbeam_rigid_held
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_workspace, only: new_workspace, set_loads
     use gapbeam_contact_state, only: find_contact_state, outcome_type
+    use gapbeam_foundation_taylor, only: transverse_of
     use gapbeam_zone_fields, only: fields_at_ends
     use gapbeam_ground, only: ground_type, grounded_type, place_stretches
     use gapbeam_rigid_contact, only: hold_type, lay_out
@@ -109,29 +110,43 @@ contains
         end do
     end subroutine read_holds
 
-    !> What is missing for equilibrium at an end of a zone, in which there is no shear. What the solution has there is more: where
-    !> pieces of one line meet, their slopes differ by rounding, which stiff beams feel
+    !> What is missing for equilibrium at an end of a zone, in which there is no shear, and a transverse force by its axial force
+    !> only. What the solution has there is more: where pieces of one line meet, their slopes differ by rounding, which stiff beams
+    !> feel
     function balance(rigid, factor, ns, border) result(missing)
         type(rigid_type), intent(in) :: rigid
         real(wp), intent(in) :: factor
         integer, intent(in) :: ns, border
-        real(wp) :: missing, rotation(2), shear(2)
+        real(wp) :: missing, transverse(2)
         integer :: k
 
         associate (beam => rigid%grounded%beam)
             missing = beam%force(1, border) + factor*beam%force(2, border)
-            if (border > 0 .and. .not. is_zone(rigid, border)) then
-                call fields_at_ends(rigid%grounded, factor, rigid%work, border, rotation, shear)
-                missing = missing - shear(2)
+            if (border > 0) then
+                transverse = forces_of(border)
+                missing = missing - transverse(2)
             end if
-            if (border < size(rigid%zones%piece) .and. .not. is_zone(rigid, border + 1)) then
-                call fields_at_ends(rigid%grounded, factor, rigid%work, border + 1, rotation, shear)
-                missing = missing + shear(1)
+            if (border < size(rigid%zones%piece)) then
+                transverse = forces_of(border + 1)
+                missing = missing + transverse(1)
             end if
             do k = 1, ns
                 if (beam%supports(k)%node == border) missing = missing - rigid%work%reaction(k)
             end do
         end associate
+
+    contains
+
+        !> Transverse forces at the ends of a stretch
+        function forces_of(i) result(forces)
+            integer, intent(in) :: i
+            real(wp) :: forces(2), rotation(2), shear(2)
+
+            call fields_at_ends(rigid%grounded, factor, rigid%work, i, rotation, shear)
+            if (is_zone(rigid, i)) shear(:) = 0.0_wp
+            forces = transverse_of(rigid%grounded%stretches(i), [0.0_wp, 1.0_wp], rotation, shear)
+        end function forces_of
+
     end function balance
 
     !> Does a rigid support hold the beam just where the ground is

@@ -43,11 +43,11 @@ contains
                 next%from = (contact%from + contact%to)/2
                 next%to = next%from
             else if (any(q < 0.0_wp)) then
-                ! It is lifted from there on
+                ! It is lifted from there on, and as much of it again goes with that
                 share = q(1)/(q(1) - q(2))
                 lifted = next%from + share*(next%to - next%from)
-                if (q(2) < 0.0_wp) next%to = min(lifted, (contact%from + 3*contact%to)/4)
-                if (q(1) < 0.0_wp) next%from = max(lifted, (3*contact%from + contact%to)/4)
+                if (q(2) < 0.0_wp) next%to = min(lifted, max(2*lifted - next%to, (contact%from + 3*contact%to)/4))
+                if (q(1) < 0.0_wp) next%from = max(lifted, min(2*lifted - next%from, (3*contact%from + contact%to)/4))
             end if
         end associate
         call add(rigid, next)
@@ -81,7 +81,7 @@ contains
         type(rigid_type), intent(inout) :: rigid
         !> Stretch; 1 its left end, 2 its right end; side of the ground
         integer, intent(in) :: i, end, side
-        real(wp) :: step, moment(2), change, rotation(2), shear(2), inside, outside
+        real(wp) :: step, moment(2), change, rotation(2), shear(2), inside, outside, q
         integer :: beyond, far
 
         beyond = i + merge(-1, 1, end == 1)
@@ -91,13 +91,18 @@ contains
             outside = z%to(beyond) - z%from(beyond)
             moment = side*([answers(beyond - 1)%moment_right, answers(beyond)%moment_left] &
                            - straightened(ground, rigid, z%piece(beyond)))
+            q = side*load_at(ground, rigid, z%piece(i), merge(z%from(i), z%to(i), end == 1))
         end associate
         change = side*merge(-shear(2), shear(1), end == 1)
         if (end == 1) moment = moment([2, 1])
         step = 0.0_wp
         if (abs(moment(1)) <= rigid%noise%moment) return
         step = merge(outside, -inside, moment(1) < 0.0_wp)/4
-        if (change > rigid%noise%force) step = -moment(1)/change
+        if (change > rigid%noise%force) then
+            step = -moment(1)/change
+        else if (moment(1) > 0.0_wp .and. q > 0.0_wp) then
+            step = max(step, -lifted_length(moment(1), -change, q, .false.))
+        end if
         far = hold_at(rigid, merge(beyond - 1, beyond, end == 1), side)
         if (is_pressed(ground, rigid, far, beyond, end, side, moment, rotation(end))) then
             step = outside
@@ -128,6 +133,7 @@ contains
             pressed = moment(2) < -rigid%noise%moment
             return
         end if
+        if (.not. rigid%touching(far)) return
         fall = side*(turn - rigid%holds(far)%slope)
         pressed = merge(fall, -fall, end == 1) > 0.0_wp
         if (.not. pressed .or. moment(2) >= -rigid%noise%moment) return
@@ -153,7 +159,7 @@ contains
         integer, intent(in) :: i, end
         !> Distance of that end of the zone from the left end of the piece
         real(wp), intent(inout) :: at
-        real(wp) :: moment, couple, kink, pull, step, q
+        real(wp) :: moment, bent, couple, kink, pull, step, q
         logical :: goes_on, bends
         integer :: node, border, other, layer
 
@@ -169,7 +175,8 @@ contains
             if (goes_on) moment = kink + merge(couple, -couple, end == 1)
             if (beam%kind(node) == hinge) moment = 0.0_wp
             associate (held => straightened(ground, rigid, contact%piece))
-                bends = abs(moment - held) > rigid%noise%moment
+                bent = side*(moment - held)
+                bends = abs(bent) > rigid%noise%moment
                 kink = kink - held
             end associate
             if (beam%kind(node) == restrained) bends = bends .and. beam%compliance(node) > 0.0_wp
@@ -189,13 +196,30 @@ contains
                 pull = -side*rigid%push(hold_at(rigid, border, side))
                 if (.not. (bends .or. pull > rigid%noise%force)) return
                 step = (rigid%zones%to(i) - rigid%zones%from(i))/4
-                ! A bar that a force lifts at its end lifts so far
                 q = side*load_at(ground, rigid, contact%piece, at)
-                if (.not. bends .and. q > 0.0_wp) step = min(step, 2*pull/q)
+                if (.not. bends) bent = 0.0_wp
+                if (q > 0.0_wp .and. .not. (bends .and. goes_on)) step = min(step, lifted_length(bent, pull, q, goes_on))
                 at = at + merge(step, -step, end == 1)
                 if (bends .and. .not. goes_on) call add_at_node(ground, rigid, node, side)
             end if
         end associate
     end subroutine leave_node
+
+    !> How far a bar is lifted by a force and a couple, or by a force from both sides of it, or bent away from the ground over an
+    !> edge of that
+    pure function lifted_length(bent, pull, q, to_both_sides) result(length)
+        !> Moment, in the sense of one that bends it into the ground; force away from the ground; load towards the ground
+        real(wp), intent(in) :: bent, pull, q
+        logical, intent(in) :: to_both_sides
+        real(wp) :: length
+
+        if (to_both_sides) then
+            length = 3*pull/(4*q)
+        else if (bent < 0.0_wp) then
+            length = 2*sqrt(-bent/q)
+        else
+            length = (pull + sqrt(pull**2 + 2*q*bent))/q
+        end if
+    end function lifted_length
 
 end module gapbeam_rigid_zones

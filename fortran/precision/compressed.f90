@@ -58,6 +58,11 @@ contains
             call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
             return
         end if
+        if (any(ground%layers%rigid)) then
+            call fatal_error(error, gapbeam_bad_input, "axial loads compress the beam, which over rigid ground is not "// &
+                             "available in this version; give the ground a stiffness, or set first_order")
+            return
+        end if
         first(:) = closed
         share = greatest_share(ground)
         do while (share < 1.0_wp)

@@ -4,7 +4,7 @@ module gapbeam_ground_fields
     use gapbeam_tolerances, only: lost_digits
     use gapbeam_element, only: field_type
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
-    use gapbeam_foundation_stretch, only: softest, without_slip, greatest_tension
+    use gapbeam_foundation_stretch, only: softest, without_slip, greatest_tension, tension_at
     use gapbeam_foundation_taylor, only: is_sloped, transverse_of
     use gapbeam_foundation_fields, only: fields_at, sloped_start, sloped_fields_from
     use gapbeam_laws, only: law_cubic, parameters_of_law
@@ -15,7 +15,7 @@ module gapbeam_ground_fields
     implicit none
     private
     public :: inside_type, prepare_inside, field_at_end, force_at_end, field_inside, force_inside, curved_stretch
-    public :: deflection_size, find_sizes, breakpoint_terms, pressure_terms
+    public :: deflection_size, find_sizes, largest_inside, breakpoint_terms, pressure_terms
 
     !> A stretch of a solution, ready to be asked for its fields
     type :: inside_type
@@ -238,6 +238,32 @@ contains
             least%shear = lost_digits*(bent/s%length + s%length*modulus*sizes%deflection)
         end associate
     end subroutine find_sizes
+
+    !> Values that fields in a stretch do not pass, whose rounding is in what is told there: those at its ends, and what the load
+    !> makes between them, by bending or, where it is pulled hard, as of a thread
+    pure function largest_inside(solution, i) result(largest)
+        type(ground_solution_type), intent(in) :: solution
+        !> Stretch
+        integer, intent(in) :: i
+        type(field_type) :: largest
+        type(field_type) :: sizes, least
+        real(wp) :: q, pull, soft(2)
+
+        call find_sizes(solution, i, sizes, least)
+        soft(:) = softest(solution%stretches(i))
+        associate (s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i))
+            largest = field_type(sizes%deflection, sizes%rotation, sizes%moment, maxval(abs(solution%shear(:, i))))
+            pull = min(s%tension, tension_at(s, 1.0_wp))
+            if (pull > 0.0_wp) then
+                q = max(abs(load%qa), abs(load%qb))
+                if (soft(1) > 0.0_wp) largest%moment = min(largest%moment, max(abs(ends%moment_a), abs(ends%moment_b)) &
+                                                           + (q/pull + abs(load%kappa) + abs(load%rise))/soft(1))
+                largest%deflection = min(largest%deflection, max(abs(ends%w_a), abs(ends%w_b)) &
+                                         + (2*largest%moment + q*s%length**2/8)/pull)
+            end if
+            largest%rotation = largest%rotation + s%length/4*(soft(1)*largest%moment + abs(load%kappa) + abs(load%rise))
+        end associate
+    end function largest_inside
 
     !> How a line at which a law goes on to another piece is approached (distance_to_breakpoint): the change of the measure with the
     !> deflection, and the sizes of its terms

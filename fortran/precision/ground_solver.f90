@@ -32,6 +32,7 @@ module gapbeam_ground_solver
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
     use gapbeam_ground_solution, only: ground_solution_type, take_rounded
+    use gapbeam_ground_fields, only: largest_inside
     use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_ties, only: stands_on_edge, may_move
@@ -363,6 +364,11 @@ contains
             right = [solution%ends(i)%w_b, solution%rotation(2, i), solution%ends(i)%moment_b, solution%shear(2, i)]
             call compare(last, .true.)
         end do
+        do i = 1, m
+            associate (most => largest_inside(solution, i))
+                largest(:4) = max(largest(:4), [most%deflection, most%rotation, most%moment, most%shear])
+            end associate
+        end do
         if (size(solution%reaction) > 0) then
             solution%bounds(5) = maxval(abs(work%reaction(:size(solution%reaction)) - solution%reaction))
             largest(5) = maxval(abs(solution%reaction))
@@ -386,7 +392,6 @@ contains
                 before = [ends%w_a, rotation(1), ends%moment_a, shear(1)]
             end if
             solution%bounds(:4) = max(solution%bounds(:4), abs(before - right))
-            largest(:4) = max(largest(:4), abs(right))
         end subroutine compare
 
     end subroutine bound_errors

@@ -71,14 +71,16 @@ contains
         end associate
     end function axial_loads_may_bend
 
-    !> May the axial force change along a piece: series know that where nothing bends by shear, off ground whose law may be a curve
+    !> May the axial force change along a piece: series know that where nothing bends by shear, off ground whose law may be a curve,
+    !> or that is rigid
     pure function may_change(model) result(it_may)
         type(model_type), intent(in) :: model
         logical :: it_may
 
         it_may = all(model%spans%GA > huge(1.0_wp)) &
             .and. .not. any(model%sections%GA > 0.0_wp .and. model%sections%GA <= huge(1.0_wp)) &
-            .and. size(model%ground_law) == 0 .and. all(model%foundations%law == gapbeam_law_by_points)
+            .and. size(model%ground_law) == 0 .and. all(model%foundations%law == gapbeam_law_by_points) &
+            .and. .not. any(model%foundations%k > huge(1.0_wp))
     end function may_change
 
     !> Is a beam solved stretch by stretch, each with functions of its own: on ground, with an axial force that bending feels, with
@@ -169,9 +171,10 @@ contains
                                              .or. any(model%ground_law%foundation == number))) then
                 call say("shear", bad_law, "ground with a second parameter holds the beam both ways and has a modulus k, "// &
                          "without gap, profile, law or points, in this version; leave shear out, or give k alone")
-            else if (f%k > huge(1.0_wp) .and. has_axial_force(model)) then
-                call say("k", bad_law, "rigid ground beside an axial force N is not available in this version; give the "// &
-                         "ground a stiffness")
+            else if (f%k > huge(1.0_wp) .and. any([model%spans%N, pack(model%sections%N, model%sections%N > gapbeam_unchanged)] &
+                                                  < 0.0_wp)) then
+                call say("k", bad_law, "rigid ground under a beam that is compressed is not available in this version; "// &
+                         "give the ground a stiffness, or N of 0 or more")
             end if
         end subroutine check_foundation
 

@@ -10,6 +10,8 @@ import numpy as np
 
 SAMPLES = 400
 """Places in every stretch at which beam and ground are compared."""
+TERMS = 60
+"""Of Taylor series: enough where a stretch is up to ten times as long as sqrt(EI/N)."""
 
 
 def excess(scene: dict, result) -> dict[str, float]:
@@ -18,7 +20,7 @@ def excess(scene: dict, result) -> dict[str, float]:
     Parameters
     ----------
     scene : dict
-        Spans, EI (a list), hinges, one-sided rigid foundations with gap or profile, supports without laws, loads without
+        Spans, EI and N (lists), hinges, one-sided rigid foundations with gap or profile, supports without laws, loads without
         curvature, all with x.
     result : gapbeam.Result
         What gapbeam says of it.
@@ -61,7 +63,7 @@ def excess(scene: dict, result) -> dict[str, float]:
     }
     size["moment"] = size["force"] * length + sum(abs(m) for _, m in couples)
     at = result.at(np.array([0.0]))
-    w, psi, moment, shear = float(at.deflection[0]), float(at.rotation[0]), 0.0, 0.0
+    w, psi, moment, force = float(at.deflection[0]), float(at.rotation[0]), 0.0, 0.0
     found = dict.fromkeys(("equilibrium", "bending", "through", "touch", "pull", "supports"), 0.0)
     levels = [float(np.abs(level(f, places, length)).max()) for f in scene["foundation"]]
     size["moment"] += max((abs(value) for *_, value in bends), default=0.0) * max(beam["EI"])
@@ -71,7 +73,7 @@ def excess(scene: dict, result) -> dict[str, float]:
         float(np.abs(result.at(places).deflection).max()),
     )
     for k, x in enumerate(places):
-        shear -= sum(f for at_x, f in forces if at_x == x)
+        force -= sum(f for at_x, f in forces if at_x == x)
         moment += sum(m for at_x, m in couples if at_x == x)
         if x in beam.get("hinges", ()):
             found["equilibrium"] = max(found["equilibrium"], abs(moment) / size["moment"])
@@ -80,7 +82,8 @@ def excess(scene: dict, result) -> dict[str, float]:
             break
         h = places[k + 1] - x
         middle = x + h / 2
-        ei = beam["EI"][min(int(np.searchsorted(ends, middle)) - 1, len(beam["EI"]) - 1)]
+        span = min(int(np.searchsorted(ends, middle)) - 1, len(beam["EI"]) - 1)
+        ei, pull = beam["EI"][span], beam["N"][span] if "N" in beam else 0.0
         p = np.zeros(2)
         for a, b, left, right in lines:
             if a < middle < b:
@@ -92,11 +95,9 @@ def excess(scene: dict, result) -> dict[str, float]:
             found["pull"] = max(found["pull"], -pressure.min() / (abs(p).max() + 1e-300))
             p -= pressure
         t = np.linspace(0.0, 1.0, SAMPLES) * h
-        fall = (p[1] - p[0]) / h
         kappa = sum(value for a, b, value in bends if a < middle < b)
-        along = (
-            w + psi * t + kappa * t**2 / 2 - (moment * t**2 / 2 + shear * t**3 / 6 - p[0] * t**4 / 24 - fall * t**5 / 120) / ei
-        )
+        rates = rates_of(w, psi, moment, force, kappa, p[0], (p[1] - p[0]) / h, ei, pull)
+        along = taylor(rates, t)
         told = result.at(x + t).deflection
         found["bending"] = max(found["bending"], float(np.abs(along - told)[1:-1].max()) / size["deflection"])
         for f in scene["foundation"]:
@@ -107,11 +108,10 @@ def excess(scene: dict, result) -> dict[str, float]:
             found["through"] = max(found["through"], float(depth.max()) / size["deflection"])
             if any(c.from_ < middle < c.to for c in zones):
                 found["touch"] = max(found["touch"], float(np.abs(depth).max()) / size["deflection"])
-        psi += kappa * h - (moment * h + shear * h**2 / 2 - p[0] * h**3 / 6 - fall * h**4 / 24) / ei
-        w = float(along[-1])
-        moment += shear * h - p[0] * h**2 / 2 - fall * h**3 / 6
-        shear -= p.sum() / 2 * h
-    found["equilibrium"] = max(found["equilibrium"], abs(shear) / size["force"], abs(moment) / size["moment"])
+        w, psi, bend = (float(taylor(rates[k:], h)) for k in range(3))
+        moment = ei * (kappa - bend)
+        force -= p.sum() / 2 * h
+    found["equilibrium"] = max(found["equilibrium"], abs(force) / size["force"], abs(moment) / size["moment"])
     for c in step.contact:
         if c.from_ != c.to:
             continue
@@ -137,6 +137,33 @@ def excess(scene: dict, result) -> dict[str, float]:
         elif side:
             found["supports"] = max(found["supports"], side * past / size["deflection"])
     return found
+
+
+def rates_of(w, psi, moment, force, kappa, p, fall, EI, pull):
+    """Give the derivatives of the deflection of a bar by x at one place, from the 0th: EI w(4) - N w(2) = p.
+
+    Parameters
+    ----------
+    w, psi, moment, force : float
+        The state; the force across the beam is M' + N w'.
+    kappa, p, fall : float
+        What is imposed: curvature, load, and its derivative.
+    EI, pull : float
+        Of the bar; N.
+    """
+    rates = [w, psi, kappa - moment / EI, (pull * psi - force) / EI]
+    rates += [(p + pull * rates[2]) / EI, (fall + pull * rates[3]) / EI]
+    while len(rates) < TERMS:
+        rates.append(pull / EI * rates[-2])
+    return rates
+
+
+def taylor(rates, t):
+    """Sum a Taylor series from its highest term."""
+    total = 0.0
+    for k in range(len(rates) - 1, 0, -1):
+        total = (total + rates[k]) * t / k
+    return total + rates[0]
 
 
 def level(foundation: dict, x, length: float):

@@ -5,7 +5,7 @@ import random
 from itertools import pairwise
 
 
-def rigid_scene(seed, warm=False):
+def rigid_scene(seed, warm=False, pulled=False):
     """A scene of one to three spans on one or two rigid foundations below.
 
     Parameters
@@ -13,6 +13,8 @@ def rigid_scene(seed, warm=False):
     seed : int
     warm : bool
         Also with imposed curvatures.
+    pulled : bool
+        With a tension, the same all along or one of each span.
 
     Returns
     -------
@@ -41,6 +43,9 @@ def rigid_scene(seed, warm=False):
         left, right = sorted(rng.choice((0.0, length, rng.uniform(0, length))) for _ in range(2))
         if left < right:
             loads.append({"type": "curvature", "from": left, "to": right, "kappa": rng.uniform(-2e-3, 2e-3)})
+    if pulled:
+        pulls = [10.0 ** rng.uniform(-2, 2) * min(beam["EI"]) / length**2 for _ in spans]
+        beam["N"] = rng.choice((pulls, pulls[:1] * len(spans)))
     return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
 
 
@@ -79,7 +84,7 @@ def turned_round(scene):
         From `rigid_scene`.
     """
     length = sum(scene["beam"]["spans"])
-    beam = {"spans": scene["beam"]["spans"][::-1], "EI": scene["beam"]["EI"][::-1]}
+    beam = {key: scene["beam"][key][::-1] for key in ("spans", "EI", "N") if key in scene["beam"]}
     if "hinges" in scene["beam"]:
         beam["hinges"] = [length - x for x in scene["beam"]["hinges"]]
     ground = []

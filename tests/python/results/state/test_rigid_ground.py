@@ -3,6 +3,7 @@
 import math
 
 import gapbeam
+import mpmath as mp
 import numpy as np
 import pytest
 from oracle.rigid_ground import excess
@@ -17,9 +18,9 @@ def at(x, **keys):
     return {"x": x, **keys}
 
 
-def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, **keys):
+def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, N=0.0, **keys):
     """Result of a beam of one span that has to stand."""
-    result = gapbeam.solve({**scene([length], supports, loads, EI=EI), "foundation": [ground], **keys})
+    result = gapbeam.solve({**scene([length], supports, loads, EI=EI, N=N), "foundation": [ground], **keys})
     assert result.status == "solved", result.reason
     return result
 
@@ -48,6 +49,71 @@ def test_an_end_that_is_lifted():
     span = result.steps[-1].free_spans[0]
     near([span.from_, span.to, span.sag], [7.0, 10.0, 27 / 8])
     near([result.extremes["moment"]["max"].value, result.extremes["shear"]["max"].value], [1.125, 1.5])
+    # Also of what vanishes at both ends of the beam
+    bounds = result.steps[-1].error_bounds
+    assert all(1e-16 < bounds[field] < 1e-12 for field in ("deflection", "rotation", "moment", "shear")), bounds
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.03, 20.0, 193.0, 900.0])
+@pytest.mark.parametrize("up", [0.001, 0.0057, 0.1, 8.0])
+def test_a_force_lifts_the_beam_where_its_stiffness_changes(ratio, up):
+    """To both sides of it, over 3F/(2q) where EI is the same."""
+    given = {**scene([5.0, 10.0], [], [uniform(10.0), force(5.0, -up)], EI=[1e3, 1e3 * ratio]), "foundation": [ROCK]}
+    result = gapbeam.solve(given)
+    left_over = excess(given, result)
+    assert max(left_over.values()) < 1e-13, left_over
+    (span,) = result.steps[-1].free_spans
+    assert span.from_ < 5.0 < span.to
+    if ratio == 1.0:
+        near([span.from_, span.to], [5.0 - 0.075 * up, 5.0 + 0.075 * up])
+
+
+@pytest.mark.parametrize("pull", [1e-6, 0.01, 1.0, 25.0, 1e4])
+def test_an_end_that_is_lifted_of_a_pipe_that_is_pulled(pull):
+    """From where it lies to its end, without moment at either: w_xx = a (cosh - 1) + b sinh."""
+    with mp.workdps(200):
+        rate = mp.sqrt(pull)
+
+        def falls(length):
+            """Deflection and force across the end, and the force where it lies."""
+            a = 1 / mp.mpf(pull)
+            b = -a * (mp.cosh(rate * length) - 1) / mp.sinh(rate * length)
+            turn = a * (mp.sinh(rate * length) / rate - length) + b * (mp.cosh(rate * length) - 1) / rate
+            way = a * ((mp.cosh(rate * length) - 1) / rate**2 - length**2 / 2)
+            way += b * (mp.sinh(rate * length) / rate - length) / rate
+            third = rate * (a * mp.sinh(rate * length) + b * mp.cosh(rate * length))
+            return way, pull * turn - third, rate * b
+
+        length = mp.findroot(lambda at: falls(at)[1] + mp.mpf(1.5), (1.5 + 1.0 / (1.0 / 1.5 + rate), 1.5))
+        rise, _, push = falls(length)
+        length, rise, push = float(length), float(abs(rise)), float(abs(push))
+    lifted = solved([uniform(1.0), force(10.0, -1.5)], N=pull)
+    near(contact(lifted), [(0.0, 10.0 - length, 10.0 - length), (10.0 - length, 10.0 - length, push)])
+    near([lifted.steps[-1].free_spans[0].sag], [rise])
+
+
+def test_where_the_axial_force_changes_on_a_slope():
+    """Held along its axis there, the beam leans on the ground with the change times the slope, or is lifted by that."""
+    given = {**scene([4.0, 6.0], [], [uniform(5.0)], EI=[10.0, 2000.0], N=[7.0, 40.0]),
+             "foundation": [ROCK | {"gap": [0.0, 0.1], "from": 0.0, "to": 10.0}]}  # fmt: skip
+    result = gapbeam.solve(given)
+    near([one for one in contact(result) if one[0] == one[1] <= 4.0], [(0.0, 0.0, 0.07), (4.0, 4.0, 0.33)])
+    assert [round(one.to, 9) for one in result.steps[-1].free_spans] == [10.0]
+    given["foundation"][0]["gap"] = [0.1, 0.0]
+    result = gapbeam.solve(given)
+    left_over = excess(given, result)
+    assert [one.from_ < 4.0 < one.to for one in result.steps[-1].free_spans] == [False, True]
+    assert max(left_over.values()) < 1e-13, left_over
+
+
+def test_cold_pulls_the_beam_to_its_ground():
+    """Axial loads pull as N does; what compresses the beam is refused."""
+    ends = [at(0.0, direction="axial"), at(10.0, direction="axial")]
+    loads, keys = [uniform(1.0), force(10.0, -1.5)], {"EA": 100.0, "alpha": 1e-3}
+    cold = gapbeam.solve({**scene([10.0], ends, [*loads, {"type": "temperature", "dT": -10.0}], **keys), "foundation": [ROCK]})
+    near(contact(cold), contact(solved(loads, N=1.0)))
+    with pytest.raises(gapbeam.EngineError, match="axial loads compress the beam, which over rigid ground is not available"):
+        gapbeam.solve({**scene([10.0], ends, [*loads, {"type": "temperature", "dT": 10.0}], **keys), "foundation": [ROCK]})
 
 
 def test_over_a_stop():
@@ -88,10 +154,10 @@ def test_a_slab_that_curls():
     near(result.at([4.0, 5.0, 6.0]).moment, [-EI * kappa] * 3)
 
 
-@pytest.mark.parametrize("warm", [False, True])
+@pytest.mark.parametrize("kind", ["plain", "warm", "pulled"])
 @pytest.mark.parametrize("seed", range(60))
-def test_conditions_of_the_least_energy(seed, warm):
-    given = rigid_scene(seed, warm)
+def test_conditions_of_the_least_energy(seed, kind):
+    given = rigid_scene(seed, kind == "warm", kind == "pulled")
     result = gapbeam.solve(given)
     if result.status == "solved":
         left_over = excess(given, result)
@@ -108,12 +174,13 @@ def test_conditions_of_the_least_energy(seed, warm):
             np.testing.assert_allclose(told, expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
 
 
-def test_most_random_scenes_are_settled():
+@pytest.mark.parametrize("pulled", [False, True])
+def test_most_random_scenes_are_settled(pulled):
     """Of 300 at most two come to no end; none is solved wrongly."""
     refused = 0
     for seed in range(100, 400):
         try:
-            gapbeam.solve(rigid_scene(seed))
+            gapbeam.solve(rigid_scene(seed, pulled=pulled))
         except gapbeam.EngineError:
             refused += 1
     assert refused <= 2
@@ -168,6 +235,11 @@ def test_point_forces_in_report_data_and_picture():
 @pytest.mark.parametrize(
     ("keys", "problem"),
     [
+        (
+            {"beam": {"spans": [10.0], "EI": 1.0, "N": -2.0}},
+            "foundation[0].k: rigid ground under a beam that is compressed is not available in this version; give the ground a "
+            "stiffness, or N of 0 or more",
+        ),
         (
             {"foundation": [{"k": math.inf}]},
             "foundation[0].side: rigid ground holds the beam one way only; give side below or above",
