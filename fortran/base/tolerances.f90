@@ -316,7 +316,7 @@ module gapbeam_tolerances
     !> ground; tuned. Read by contact/rigid_state
     real(wp), parameter :: rigid_noise = 2.0_wp**20*epsilon(1.0_wp)
     !> Levels of rigid ground whose difference is a smaller share of them are one: rounding of data, which are doubles in any
-    !> precision. Read by contact/rigid_contact, contact/rigid_order
+    !> precision. Read by contact/rigid_contact
     real(wp), parameter :: same_level = 16*real(epsilon(1.0_dp), wp)
     !> Zones on rigid ground that shrink below this share of their piece are single places; tuned. Read by contact/rigid_zones
     real(wp), parameter :: shortest_zone = 2.0_wp**(-26)

@@ -200,10 +200,7 @@ contains
             if (.not. found%follows) found%compliance = contact%compliance
             if (h > 0) then
                 associate (last => holds(h))
-                    if (last%border == border .and. last%side == found%side) then
-                        if (found%follows .and. .not. last%follows) last = found
-                        return
-                    end if
+                    if (last%border == border .and. last%side == found%side) return
                 end associate
             end if
             h = h + 1

@@ -96,7 +96,7 @@ contains
         do i = 1, size(rigid%zones%piece)
             if (.not. is_zone(rigid, i)) call stop_beam(ground, rigid, i)
         end do
-        call put_in_order(ground, rigid%found, rigid%number)
+        call put_in_order(rigid%found, rigid%number)
     end subroutine move_contacts
 
 end module gapbeam_rigid_ground

@@ -45,12 +45,19 @@ contains
         type(ground_type), intent(in) :: ground
         type(rigid_type), intent(inout) :: rigid
         type(noise_type) :: most
+        integer :: i
 
-        associate (a => rigid%work%answers(:size(rigid%zones%piece)))
+        associate (z => rigid%zones, a => rigid%work%answers(:size(rigid%zones%piece)))
             most%deflection = maxval(abs(a%deflection)) &
                 + maxval(max(abs(ground%layers%contact_a), abs(ground%layers%contact_b)))
             most%moment = maxval(max(abs(a%moment_left), abs(a%moment_right)))
             most%force = maxval([0.0_wp, abs(rigid%work%reaction)])
+            ! Where the beam lies, the ground takes the load at once
+            do i = 1, size(z%piece)
+                if (.not. is_zone(rigid, i)) cycle
+                most%force = max(most%force, (z%to(i) - z%from(i)) &
+                                 *maxval(abs(load_at(ground, rigid, z%piece(i), [z%from(i), z%to(i)]))))
+            end do
         end associate
         rigid%noise = noise_type(rigid_noise*most%deflection, rigid_noise*most%moment, rigid_noise*most%force)
     end subroutine find_noise

@@ -5,7 +5,7 @@ module gapbeam_rigid_zones
     use gapbeam_band, only: hinge, restrained
     use gapbeam_zone_fields, only: fields_at_ends
     use gapbeam_ground, only: ground_type
-    use gapbeam_rigid_contact, only: contact_type, layer_beyond
+    use gapbeam_rigid_contact, only: contact_type, layer_beyond, level_of, slope_of
     use gapbeam_rigid_state, only: rigid_type, hold_at, add, add_at_node, is_zone, load_at, straightened
     implicit none
     private
@@ -124,22 +124,26 @@ contains
         integer, intent(in) :: far, beyond, end, side
         real(wp), intent(in) :: moment(2), turn
         logical :: pressed
-        real(wp) :: fall
-        integer :: piece, other, layer
+        integer :: piece, other, layer, own
 
         pressed = .false.
         if (far == 0 .or. moment(1) >= 0.0_wp .or. moment(2) > rigid%noise%moment) return
+        piece = rigid%zones%piece(beyond)
+        layer = rigid%holds(far)%layer
         if (rigid%holds(far)%follows) then
             pressed = moment(2) < -rigid%noise%moment
+            ! At a hinge the zone beyond does not hold its slope
+            own = findloc(rigid%zones%acts(:, beyond + merge(1, -1, end == 1)) > 0, .true., 1) + ground%first(piece) - 1
+            if (pressed .or. rigid%grounded%beam%kind(rigid%holds(far)%border) /= hinge) return
+            if (abs(level_of(ground, piece, own, merge(rigid%zones%from(beyond), rigid%zones%to(beyond), end == 1)) &
+                    - rigid%holds(far)%level) > rigid%noise%deflection) return
+            pressed = falls(slope_of(ground, piece, own))
             return
         end if
         if (.not. rigid%touching(far)) return
-        fall = side*(turn - rigid%holds(far)%slope)
-        pressed = merge(fall, -fall, end == 1) > 0.0_wp
+        pressed = falls(rigid%holds(far)%slope)
         if (.not. pressed .or. moment(2) >= -rigid%noise%moment) return
         ! Over a corner it may just hang down
-        piece = rigid%zones%piece(beyond)
-        layer = rigid%holds(far)%layer
         if (merge(rigid%zones%from(beyond) > 0.0_wp, rigid%zones%to(beyond) < ground%pieces(piece)%length, end == 1)) return
         other = piece + merge(-1, 1, end == 1)
         if (layer >= ground%first(piece) .and. layer < ground%first(piece + 1)) then
@@ -147,6 +151,18 @@ contains
         else
             pressed = layer_beyond(ground, other, layer, piece) > 0
         end if
+
+    contains
+
+        !> Does the beam go into the ground from its far end
+        pure function falls(slope)
+            !> Of the ground there
+            real(wp), intent(in) :: slope
+            logical :: falls
+
+            falls = merge(1, -1, end == 1)*side*(turn - slope) > 0.0_wp
+        end function falls
+
     end function is_pressed
 
     !> A zone that reaches a node leaves it, or goes on beyond it, where its moment is not that of the node, and leaves it where the

@@ -368,7 +368,8 @@ contains
                                                                                                 ground%pieces(piece)%length)
             call note(ledger, of_zone_ends, deflections, w - level, abs(level) + sizes%deflection, piece, at)
             if (ground%layers(k)%side*push_at(border) < 0.0_wp) then
-                call note(ledger, of_contact, pulls, push_at(border), sizes%shear, piece, at)
+                ! Beside shears that are there: in a stretch that is short without end all is nothing
+                call note(ledger, of_contact, pulls, push_at(border), maxval(abs(solution%shear)), piece, at)
             end if
         end subroutine audit_push
 

@@ -139,7 +139,7 @@ contains
                 call join_row(contact_type(j, k), ground%pieces(j)%length, row, contacts, n)
             end do
         end do
-        call put_in_order(ground, contacts, n)
+        call put_in_order(contacts, n)
     end subroutine join_places
 
     !> One more place of a row

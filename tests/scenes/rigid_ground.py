@@ -49,6 +49,47 @@ def rigid_scene(seed, warm=False, pulled=False):
     return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
 
 
+def tied_scene(seed):
+    """A scene on a grid: corners of the ground, hinges, supports and loads at the same places, levels that are the same.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    dict
+    """
+    rng = random.Random(seed)
+    spans = [float(rng.choice((2, 4, 6))) for _ in range(rng.choice((1, 2, 3)))]
+    length = int(sum(spans))
+    beam = {"spans": spans, "EI": [rng.choice((100.0, 1e3, 1e3, 1e4)) for _ in spans]}
+    if rng.random() < 0.4:
+        beam["N"] = [rng.choice((10.0, 100.0))] * len(spans)
+    if rng.random() < 0.2:
+        beam["hinges"] = [float(rng.randint(1, length - 1))]
+    levels = [rng.choice((0.0, 0.0, 0.01, -0.01)) for _ in range(length + 1)]
+    corners = sorted({0, length, *rng.sample(range(length + 1), min(length + 1, rng.randint(2, 5)))})
+    rock = {"k": math.inf, "side": "below", "from": 0.0, "to": float(length)}
+    ground = [rock | {"profile": [[float(x), levels[x]] for x in corners]}]
+    if rng.random() < 0.3:
+        step = float(rng.randint(1, length - 1))
+        ground = [rock | {"to": step, "gap": rng.choice((0.0, 0.01, [0.0, 0.01]))},
+                  rock | {"from": step, "gap": rng.choice((0.0, 0.01, [0.01, 0.0]))}]  # fmt: skip
+    supports = [
+        {"x": float(rng.randint(0, length)), "side": rng.choice(("below", "above")), "stiffness": 1e3, "gap": rng.choice(levels)}
+        for _ in range(rng.randint(0, 2))
+    ]
+    loads = [{"type": "uniform", "q": rng.choice((1.0, 4.0))}]
+    for _ in range(rng.randint(0, 3)):
+        x = float(rng.randint(0, length))
+        if rng.random() < 0.5:
+            loads.append({"type": "force", "x": x, "F": rng.choice((-2.0, -1.0, 1.0, 4.0))})
+        elif x not in beam.get("hinges", ()):
+            loads.append({"type": "moment", "x": x, "M": rng.choice((-1.0, 1.0))})
+    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+
+
 def _ground(rng, left, right):
     made = {"k": math.inf, "side": "below", "from": left, "to": right}
     if rng.random() < 0.25:
