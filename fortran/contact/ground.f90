@@ -303,7 +303,9 @@ contains
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
                     if (acts == 0 .or. is_curve(layer, acts)) cycle
                     if (layer%rigid) then
-                        ! It takes all load that lies there
+                        ! It takes all load that lies there, and holds a beam that tapers straight as well as any
+                        s%power(:) = 0
+                        s%taper(:) = 0.0_wp
                         dead = stretch_load_type(kappa=dead%kappa)
                         live = stretch_load_type(kappa=live%kappa)
                         exit

@@ -6,6 +6,8 @@ module gapbeam_rigid_contact
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: same_level
     use gapbeam_ground_laws, only: contact_line
+    use gapbeam_taper, only: steps_of_taper
+    use gapbeam_ground_steps, only: border_of_step
     use gapbeam_ground, only: ground_type, zones_type, new_zones
     implicit none
     private
@@ -135,8 +137,9 @@ contains
         integer, allocatable, intent(out) :: place(:)
         integer :: j, c, i, h, steps(size(ground%pieces))
 
-        steps(:) = 1
-        call new_zones(2*size(contacts) + size(ground%pieces), maxval(ground%first(2:) - ground%first(:size(steps))), steps, zones)
+        ! Series of what tapers hold over steps only
+        steps(:) = [(steps_of_taper(ground%pieces(j)), j=1, size(steps))]
+        call new_zones(2*size(contacts) + sum(steps), maxval(ground%first(2:) - ground%first(:size(steps))), steps, zones)
         allocate (holds(2*size(contacts)), place(size(contacts)))
         i = 0
         h = 0
@@ -148,7 +151,7 @@ contains
                     associate (this => contacts(c))
                         if (this%piece /= j) exit
                         if (this%from > zones%from(i)) then
-                            zones%to(i) = this%from
+                            call end_stretch(this%from)
                             if (this%from < length) call open_stretch(this%from)
                         end if
                         if (this%to > this%from) then
@@ -165,7 +168,7 @@ contains
                     end associate
                     c = c + 1
                 end do
-                zones%to(i) = length
+                call end_stretch(length)
             end associate
         end do
         zones%piece = zones%piece(:i)
@@ -176,6 +179,23 @@ contains
         holds = holds(:h)
 
     contains
+
+        !> The stretch at hand ends, and is cut where it is free
+        subroutine end_stretch(to)
+            real(wp), intent(in) :: to
+            real(wp) :: border
+            integer :: step
+
+            do step = 1, steps(j) - 1
+                if (any(zones%acts(:, i) > 0)) exit
+                border = border_of_step(ground%pieces(j), step, steps(j))
+                if (border > zones%from(i) .and. border < to) then
+                    zones%to(i) = border
+                    call open_stretch(border)
+                end if
+            end do
+            zones%to(i) = to
+        end subroutine end_stretch
 
         !> The next stretch begins
         subroutine open_stretch(from)
@@ -192,21 +212,29 @@ contains
             integer, intent(in) :: border
             type(contact_type), intent(in) :: contact
             real(wp), intent(in) :: at
-            type(hold_type) :: found
 
-            found = hold_type(border, contact%layer, ground%layers(contact%layer)%side, &
-                              level_of(ground, j, contact%layer, at), contact%to > contact%from, &
-                              slope_of(ground, j, contact%layer))
-            if (.not. found%follows) found%compliance = contact%compliance
             if (h > 0) then
-                associate (last => holds(h))
-                    if (last%border == border .and. last%side == found%side) return
-                end associate
+                if (holds(h)%border == border .and. holds(h)%side == ground%layers(contact%layer)%side) return
             end if
             h = h + 1
-            holds(h) = found
+            holds(h) = hold_of(ground, contact, border, at)
         end subroutine hold
 
     end subroutine lay_out
+
+    !> What holds the beam at a place of a contact
+    pure function hold_of(ground, contact, border, at) result(hold)
+        type(ground_type), intent(in) :: ground
+        type(contact_type), intent(in) :: contact
+        !> Right end of which stretch, and the distance from the left end of the piece
+        integer, intent(in) :: border
+        real(wp), intent(in) :: at
+        type(hold_type) :: hold
+
+        hold = hold_type(border, contact%layer, ground%layers(contact%layer)%side, &
+                         level_of(ground, contact%piece, contact%layer, at), contact%to > contact%from, &
+                         slope_of(ground, contact%piece, contact%layer))
+        if (.not. hold%follows) hold%compliance = contact%compliance
+    end function hold_of
 
 end module gapbeam_rigid_contact

@@ -1,6 +1,7 @@
 !> How single places at which a beam touches rigid ground go on from a solution, and where it is stopped besides.
 module gapbeam_rigid_places
     use gapbeam_kinds, only: wp
+    use gapbeam_taper, only: softness_at
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_roots, only: find_peaks
@@ -22,7 +23,7 @@ contains
         type(rigid_type), intent(inout) :: rigid
         type(contact_type), intent(in) :: contact
         integer, intent(in) :: border
-        real(wp) :: rotation(2), shear(4), moment, push, step
+        real(wp) :: rotation(2), shear(4), soft(2), moment, push, step
         type(contact_type) :: next
         integer :: h
 
@@ -44,7 +45,8 @@ contains
                         if (side*shear(2) < 0.0_wp) next%from = max(next%from, contact%from - moment/(side*shear(2)))
                         if (side*shear(3) > 0.0_wp) next%to = min(next%to, contact%to - moment/(side*shear(3)))
                     else if (moment > rigid%noise%moment .and. push > rigid%noise%force) then
-                        next%compliance = ground%pieces(contact%piece)%flexibility*moment/push
+                        soft(:) = softness_at(ground%pieces(contact%piece), contact%from)
+                        next%compliance = soft(1)*moment/push
                         step = 0.0_wp
                         if (contact%compliance >= 0.0_wp) step = side*(answer%moment_left - answer%moment_right)/push
                         step = max(-before*3/4, min(after*3/4, step))

@@ -4,10 +4,10 @@ module gapbeam_check_rigid_ground
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_scene, only: gapbeam_normal, gapbeam_unchanged, gapbeam_linear_curvature
+    use gapbeam_scene, only: gapbeam_normal, gapbeam_linear_curvature
     use gapbeam_assembled_model, only: assembled_type, is_alone, turns, point_x, in_bending, in_shear
-    use gapbeam_piece_stiffness, only: stiffness_of
-    use gapbeam_input_error, only: refuse, of_sections, of_supports, of_foundations, of_loads, bad_law, bad_load
+    use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
+    use gapbeam_input_error, only: refuse, of_supports, of_foundations, of_loads, bad_law, bad_load
     implicit none
     private
     public :: check_rigid_ground, is_on_rigid_ground
@@ -38,10 +38,6 @@ contains
                                "available in this version; give all of it a stiffness, or none", error)
             return
         end if
-        do s = 1, size(assembled%model%sections)
-            call check_section(assembled, s, error)
-            if (allocated(error)) return
-        end do
         do k = 1, size(assembled%model%loads)
             associate (load => assembled%model%loads(k))
                 if (.not. is_alone(load)) cycle
@@ -68,34 +64,23 @@ contains
         end do
     end subroutine check_rigid_ground
 
-    !> A section beside it: what tapers is cut to steps, which rigid ground does not know
-    subroutine check_section(assembled, number, error)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: number
-        type(error_type), allocatable, intent(out) :: error
-
-        associate (s => assembled%model%sections(number))
-            if (.not. max(s%EI_to, s%GA_to) > gapbeam_unchanged) return
-            call refuse(error, of_sections, number, size(assembled%model%sections), bad_law, &
-                        merge("EI", "GA", s%EI_to > gapbeam_unchanged), "a section that tapers beside rigid ground is not "// &
-                        "available in this version; give short sections, each of one stiffness, or the ground a stiffness")
-        end associate
-    end subroutine check_section
-
     !> A piece of the beam over rigid ground
     subroutine check_piece(assembled, piece, error)
         type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: piece
         type(error_type), allocatable, intent(out) :: error
         character(len=:), allocatable :: problem
+        real(wp) :: ei, ei_to
+        integer :: power
 
-        associate (ei => stiffness_of(assembled, piece, in_bending))
-            if (ei > huge(ei)) then
-                problem = "the beam is rigid there, too"
-            else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
-                problem = "the beam has a finite GA there"
-            end if
-        end associate
+        call stiffness_along(assembled, piece, in_bending, ei, ei_to, power)
+        if (ei > huge(ei)) then
+            problem = "the beam is rigid there, too"
+        else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
+            problem = "the beam has a finite GA there"
+        else if (power > 0 .and. any(abs([assembled%dead(piece)%kappa, assembled%live(piece)%kappa]) > 0.0_wp)) then
+            problem = "a curvature is imposed on a beam that tapers there"
+        end if
         if (.not. allocated(problem)) return
         call refuse_ground(assembled, assembled%layers(assembled%layer_first(piece))%foundation, "from x = "// &
                            trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))//" "// &

@@ -20,7 +20,8 @@ def excess(scene: dict, result) -> dict[str, float]:
     Parameters
     ----------
     scene : dict
-        Spans, EI and N (lists), hinges, one-sided rigid foundations with gap or profile, supports without laws, loads without
+        Spans, EI and N (lists), sections that taper (without N), hinges,
+        one-sided rigid foundations with gap or profile, supports without laws, loads without
         curvature, all with x.
     result : gapbeam.Result
         What gapbeam says of it.
@@ -54,6 +55,7 @@ def excess(scene: dict, result) -> dict[str, float]:
             f.get("to", length),
             *(x for x, _ in f.get("profile", ()) if 0.0 < x < length),
         ]
+    places += [one[end] for one in scene.get("sections", ()) for end in ("from", "to")]
     places = np.unique(places)
     zones = [c for c in step.contact if c.to > c.from_]
     size = {
@@ -96,8 +98,15 @@ def excess(scene: dict, result) -> dict[str, float]:
             p -= pressure
         t = np.linspace(0.0, 1.0, SAMPLES) * h
         kappa = sum(value for a, b, value in bends if a < middle < b)
-        rates = rates_of(w, psi, moment, force, kappa, p[0], (p[1] - p[0]) / h, ei, pull)
-        along = taylor(rates, t)
+        state, fall = (w, psi, moment, force), (p[1] - p[0]) / h
+        section = next((one for one in scene.get("sections", ()) if one["from"] < middle < one["to"]), None)
+        if section:
+            along, w, psi, moment = tapered(state, kappa, p[0], fall, lambda at, x=x, one=section: stiffness(one, x + at), t)
+        else:
+            rates = rates_of(*state, kappa, p[0], fall, ei, pull)
+            along = taylor(rates, t)
+            w, psi, bend = (float(taylor(rates[k:], h)) for k in range(3))
+            moment = ei * (kappa - bend)
         told = result.at(x + t).deflection
         found["bending"] = max(found["bending"], float(np.abs(along - told)[1:-1].max()) / size["deflection"])
         for f in scene["foundation"]:
@@ -108,8 +117,6 @@ def excess(scene: dict, result) -> dict[str, float]:
             found["through"] = max(found["through"], float(depth.max()) / size["deflection"])
             if any(c.from_ < middle < c.to for c in zones):
                 found["touch"] = max(found["touch"], float(np.abs(depth).max()) / size["deflection"])
-        w, psi, bend = (float(taylor(rates[k:], h)) for k in range(3))
-        moment = ei * (kappa - bend)
         force -= p.sum() / 2 * h
     found["equilibrium"] = max(found["equilibrium"], abs(force) / size["force"], abs(moment) / size["moment"])
     for c in step.contact:
@@ -156,6 +163,26 @@ def rates_of(w, psi, moment, force, kappa, p, fall, EI, pull):
     while len(rates) < TERMS:
         rates.append(pull / EI * rates[-2])
     return rates
+
+
+def stiffness(section, x):
+    """Give EI in a section that tapers."""
+    given, share = section["EI"], (x - section["from"]) / (section["to"] - section["from"])
+    if isinstance(given, list):
+        return given[0] + (given[1] - given[0]) * share
+    return given["from"] * (1 + ((given["to"] / given["from"]) ** (1 / given["power"]) - 1) * share) ** given["power"]
+
+
+def tapered(state, kappa, p, fall, EI, t):
+    """Integrate the moment over EI twice, by Gauss: deflections at distances t, and the state at the last of them."""
+    w, psi, moment, force = state
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    at = t[:, None] * (nodes + 1) / 2
+    there = moment + force * at - p * at**2 / 2 - fall * at**3 / 6
+    bent = kappa - there / EI(at)
+    along = w + psi * t + ((t[:, None] - at) * bent) @ weights * t / 2
+    h = t[-1]
+    return along, along[-1], psi + bent[-1] @ weights * h / 2, moment + force * h - p * h**2 / 2 - fall * h**3 / 6
 
 
 def taylor(rates, t):

@@ -5,7 +5,7 @@ import random
 from itertools import pairwise
 
 
-def rigid_scene(seed, warm=False, pulled=False):
+def rigid_scene(seed, warm=False, pulled=False, haunched=False):
     """A scene of one to three spans on one or two rigid foundations below.
 
     Parameters
@@ -15,6 +15,8 @@ def rigid_scene(seed, warm=False, pulled=False):
         Also with imposed curvatures.
     pulled : bool
         With a tension, the same all along or one of each span.
+    haunched : bool
+        With spans of which EI changes linearly, or as the cube of a linear depth.
 
     Returns
     -------
@@ -43,6 +45,15 @@ def rigid_scene(seed, warm=False, pulled=False):
         left, right = sorted(rng.choice((0.0, length, rng.uniform(0, length))) for _ in range(2))
         if left < right:
             loads.append({"type": "curvature", "from": left, "to": right, "kappa": rng.uniform(-2e-3, 2e-3)})
+    if haunched:
+        at, given = 0.0, []
+        for span, EI in zip(spans, beam["EI"], strict=True):
+            other = EI * 10 ** rng.uniform(-1, 1)
+            made = [EI, other] if rng.random() < 0.5 else {"from": EI, "to": other, "power": 3}
+            given.append({"from": at, "to": at + span, "EI": made})
+            at += span
+        given = [one for one in given if rng.random() < 0.8]
+        return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads, "sections": given}
     if pulled:
         pulls = [10.0 ** rng.uniform(-2, 2) * min(beam["EI"]) / length**2 for _ in spans]
         beam["N"] = rng.choice((pulls, pulls[:1] * len(spans)))
@@ -147,7 +158,14 @@ def turned_round(scene):
         else:
             loads.append(load | {"x": length - load["x"], **({"M": -load["M"]} if "M" in load else {})})
     supports = [one | {"x": length - one["x"]} for one in scene["supports"]]
-    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+    sections = [_seen_from_behind(one, length) for one in scene.get("sections", ())[::-1]]
+    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads, "sections": sections}
+
+
+def _seen_from_behind(section, length):
+    EI = section["EI"]
+    EI = EI[::-1] if isinstance(EI, list) else EI | {"from": EI["to"], "to": EI["from"]}
+    return {"from": length - section["to"], "to": length - section["from"], "EI": EI}
 
 
 def upside_down(scene):
@@ -169,4 +187,4 @@ def upside_down(scene):
         key = {"force": "F", "moment": "M", "curvature": "kappa"}.get(load["type"], "q")
         value = load[key]
         loads.append(load | {key: [-one for one in value] if isinstance(value, list) else -value})
-    return {"beam": scene["beam"], "supports": supports, "foundation": ground, "loads": loads}
+    return scene | {"supports": supports, "foundation": ground, "loads": loads}

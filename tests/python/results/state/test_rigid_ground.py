@@ -18,9 +18,9 @@ def at(x, **keys):
     return {"x": x, **keys}
 
 
-def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, N=0.0, **keys):
+def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, N=0.0, sections=(), **keys):
     """Result of a beam of one span that has to stand."""
-    result = gapbeam.solve({**scene([length], supports, loads, EI=EI, N=N), "foundation": [ground], **keys})
+    result = gapbeam.solve({**scene([length], supports, loads, EI=EI, N=N, sections=sections), "foundation": [ground], **keys})
     assert result.status == "solved", result.reason
     return result
 
@@ -92,6 +92,33 @@ def test_an_end_that_is_lifted_of_a_pipe_that_is_pulled(pull):
     near([lifted.steps[-1].free_spans[0].sag], [rise])
 
 
+@pytest.mark.parametrize(("given", "power"), [([1.0, 3.0], 1), ({"from": 1.0, "to": 40.0, "power": 3}, 3)])
+def test_an_end_that_is_lifted_of_a_haunch(given, power):
+    """Over 2F/q as any other, since that is statics; the rise is the integral of (l - t) M/EI."""
+    last = given[1] if power == 1 else given["to"]
+    with mp.workdps(30):
+        depth = lambda x: 1 + (mp.mpf(last) ** (mp.mpf(1) / power) - 1) * x / 10  # noqa: E731
+        rise = mp.quad(lambda t: (3 - t) * (1.5 * t - t**2 / 2) / depth(7 + t) ** power, [0, 1, 2, 3])
+    lifted = solved([uniform(1.0), force(10.0, -1.5)], sections=[{"from": 0.0, "to": 10.0, "EI": given}])
+    near(contact(lifted), [(0.0, 7.0, 7.0), (7.0, 7.0, 1.5)])
+    near([lifted.steps[-1].free_spans[0].sag], [float(rise)])
+
+
+def test_an_end_that_is_lifted_of_a_haunch_that_is_pulled():
+    """EI = 1 + x/5, N = 2: M_x = T - N w_x, T_x = -q from where it lies, in Taylor series of many digits."""
+    with mp.workdps(25):
+
+        def end(length):
+            rates = lambda x, y: [y[1], -y[2] / (1 + (10 - length + x) / 5), y[3] - 2 * y[1], -1]  # noqa: E731
+            return mp.odefun(rates, 0, [0, 0, 0, length - mp.mpf("1.5")])(length)
+
+        length = mp.findroot(lambda length: end(length)[2], (mp.mpf("2.3"), mp.mpf("2.4")), solver="secant", tol=1e-18)
+        rise = float(-end(length)[0])
+        length = float(length)
+    pulled = solved([uniform(1.0), force(10.0, -1.5)], N=2.0, sections=[{"from": 0.0, "to": 10.0, "EI": [1.0, 3.0]}])
+    near([pulled.steps[-1].free_spans[0].from_, pulled.steps[-1].free_spans[0].sag], [10.0 - length, rise])
+
+
 def test_where_the_axial_force_changes_on_a_slope():
     """Held along its axis there, the beam leans on the ground with the change times the slope, or is lifted by that."""
     given = {**scene([4.0, 6.0], [], [uniform(5.0)], EI=[10.0, 2000.0], N=[7.0, 40.0]),
@@ -156,10 +183,10 @@ def test_a_slab_that_curls():
 
 def drawn(kind, seed):
     """A random scene."""
-    return tied_scene(seed) if kind == "tied" else rigid_scene(seed, kind == "warm", kind == "pulled")
+    return tied_scene(seed) if kind == "tied" else rigid_scene(seed, kind == "warm", kind == "pulled", kind == "haunched")
 
 
-@pytest.mark.parametrize("kind", ["plain", "warm", "pulled", "tied"])
+@pytest.mark.parametrize("kind", ["plain", "warm", "pulled", "haunched", "tied"])
 @pytest.mark.parametrize("seed", range(60))
 def test_conditions_of_the_least_energy(seed, kind):
     given = drawn(kind, seed)
@@ -179,7 +206,7 @@ def test_conditions_of_the_least_energy(seed, kind):
             np.testing.assert_allclose(told, expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("kind", ["plain", "pulled", "tied"])
+@pytest.mark.parametrize("kind", ["plain", "pulled", "haunched", "tied"])
 def test_most_random_scenes_are_settled(kind):
     """Of 300 at most two come to no end; none is solved wrongly."""
     refused = 0
@@ -255,6 +282,14 @@ def test_point_forces_in_report_data_and_picture():
             {"beam": {"spans": [10.0], "EI": 1.0, "N": -2.0}},
             "foundation[0].k: rigid ground under a beam that is compressed is not available in this version; give the ground a "
             "stiffness, or N of 0 or more",
+        ),
+        (
+            {
+                "sections": [{"from": 2.0, "to": 8.0, "EI": [1.0, 2.0]}],
+                "loads": [{"type": "curvature", "from": 4.0, "to": 5.0, "kappa": 0.1}],
+            },
+            "foundation[0].k: from x = 4 to x = 5 a curvature is imposed on a beam that tapers there, which on rigid ground is not "
+            "available in this version; give the ground a stiffness",
         ),
         (
             {"foundation": [{"k": math.inf}]},
