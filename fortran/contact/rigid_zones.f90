@@ -43,11 +43,11 @@ contains
                 next%from = (contact%from + contact%to)/2
                 next%to = next%from
             else if (any(q < 0.0_wp)) then
-                ! It is lifted from there on, and as much of it again goes with that
+                ! It is lifted from there on
                 share = q(1)/(q(1) - q(2))
                 lifted = next%from + share*(next%to - next%from)
-                if (q(2) < 0.0_wp) next%to = min(lifted, max(2*lifted - next%to, (contact%from + 3*contact%to)/4))
-                if (q(1) < 0.0_wp) next%from = max(lifted, min(2*lifted - next%from, (3*contact%from + contact%to)/4))
+                if (q(2) < 0.0_wp) next%to = min(lifted, (contact%from + 3*contact%to)/4)
+                if (q(1) < 0.0_wp) next%from = max(lifted, (3*contact%from + contact%to)/4)
             end if
         end associate
         call add(rigid, next)

@@ -174,6 +174,7 @@ contains
             turned%rotation = found(n + 1:)%deflection
             turned%rotation_size = rotation_size + everywhere*farthest*maxval(beam%links%inverse)
             turned%couple_size = couple_size + everywhere*maxval(abs(answers(:n)%moment_left))
+            turned%left_out = most_left_out/epsilon(1.0_wp)*maxval(work%load_size)*maxval(beam%links%length)
         end subroutine find_rotations
 
         !> A node whose rotations supports hold
@@ -196,7 +197,7 @@ contains
                 if (numbers(j, i) == 0) cycle
                 associate (rotation => turned(numbers(j, i)))
                     rotation%couple_size = rotation%couple_size + everywhere*bent
-                    rotation%left_out = most_left_out/epsilon(1.0_wp)*(maxval(work%load_size)*maxval(beam%links%length) + bent)
+                    rotation%left_out = rotation%left_out + most_left_out/epsilon(1.0_wp)*bent
                 end associate
             end do
             call audit_rotations(beam, i, numbers(:, i), closed, undecided, leeway, ends, turned, reaction, ledger)
