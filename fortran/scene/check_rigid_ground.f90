@@ -5,7 +5,7 @@ module gapbeam_check_rigid_ground
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_scene, only: gapbeam_normal, gapbeam_linear_curvature
-    use gapbeam_assembled_model, only: assembled_type, is_alone, turns, point_x, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, is_alone, is_beside_point, turns, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, of_loads, bad_law, bad_load
     implicit none
@@ -39,8 +39,10 @@ contains
             return
         end if
         do k = 1, size(assembled%model%loads)
-            associate (load => assembled%model%loads(k))
+            associate (load => assembled%model%loads(k), from => assembled%load_from(k), to => assembled%load_to(k))
                 if (.not. is_alone(load)) cycle
+                if (.not. lies_on(assembled, from + merge(0, 1, is_beside_point(load)), &
+                                  merge(from + 1, to, is_beside_point(load)))) cycle
                 call refuse(error, of_loads, k, size(assembled%model%loads), bad_load, merge("value_to", "rotation", &
                             load%kind == gapbeam_linear_curvature), "a support that is turned, a couple at a hinge, or a "// &
                             "curvature that changes along the beam is not available over rigid ground; give the ground a stiffness")
@@ -48,10 +50,13 @@ contains
             end associate
         end do
         do j = 1, size(assembled%pieces)
-            if (assembled%layer_first(j + 1) > assembled%layer_first(j)) call check_piece(assembled, j, error)
+            if (lies_on(assembled, j, j)) call check_piece(assembled, j, error)
             if (allocated(error)) return
         end do
         do s = 1, size(assembled%model%supports)
+            associate (at => assembled%support_point(s))
+                if (.not. lies_on(assembled, at, at + 1)) cycle
+            end associate
             if (turns(assembled%model%supports(s))) then
                 call refuse(error, of_supports, s, size(assembled%model%supports), bad_law, "direction", "a support that holds "// &
                             "a rotation by a law, a slack, one way or at a hinge is not available over rigid ground; give the "// &
@@ -63,6 +68,17 @@ contains
             if (allocated(error)) return
         end do
     end subroutine check_rigid_ground
+
+    !> Is the ground under one of some pieces
+    pure function lies_on(assembled, first, last) result(does)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: first, last
+        logical :: does
+        integer :: j
+
+        does = any([(assembled%layer_first(j + 1) > assembled%layer_first(j), &
+                     j=max(1, first), min(last, size(assembled%pieces)))])
+    end function lies_on
 
     !> A piece of the beam over rigid ground
     subroutine check_piece(assembled, piece, error)

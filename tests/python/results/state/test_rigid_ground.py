@@ -1,6 +1,7 @@
 """Beams on rigid ground: closed forms, the conditions of the least energy, the limit of stiff springs, and what is refused."""
 
 import math
+from itertools import pairwise
 
 import gapbeam
 import mpmath as mp
@@ -141,6 +142,41 @@ def test_cold_pulls_the_beam_to_its_ground():
     near(contact(cold), contact(solved(loads, N=1.0)))
     with pytest.raises(gapbeam.EngineError, match="axial loads compress the beam, which over rigid ground is not available"):
         gapbeam.solve({**scene([10.0], ends, [*loads, {"type": "temperature", "dT": 10.0}], **keys), "foundation": [ROCK]})
+
+
+def rock_from(x, supports, loads=(), **keys):
+    """A beam of 20 m that lies on rock from x on, under its weight."""
+    beam = scene([6.0, 14.0], supports, [uniform(2.0), *loads], EI=500.0)
+    return gapbeam.solve({**beam, "foundation": [ROCK | {"from": x}], **keys})
+
+
+def test_rotations_with_laws_and_turned_supports_beside_the_ground():
+    """As with the couples that they give."""
+    pinned = [at(0.0)]
+    yields = rock_from(6.0, [at(0.0, rotation={"law": [[0.0, 3.0], [1.0, 3.0]]})])
+    near(contact(yields), contact(rock_from(6.0, pinned, [{"type": "moment", "x": 0.0, "M": -3.0}])))
+    turned = rock_from(6.0, [at(0.0, rotation="fixed")], [{"type": "movement", "support": 0, "rotation": 0.01}])
+    couple = {"type": "moment", "x": 0.0, "M": float(turned.at(0.0).moment)}
+    near(contact(turned), contact(rock_from(6.0, pinned, [couple])))
+    near([turned.at(0.0).rotation], [0.01])
+    slack = rock_from(6.0, [at(0.0, rotation="fixed")], hinges=[{"x": 3.0, "stiffness": 500.0, "slack": 1e-3}])
+    moment = float(slack.at(3.0).moment)
+    passed = [{"type": "moment", "x": 3.0, "M": sign * moment, "at_hinge": side} for side, sign in (("left", -1.0), ("right", 1.0))]
+    near(contact(slack), contact(rock_from(6.0, [at(0.0, rotation="fixed")], passed, hinges=[{"x": 3.0}])))
+    turns = [float(slack.at(3.0, side=side).rotation) for side in ("left", "right")]
+    near([500.0 * (turns[0] - turns[1] - math.copysign(1e-3, moment))], [moment], 1e-12)
+
+
+def test_a_curvature_that_changes_beside_the_ground():
+    """As many that are the same along short lengths."""
+    off = []
+    for parts in (20, 40):
+        cuts = [5.0 * k / parts for k in range(parts + 1)]
+        steps = [{"type": "curvature", "from": a, "to": b, "kappa": 0.002 * (a + b) / 2} for a, b in pairwise(cuts)]
+        changes = {"type": "curvature", "from": 0.0, "to": 5.0, "kappa": [0.0, 0.01]}
+        told, expected = (rock_from(6.0, [at(0.0, rotation="fixed")], loads).steps[-1] for loads in ([changes], steps))
+        off.append(abs(told.reaction[0] - expected.reaction[0]))
+    assert off[1] < off[0] / 3.9 < 1e-3
 
 
 def test_over_a_stop():
@@ -313,6 +349,11 @@ def test_point_forces_in_report_data_and_picture():
             {"supports": [at(2.0, settlement=0.1)]},
             "supports[0]: this one holds the beam at a deflection of 0.1, which the rigid ground there stops at 0; give the "
             "foundation a greater gap",
+        ),
+        (
+            {"supports": [at(2.0, direction="rotational", law=[[0.0, 1.0], [1.0, 2.0]])]},
+            "supports[0].direction: a support that holds a rotation by a law, a slack, one way or at a hinge is not available over "
+            "rigid ground; give the ground a stiffness",
         ),
         (
             {"supports": [at(2.0, rotation=3.0)]},
