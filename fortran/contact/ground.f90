@@ -68,6 +68,8 @@ module gapbeam_ground
         real(wp), allocatable :: start(:, :)
         !> Into how many steps (border_of_step) every piece is cut in any case, so that series hold, shape (n)
         integer, allocatable :: steps(:)
+        !> Does rigid ground push with a point force right of each, and left of the first, shape (0:m); else not allocated
+        logical, allocatable :: pushed(:)
     end type zones_type
 
     !> The beam on the zones at hand
@@ -303,9 +305,11 @@ contains
                 associate (layer => ground%layers(k), acts => zones%acts(k - ground%first(j) + 1, i))
                     if (acts == 0 .or. is_curve(layer, acts)) cycle
                     if (layer%rigid) then
-                        ! It takes all load that lies there, and holds a beam that tapers straight as well as any
+                        ! It takes all load that lies there, and holds any beam straight, and at rest
                         s%power(:) = 0
                         s%taper(:) = 0.0_wp
+                        s%modulus_a = 0.0_wp
+                        s%modulus_b = 0.0_wp
                         dead = stretch_load_type(kappa=dead%kappa)
                         live = stretch_load_type(kappa=live%kappa)
                         exit

@@ -7,7 +7,8 @@ module gapbeam_modes
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_mode_stretches, most_halvings, most_asides
     use gapbeam_tolerances, only: mode_digits, mode_width
-    use gapbeam_band, only: band_ok, count_unstable_pivots
+    use gapbeam_nodes, only: is_hinge, jointed, joint_left, joint_right, restrained
+    use gapbeam_band, only: band_ok, count_unstable_pivots, node_type
     use gapbeam_piece, only: no_load, is_compressed
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
@@ -80,6 +81,7 @@ contains
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, 0.0_wp, work)
         call apply_scheme(grounded%beam, acting, [0, size(grounded%beam%links)], work)
+        if (any(ground%layers%rigid)) call hold_on_rigid_ground(ground, cut, work%nodes)
         if (what == by_vibration .and. allocated(ground%mass)) then
             do i = 0, ubound(ground%mass, 1)
                 associate (node => work%nodes(grounded%node(i)))
@@ -94,6 +96,37 @@ contains
         end associate
         if (state /= band_ok .and. number == 0) number = -1
     end subroutine count_modes
+
+    !> Rigid ground holds the beam where it pushes at a place, and its slope as well where a zone begins or ends: that moves, but so
+    !> little that the beam does not feel it, since its moment vanishes there
+    pure subroutine hold_on_rigid_ground(ground, zones, nodes)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        !> Of the beam on the zones, shape (0:m)
+        type(node_type), intent(inout) :: nodes(0:)
+        integer :: i, side
+
+        do i = 1, size(zones%piece)
+            if (.not. any(zones%acts(:, i) > 0)) cycle
+            do side = 0, 1
+                associate (node => nodes(i - 1 + side))
+                    node%held = .true.
+                    if (is_hinge(node%kind)) cycle
+                    node%joint = node%compliance
+                    node%compliance = 0.0_wp
+                    if (node%kind == jointed) then
+                        node%kind = merge(joint_left, joint_right, side == 1)
+                    else
+                        node%kind = restrained
+                    end if
+                end associate
+            end do
+        end do
+        if (.not. allocated(zones%pushed)) return
+        do i = 0, size(zones%piece)
+            if (zones%pushed(i)) nodes(i)%held = .true.
+        end do
+    end subroutine hold_on_rigid_ground
 
     !> Zones cut so that none of the stretches gives way by itself; of no size where there would be too many
     subroutine cut_zones(ground, zones, cut, parts)
@@ -119,6 +152,10 @@ contains
             return
         end if
         call new_zones(sum(ceiling(steps)), size(zones%acts, 1), zones%steps, cut)
+        if (allocated(zones%pushed)) then
+            allocate (cut%pushed(0:size(cut%piece)), source=.false.)
+            cut%pushed([0, (sum(ceiling(steps(:i))), i=1, size(steps))]) = zones%pushed
+        end if
         m = 0
         do i = 1, size(zones%piece)
             do k = 1, ceiling(steps(i))

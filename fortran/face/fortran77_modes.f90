@@ -160,7 +160,7 @@ subroutine ghmode(beam, state, kind, nval, value, nfound, info)
     ! The first NFOUND ones are written
     double precision, intent(inout) :: value(*)
     integer, intent(inout) :: nfound
-    ! -1; -2, also of a state that is not solved, or where modes are not available (rigid ground, curves of the ground); -3, -4; 15
+    ! -1; -2, also of a state that is not solved, or where modes are not available (curves of the ground); -3, -4; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error

@@ -35,6 +35,10 @@ contains
         start%zones%from(:) = solution%from
         start%zones%to(:) = solution%to
         start%zones%acts(:, :) = solution%acts
+        if (allocated(solution%pushing)) then
+            allocate (start%zones%pushed(0:size(solution%piece)))
+            start%zones%pushed(:) = solution%pushing > 0
+        end if
         do i = 1, size(solution%piece)
             associate (ends => solution%ends(i), stretch => solution%stretches(i))
                 start%zones%start(:, i) = [ends%w_a - stretch%shear_flexibility*ends%moment_a, solution%rotation(1, i), &

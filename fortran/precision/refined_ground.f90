@@ -88,6 +88,7 @@ contains
         refined%to(:) = exact_ends(zones, fine)
         refined%acts(:, :) = zones%acts
         refined%start(:, :) = zones%start
+        if (allocated(zones%pushed)) allocate (refined%pushed, source=zones%pushed)
     end subroutine refine_zones
 
     !> A stretch in double precision

@@ -230,9 +230,6 @@ contains
         else if (any(has_curves(assembled%layers))) then
             call fatal_error(error, gapbeam_bad_input, "modes: beside ground whose law is a curve they are not available in "// &
                              "this version; give the points of the curve")
-        else if (any(assembled%layers%rigid)) then
-            call fatal_error(error, gapbeam_bad_input, "modes: on rigid ground they are not available in this version; give "// &
-                             "the ground a stiffness")
         end if
     end subroutine check_state
 

@@ -19,9 +19,10 @@ def at(x, **keys):
     return {"x": x, **keys}
 
 
-def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, N=0.0, sections=(), **keys):
+def solved(loads, ground=ROCK, supports=(), length=10.0, EI=1.0, N=0.0, mass=0.0, sections=(), **keys):
     """Result of a beam of one span that has to stand."""
-    result = gapbeam.solve({**scene([length], supports, loads, EI=EI, N=N, sections=sections), "foundation": [ground], **keys})
+    beam = scene([length], supports, loads, EI=EI, N=N, mass=mass, sections=sections)
+    result = gapbeam.solve({**beam, "foundation": [ground], **keys})
     assert result.status == "solved", result.reason
     return result
 
@@ -185,6 +186,36 @@ def test_over_a_stop():
     free = (72 * 200.0 * 0.02 / 3.0) ** 0.25
     near([one.to - one.from_ for one in result.steps[-1].free_spans], [2 * free])
     near(result.steps[-1].reaction, [3.0 * 2 * free * 2 / 3])
+
+
+def test_frequencies_of_free_spans():
+    """Clamped where they leave the ground, pinned on a peak: over a stop, those of a span with one end pinned, or none."""
+    EI, q, height, mass = 200.0, 3.0, 0.02, 1.5
+    free = (72 * EI * height / q) ** 0.25
+    pinned, clamped = lambda b: mp.tan(b) - mp.tanh(b), lambda b: mp.cos(b) * mp.cosh(b) - 1
+    roots = [mp.findroot(*one) for one in ((pinned, 3.9), (clamped, 4.7), (pinned, 7.1), (clamped, 7.9))]
+    expected = [float((root / free) ** 2) * math.sqrt(EI / mass) for root in roots]
+    keys = {"mass": mass, "analysis": {"frequencies": 4}}
+    stop = solved([uniform(q)], supports=[at(5.0, side="below", gap=-height)], EI=EI, **keys)
+    near(stop.frequencies, expected)
+    peak = ROCK | {"profile": [[0.0, 0.0], [4.5, 0.0], [5.0, -height], [5.5, 0.0], [10.0, 0.0]]}
+    near(solved([uniform(q)], peak, EI=EI, **keys).frequencies, expected)
+    assert np.abs(stop.mode("vibration", 2).deflection).max() == 1.0
+    assert solved([uniform(q)], EI=EI, **keys).frequencies == ()  # all of it lies
+
+
+@pytest.mark.parametrize("seed", [1, 4, 5, 7])
+def test_frequencies_are_the_limit_of_stiff_springs(seed):
+    """With hinges, tension and supports: off by the order of k^(-1/4)."""
+    given = rigid_scene(seed, pulled=seed % 2 == 1)
+    given["beam"]["mass"] = 1.0
+    given["analysis"] = {"frequencies": 3}
+    told = np.array(gapbeam.solve(given).frequencies)
+    off = []
+    for k in (1e10, 1e14):
+        soft = given | {"foundation": [one | {"k": k} for one in given["foundation"]]}
+        off.append(np.abs(np.array(gapbeam.solve(soft).frequencies) / told - 1).max())
+    assert off[1] < off[0] / 8 < 1e-3
 
 
 def test_over_an_edge():
