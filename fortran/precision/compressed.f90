@@ -59,8 +59,11 @@ contains
             return
         end if
         if (any(ground%layers%rigid)) then
-            call fatal_error(error, gapbeam_bad_input, "axial loads compress the beam, which over rigid ground is not "// &
-                             "available in this version; give the ground a stiffness, or set first_order")
+            if (.not. is_unique(ground)) call fatal_error(error, gapbeam_bad_input, "over rigid ground a beam is compressed in "// &
+                                                          "this version only where it is stable off the ground, on supports "// &
+                                                          "that hold it both ways; press less, add such supports, or give "// &
+                                                          "the ground a stiffness")
+            if (.not. allocated(error)) call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
             return
         end if
         first(:) = closed

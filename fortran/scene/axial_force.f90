@@ -171,10 +171,6 @@ contains
                                              .or. any(model%ground_law%foundation == number))) then
                 call say("shear", bad_law, "ground with a second parameter holds the beam both ways and has a modulus k, "// &
                          "without gap, profile, law or points, in this version; leave shear out, or give k alone")
-            else if (f%k > huge(1.0_wp) .and. any([model%spans%N, pack(model%sections%N, model%sections%N > gapbeam_unchanged)] &
-                                                  < 0.0_wp)) then
-                call say("k", bad_law, "rigid ground under a beam that is compressed is not available in this version; "// &
-                         "give the ground a stiffness, or N of 0 or more")
             end if
         end subroutine check_foundation
 

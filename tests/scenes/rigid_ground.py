@@ -127,6 +127,21 @@ def _support(rng):
     return {"side": "both", "settlement": -rng.uniform(0.03, 0.06)}
 
 
+def pressed_scene(seed):
+    """A scene on rigid ground under compression, less than the beam bears between its ends, which are held both ways.
+
+    Parameters
+    ----------
+    seed : int
+    """
+    scene, rng = rigid_scene(seed, seed % 3 == 0), random.Random(seed)
+    beam, length = scene["beam"], sum(scene["beam"]["spans"])
+    beam.pop("hinges", None)
+    scene["supports"] += [{"x": x, "side": "both", "stiffness": rng.choice((1e3, 1e5))} for x in (0.0, length)]
+    beam["N"] = [-rng.uniform(0.05, 0.95) * math.pi**2 * min(beam["EI"]) / length**2] * len(beam["spans"])
+    return scene
+
+
 def turned_round(scene):
     """The same seen from behind: left and right change places.
 
