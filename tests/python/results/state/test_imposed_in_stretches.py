@@ -140,7 +140,7 @@ def test_steps_events_combinations_and_cases():
     {"loads": [{"type": "curvature", "kappa": [0.0, 0.1]}]},
 ])  # fmt: skip
 def test_refused_on_rigid_ground(changes):
-    ground = {"k": math.inf, "side": "below", "from": 4.0}
+    ground = {"k": math.inf, "side": "below"}
     scene = {"beam": {"spans": [4.0, 4.0], "EI": 1.0, "hinges": [4.0]}, "foundation": [ground]}
     scene["supports"] = [{"node": 0, "rotation": "fixed"}]
     with pytest.raises(SceneError, match="over rigid ground; give the ground a stiffness"):
