@@ -7,7 +7,7 @@ module gapbeam_modes
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_mode_stretches, most_halvings, most_asides
     use gapbeam_tolerances, only: mode_digits, mode_width
-    use gapbeam_nodes, only: is_hinge, jointed, joint_left, joint_right, restrained
+    use gapbeam_nodes, only: is_hinge, jointed
     use gapbeam_band, only: band_ok, count_unstable_pivots, node_type
     use gapbeam_piece, only: no_load, is_compressed
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
@@ -15,7 +15,8 @@ module gapbeam_modes
     use gapbeam_ground_laws, only: between
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
     use gapbeam_moved_ground, only: under_share
-    use gapbeam_model, only: last_place
+    use gapbeam_model, only: last_place, of_node, left_of_hinge, right_of_hinge
+    use gapbeam_turning, only: restrain
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
     use gapbeam_system, only: complete_scheme
     implicit none
@@ -111,13 +112,10 @@ contains
             do side = 0, 1
                 associate (node => nodes(i - 1 + side))
                     node%held = .true.
-                    if (is_hinge(node%kind)) cycle
-                    node%joint = node%compliance
-                    node%compliance = 0.0_wp
                     if (node%kind == jointed) then
-                        node%kind = merge(joint_left, joint_right, side == 1)
-                    else
-                        node%kind = restrained
+                        call restrain(merge(left_of_hinge, right_of_hinge, side == 1), 0.0_wp, node)
+                    else if (.not. is_hinge(node%kind)) then
+                        call restrain(of_node, 0.0_wp, node)
                     end if
                 end associate
             end do

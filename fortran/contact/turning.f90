@@ -14,7 +14,7 @@ module gapbeam_turning
     use gapbeam_model, only: beam_type, last_place, of_node, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
     implicit none
     private
-    public :: apply_turning, find_turning, find_kinds, turn_with
+    public :: apply_turning, restrain, find_turning, find_kinds, turn_with
 
 contains
 

@@ -45,8 +45,9 @@ contains
         type(sums_type) :: part, sums
         !> Sizes of the fields in every stretch, and what is nothing there; the same beside the place at hand
         type(field_type) :: sizes_of(size(solution%piece)), least_of(size(solution%piece)), sizes, least
-        !> Rounding errors of the reactions
+        !> Rounding errors of the reactions, and whether a support may have either state: none may
         real(wp) :: errors(size(closed))
+        logical :: undecided(size(closed))
         !> Rotations that supports hold, and their numbers at every node
         type(turned_type), allocatable :: turned(:)
         integer, allocatable :: numbers(:, :)
@@ -55,6 +56,7 @@ contains
         m = size(solution%piece)
         call find_turned(ground%beam, numbers)
         allocate (turned(maxval(numbers)))
+        undecided(:) = .false.
         residuals = 0.0_wp
         call audit_places()
         if (ledger%wrong /= 0) return
@@ -228,10 +230,8 @@ contains
         subroutine audit_turned(turn_left, turn_right, left, right, couple, terms)
             !> Rotations and moments beside the node, the couple there, and the sizes of moments
             real(wp), intent(in) :: turn_left, turn_right, left, right, couple, terms
-            logical :: undecided(size(closed))
             integer :: k, r
 
-            undecided(:) = .false.
             do k = 1, 2
                 r = numbers(k, j)
                 if (r == 0) cycle

@@ -54,9 +54,7 @@ contains
             if (allocated(error)) return
         end do
         do s = 1, size(assembled%model%supports)
-            associate (at => assembled%support_point(s))
-                if (.not. lies_on(assembled, at, at + 1)) cycle
-            end associate
+            if (.not. lies_on(assembled, assembled%support_point(s), assembled%support_point(s) + 1)) cycle
             if (turns(assembled%model%supports(s))) then
                 call refuse(error, of_supports, s, size(assembled%model%supports), bad_law, "direction", "a support that holds "// &
                             "a rotation by a law, a slack, one way or at a hinge is not available over rigid ground; give the "// &
@@ -115,7 +113,7 @@ contains
                    m => size(assembled%model%supports))
             level = s%settlement + s%side*s%gap
             do piece = max(1, point), min(point + 1, size(assembled%pieces))
-                if (assembled%layer_first(piece + 1) == assembled%layer_first(piece)) cycle
+                if (.not. lies_on(assembled, piece, piece)) cycle
                 if (s%rotation > 0.0_wp .and. s%rotation <= huge(s%rotation)) then
                     call refuse(error, of_supports, number, m, bad_law, "rotation", "a support that holds the rotation "// &
                                 "elastically is not available over rigid ground; hold it rigidly, or not")
