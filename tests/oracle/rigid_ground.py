@@ -6,7 +6,10 @@ equilibrium, bends as its moments say, goes nowhere through the ground, and if t
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
+from scenes.tapered import stiffness_along
 
 SAMPLES = 400
 """Places in every stretch at which beam and ground are compared."""
@@ -20,9 +23,8 @@ def excess(scene: dict, result) -> dict[str, float]:
     Parameters
     ----------
     scene : dict
-        Spans, EI and N (lists), sections that taper (without N), hinges,
-        one-sided rigid foundations with gap or profile, supports without laws, loads without
-        curvature, all with x.
+        Spans, EI and N (lists), sections that taper (without N), hinges, one-sided rigid foundations with gap or profile,
+        supports without laws, loads, all with x.
     result : gapbeam.Result
         What gapbeam says of it.
     """
@@ -101,7 +103,8 @@ def excess(scene: dict, result) -> dict[str, float]:
         state, fall = (w, psi, moment, force), (p[1] - p[0]) / h
         section = next((one for one in scene.get("sections", ()) if one["from"] < middle < one["to"]), None)
         if section:
-            along, w, psi, moment = tapered(state, kappa, p[0], fall, lambda at, x=x, one=section: stiffness(one, x + at), t)
+            ei = partial(stiffness_along, section["EI"], section)
+            along, w, psi, moment = tapered(state, kappa, p[0], fall, lambda at, x=x, EI=ei: EI(x + at), t)
         else:
             rates = rates_of(*state, kappa, p[0], fall, ei, pull)
             along = taylor(rates, t)
@@ -163,14 +166,6 @@ def rates_of(w, psi, moment, force, kappa, p, fall, EI, pull):
     while len(rates) < TERMS:
         rates.append(pull / EI * rates[-2])
     return rates
-
-
-def stiffness(section, x):
-    """Give EI in a section that tapers."""
-    given, share = section["EI"], (x - section["from"]) / (section["to"] - section["from"])
-    if isinstance(given, list):
-        return given[0] + (given[1] - given[0]) * share
-    return given["from"] * (1 + ((given["to"] / given["from"]) ** (1 / given["power"]) - 1) * share) ** given["power"]
 
 
 def tapered(state, kappa, p, fall, EI, t):

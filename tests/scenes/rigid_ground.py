@@ -2,7 +2,7 @@
 
 import math
 import random
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 
 def rigid_scene(seed, warm=False, pulled=False, haunched=False):
@@ -45,19 +45,22 @@ def rigid_scene(seed, warm=False, pulled=False, haunched=False):
         left, right = sorted(rng.choice((0.0, length, rng.uniform(0, length))) for _ in range(2))
         if left < right:
             loads.append({"type": "curvature", "from": left, "to": right, "kappa": rng.uniform(-2e-3, 2e-3)})
-    if haunched:
-        at, given = 0.0, []
-        for span, EI in zip(spans, beam["EI"], strict=True):
-            other = EI * 10 ** rng.uniform(-1, 1)
-            made = [EI, other] if rng.random() < 0.5 else {"from": EI, "to": other, "power": 3}
-            given.append({"from": at, "to": at + span, "EI": made})
-            at += span
-        given = [one for one in given if rng.random() < 0.8]
-        return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads, "sections": given}
     if pulled:
         pulls = [10.0 ** rng.uniform(-2, 2) * min(beam["EI"]) / length**2 for _ in spans]
         beam["N"] = rng.choice((pulls, pulls[:1] * len(spans)))
-    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+    made = {"beam": beam, "supports": supports, "foundation": ground, "loads": loads}
+    return made | {"sections": _haunches(rng, **beam)} if haunched else made
+
+
+def _haunches(rng, spans, EI, **_):
+    ends = [0.0, *accumulate(spans)]
+    changes = []
+    for (left, right), here in zip(pairwise(ends), EI, strict=True):
+        there = here * 10 ** rng.uniform(-1, 1)
+        changes.append(
+            {"from": left, "to": right, "EI": [here, there] if rng.random() < 0.5 else {"from": here, "to": there, "power": 3}}
+        )
+    return [one for one in changes if rng.random() < 0.8]
 
 
 def tied_scene(seed):

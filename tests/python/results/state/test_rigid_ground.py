@@ -1,4 +1,4 @@
-"""Beams on rigid ground: closed forms, the conditions of the least energy, the limit of stiff springs, and what is refused."""
+"""Beams on rigid ground: closed forms, the limit of stiff springs, and what is refused."""
 
 import math
 from itertools import pairwise
@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from oracle.rigid_ground import excess
 from scenes import force, scene, uniform
-from scenes.rigid_ground import pressed_scene, rigid_scene, tied_scene, turned_round, upside_down
 
 ROCK = {"k": math.inf, "side": "below"}
 
@@ -145,25 +144,25 @@ def test_cold_pulls_the_beam_to_its_ground():
         gapbeam.solve({**scene([10.0], ends, [*loads, {"type": "temperature", "dT": 10.0}], **keys), "foundation": [ROCK]})
 
 
-def rock_from(x, supports, loads=(), **keys):
-    """A beam of 20 m that lies on rock from x on, under its weight."""
+def rock_beyond(supports, loads=(), **keys):
+    """A beam of 20 m that lies on rock from 6 m on, under its weight."""
     beam = scene([6.0, 14.0], supports, [uniform(2.0), *loads], EI=500.0)
-    return gapbeam.solve({**beam, "foundation": [ROCK | {"from": x}], **keys})
+    return gapbeam.solve({**beam, "foundation": [ROCK | {"from": 6.0}], **keys})
 
 
 def test_rotations_with_laws_and_turned_supports_beside_the_ground():
     """As with the couples that they give."""
     pinned = [at(0.0)]
-    yields = rock_from(6.0, [at(0.0, rotation={"law": [[0.0, 3.0], [1.0, 3.0]]})])
-    near(contact(yields), contact(rock_from(6.0, pinned, [{"type": "moment", "x": 0.0, "M": -3.0}])))
-    turned = rock_from(6.0, [at(0.0, rotation="fixed")], [{"type": "movement", "support": 0, "rotation": 0.01}])
+    yields = rock_beyond([at(0.0, rotation={"law": [[0.0, 3.0], [1.0, 3.0]]})])
+    near(contact(yields), contact(rock_beyond(pinned, [{"type": "moment", "x": 0.0, "M": -3.0}])))
+    turned = rock_beyond([at(0.0, rotation="fixed")], [{"type": "movement", "support": 0, "rotation": 0.01}])
     couple = {"type": "moment", "x": 0.0, "M": float(turned.at(0.0).moment)}
-    near(contact(turned), contact(rock_from(6.0, pinned, [couple])))
+    near(contact(turned), contact(rock_beyond(pinned, [couple])))
     near([turned.at(0.0).rotation], [0.01])
-    slack = rock_from(6.0, [at(0.0, rotation="fixed")], hinges=[{"x": 3.0, "stiffness": 500.0, "slack": 1e-3}])
+    slack = rock_beyond([at(0.0, rotation="fixed")], hinges=[{"x": 3.0, "stiffness": 500.0, "slack": 1e-3}])
     moment = float(slack.at(3.0).moment)
     passed = [{"type": "moment", "x": 3.0, "M": sign * moment, "at_hinge": side} for side, sign in (("left", -1.0), ("right", 1.0))]
-    near(contact(slack), contact(rock_from(6.0, [at(0.0, rotation="fixed")], passed, hinges=[{"x": 3.0}])))
+    near(contact(slack), contact(rock_beyond([at(0.0, rotation="fixed")], passed, hinges=[{"x": 3.0}])))
     turns = [float(slack.at(3.0, side=side).rotation) for side in ("left", "right")]
     near([500.0 * (turns[0] - turns[1] - math.copysign(1e-3, moment))], [moment], 1e-12)
 
@@ -175,7 +174,7 @@ def test_a_curvature_that_changes_beside_the_ground():
         cuts = [5.0 * k / parts for k in range(parts + 1)]
         steps = [{"type": "curvature", "from": a, "to": b, "kappa": 0.002 * (a + b) / 2} for a, b in pairwise(cuts)]
         changes = {"type": "curvature", "from": 0.0, "to": 5.0, "kappa": [0.0, 0.01]}
-        told, expected = (rock_from(6.0, [at(0.0, rotation="fixed")], loads).steps[-1] for loads in ([changes], steps))
+        told, expected = (rock_beyond([at(0.0, rotation="fixed")], loads).steps[-1] for loads in ([changes], steps))
         off.append(abs(told.reaction[0] - expected.reaction[0]))
     assert off[1] < off[0] / 3.9 < 1e-3
 
@@ -202,20 +201,6 @@ def test_frequencies_of_free_spans():
     near(solved([uniform(q)], peak, EI=EI, **keys).frequencies, expected)
     assert np.abs(stop.mode("vibration", 2).deflection).max() == 1.0
     assert solved([uniform(q)], EI=EI, **keys).frequencies == ()  # all of it lies
-
-
-@pytest.mark.parametrize("seed", [1, 4, 5, 7])
-def test_frequencies_are_the_limit_of_stiff_springs(seed):
-    """With hinges, tension and supports: off by the order of k^(-1/4)."""
-    given = rigid_scene(seed, pulled=seed % 2 == 1)
-    given["beam"]["mass"] = 1.0
-    given["analysis"] = {"frequencies": 3}
-    told = np.array(gapbeam.solve(given).frequencies)
-    off = []
-    for k in (1e10, 1e14):
-        soft = given | {"foundation": [one | {"k": k} for one in given["foundation"]]}
-        off.append(np.abs(np.array(gapbeam.solve(soft).frequencies) / told - 1).max())
-    assert off[1] < off[0] / 8 < 1e-3
 
 
 def test_over_an_edge():
@@ -246,61 +231,6 @@ def test_a_slab_that_curls():
     near([(one.from_, one.to, one.sag) for one in result.steps[-1].free_spans], [(0, free, rise), (10 - free, 10, rise)])
     near(contact(result), [(free, free, q * free), (free, 10 - free, q * (10 - 2 * free)), (10 - free, 10 - free, q * free)])
     near(result.at([4.0, 5.0, 6.0]).moment, [-EI * kappa] * 3)
-
-
-def drawn(kind, seed):
-    """A random scene."""
-    if kind in ("tied", "pressed"):
-        return {"tied": tied_scene, "pressed": pressed_scene}[kind](seed)
-    return rigid_scene(seed, kind == "warm", kind == "pulled", kind == "haunched")
-
-
-@pytest.mark.parametrize("kind", ["plain", "warm", "pulled", "haunched", "tied", "pressed"])
-@pytest.mark.parametrize("seed", range(60))
-def test_conditions_of_the_least_energy(seed, kind):
-    given = drawn(kind, seed)
-    try:
-        result = gapbeam.solve(given)
-    except gapbeam.EngineError as error:
-        if kind != "pressed" or "only where it is stable off the ground" not in str(error):
-            raise
-        return
-    if result.status == "solved":
-        left_over = excess(given, result)
-        assert max(left_over.values()) < 1e-13, left_over
-    for other, sign in ((turned_round(given), 1.0), (upside_down(given), -1.0)):
-        seen = gapbeam.solve(other)
-        assert seen.status == result.status
-        if result.status != "solved":
-            continue
-        names = ("max", "min") if sign > 0.0 else ("min", "max")
-        for quantity in ("moment", "deflection"):
-            told = [sign * seen.extremes[quantity][name].value for name in names]
-            expected = [result.extremes[quantity][name].value for name in ("max", "min")]
-            np.testing.assert_allclose(told, expected, rtol=1e-12, atol=1e-13 * np.abs(expected).max())
-
-
-@pytest.mark.parametrize("kind", ["plain", "pulled", "haunched", "tied"])
-def test_most_random_scenes_are_settled(kind):
-    """Of 300 at most two come to no end; none is solved wrongly."""
-    refused = 0
-    for seed in range(100, 400):
-        try:
-            gapbeam.solve(drawn(kind, seed))
-        except gapbeam.EngineError:
-            refused += 1
-    assert refused <= 2
-
-
-def test_a_moment_that_vanishes_where_a_zone_begins_is_no_pair_of_forces():
-    """Contacts that are next to each other without end pushed and pulled there by 1e6; the audit did not see that."""
-    given = tied_scene(2533)
-    try:
-        result = gapbeam.solve(given)
-    except gapbeam.EngineError:
-        return
-    left_over = excess(given, result)
-    assert max(left_over.values()) < 1e-13, left_over
 
 
 def test_the_limit_of_stiff_springs():
