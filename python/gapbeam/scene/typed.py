@@ -42,7 +42,7 @@ def typed(source: S | Mapping[str, Any], struct: type[S]) -> S:
             return msgspec.msgpack.decode(_packed(source), type=struct)
         if not _has_structs(source):
             return msgspec.convert(_with_lists(source), struct)
-    except (msgspec.ValidationError, AttributeError, OverflowError, RecursionError, TypeError, UnicodeEncodeError):
+    except Exception:  # msgspec 0.23 asks a numpy number or row for keys, and lets out whatever it answers
         pass  # once more, slowly: to word the message, or to take numpy numbers and what UTF-8 does not know
     try:
         data = _with_whole(msgspec.to_builtins(source, enc_hook=_simple, str_keys=False))
