@@ -10,7 +10,9 @@ import numpy as np
 from ..scene.loads import AxialLoad, AxialUniformLoad, ForceLoad, LinearLoad, MomentLoad, UniformLoad
 from ..scene.names import DEAD
 from ..scene.table import Point
+from ..scene.temperature import is_held_along
 from . import formatting as fmt
+from .paths.compression_check import TENSION, ends_of_pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -133,8 +135,17 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     ground = [zone.resultant for zone in step.contact]
     return Sums(
         _sum([*across.tolist(), *ground]), _sum([*(across * x).tolist(), *(-step.couple).tolist()]),
-        -_sum([*reaction[axial].tolist(), *step.friction.tolist()]),
+        -_sum([*reaction[axial].tolist(), *step.friction.tolist(), *_ground_along(scene, step)]),
     )  # fmt: skip
+
+
+def _ground_along(scene: Scene, step: Step) -> list[float]:
+    """Forces on the beam, to the right, of ground along it: what axial forces leave between the ends of pieces, less the loads."""
+    if not step._beam.is_on_axial_ground:
+        return []
+    left, right = (step.values(*ends)[TENSION] for ends in ends_of_pieces(step._beam))
+    loads = zip(scene.loads, resultants_of_loads(scene, step.factor), strict=True)
+    return [*(left - right).tolist(), *(-sums.axial for load, sums in loads if isinstance(load, AxialUniformLoad))]
 
 
 class AxialRun(NamedTuple):
@@ -309,7 +320,7 @@ def balance_in_words(result: Result, step: Step) -> list[str]:
     if not len(scene.foundation):
         along = [one.moment for one in moments_on_deflected_axis(result, step)]
         parts.append(("moment about x = 0", "moment", [sums[0].moment, _sum([sums[1].moment, *along])]))
-    if any(support.direction == "axial" or support.friction for support in scene.supports):
+    if is_held_along(scene):
         parts.append(("along the beam", "force", [one.axial for one in sums]))
     lines = ["Sum of reactions  ", "Sum of loads      "]
     for name, quantity, values in parts:
