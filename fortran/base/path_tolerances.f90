@@ -10,6 +10,7 @@ module gapbeam_path_tolerances
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
     public :: no_friction, no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
     public :: nothing_left, shortest_part, slip_audited
+    public :: no_slip, found_zone, steady_zone, before_all_slides, bedding_audited
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
     public :: longest_beyond, farthest_beyond, beside_branching, first_branch_step, longest_branch_step, shortest_branch_step
     public :: branch_bend, branch_rises, crossing_directions, nearest_crossing, less_independent
@@ -75,6 +76,19 @@ module gapbeam_path_tolerances
     !> Share of the largest to which the way of parts that slide is followed. Read by continuation/ground_along_steps,
     !> continuation/ground_along_stiff
     real(wp), parameter :: slip_settled = 2.0_wp**(-48)
+    !> Share of the limit of ground along the beam by which springs may pass it by rounding, and of the fastest rate by which what
+    !> slides may go back, in quadruple precision. Read by contact/bedding_zones
+    real(wp), parameter :: no_slip = 2.0_wp**(-50)
+    !> Share of a bar to which ends of zones over such springs are found, and shorter than which there is none, in quadruple
+    !> precision. Read by contact/bedding_zones, contact/bedding_growth
+    real(wp), parameter :: found_zone = 2.0_wp**(-64)
+    !> The same where rounding hides more: zones that have just begun. Read by contact/bedding_zones
+    real(wp), parameter :: steady_zone = 2.0_wp**(-44)
+    !> Share of a way to loads that move all of a beam at which it is looked at instead: zones go with the root of it. Read by
+    !> continuation/bedding_path
+    real(wp), parameter :: before_all_slides = 2.0_wp**(-90)
+    !> Share of the largest by which a state on springs along the beam may be off. Read by continuation/bedding_states
+    real(wp), parameter :: bedding_audited = 1e-12_wp
     !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path
     real(wp), parameter :: shortest_interval = 2.0_wp**(-30)
     !> Rounding errors beyond which a value on a path is not near zero; tuned. Read by continuation/path

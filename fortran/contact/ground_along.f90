@@ -8,6 +8,7 @@
 module gapbeam_ground_along
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: beginning_part
+    use gapbeam_axial_bedding, only: bedding_type
     implicit none
     private
     public :: part_type, ground_along_type, rates_type, new_ground_along, start_leg, find_rates, first_parts, length_of, force_in
@@ -40,6 +41,8 @@ module gapbeam_ground_along
         integer, allocatable :: way(:)
         !> To the right, shape (0:n), and elongations without force, shape (n)
         real(wp), allocatable :: displacement(:), longer(:)
+        !> Instead of all this, where the ground gives way before the beam slides
+        type(bedding_type), allocatable :: springs
     end type ground_along_type
 
     !> Rates with the load

@@ -14,7 +14,7 @@ module gapbeam_ground_along_path
     use gapbeam_history_record, only: history_type, along_type, limit_type, on_ground_type, mechanism
     implicit none
     private
-    public :: follow_ground_along, go_to_change
+    public :: follow_ground_along, go_to_change, end_path
 
     !> Most steps until a change is found
     integer, parameter :: most_tries = 200

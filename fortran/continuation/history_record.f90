@@ -72,7 +72,7 @@ module gapbeam_history_record
         type(arc_type), allocatable :: arc
     end type on_laws_type
 
-    !> A beam on ground along its axis where something begins or ends to slide
+    !> A beam on ground along its axis where something begins or ends to slide, or where the load turns if that has springs
     type :: on_ground_type
         !> On which stretch, and at which load factor
         integer :: stretch

@@ -18,6 +18,7 @@ module gapbeam_path_states
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
     use gapbeam_history_record, only: history_type, scheme_at, laws_at, same_laws
     use gapbeam_ground_along_states, only: take_ground_along
+    use gapbeam_bedding_states, only: take_bedding
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
     private
@@ -92,7 +93,10 @@ contains
         real(wp) :: share
         integer :: n, l
 
-        if (allocated(history%along%on_ground)) then
+        if (allocated(beam%axial%bedding)) then
+            call take_bedding(beam, history, stretch, factor, state, error)
+            return
+        else if (allocated(history%along%on_ground)) then
             call take_ground_along(beam, history, stretch, factor, state, error)
             return
         end if

@@ -16,6 +16,7 @@ module gapbeam_smooth_path
     use gapbeam_arc_roots, only: arc_test_type, of_eigenvalue, find_root, test_value
     use gapbeam_axial_path, only: follow_along_axis
     use gapbeam_ground_along_path, only: follow_ground_along
+    use gapbeam_bedding_path, only: follow_bedding
     use gapbeam_history_start, only: grow_dead_loads, supports_move
     use gapbeam_history, only: history_type, follow_history, at_limit_stop, at_limit_jump, no_limit, ended, cut_off
     use gapbeam_path_on_laws, only: view_type, begin_on_laws, arc_about, is_known, keep_end, forget_end, check_on_laws, find_at, &
@@ -52,7 +53,11 @@ contains
         if (size(smooth_supports(assembled)) == 0) then
             call follow_history(assembled, factors, at_limit, longest, history, error)
             if (allocated(error) .or. history%ending == cut_off) return
-            if (allocated(assembled%axial%limit)) call follow_ground_along(assembled, history, error)
+            if (allocated(assembled%axial%bedding)) then
+                call follow_bedding(assembled, history, error)
+            else if (allocated(assembled%axial%limit)) then
+                call follow_ground_along(assembled, history, error)
+            end if
             if (.not. allocated(assembled%axial%laws)) return
             call grow_dead_loads(assembled, dead)
             call follow_along_axis(assembled, dead, longest, history, error)

@@ -69,6 +69,9 @@ contains
                 s%EA_power = nint(sect(11, i))
                 s%friction = sect(12, i)
                 if (size(sect, 1) > 12) s%N = sect(13, i)
+                if (size(sect, 1) == 13) cycle
+                s%friction_to = sect(14, i)
+                s%bedding = sect(15, i)
             end associate
         end do
         do i = 1, size(model%supports)

@@ -51,6 +51,7 @@ module gapbeam_capi_model
         type(c_ptr) :: section_EI_to = c_null_ptr, section_GA_to = c_null_ptr, section_EA_to = c_null_ptr
         type(c_ptr) :: section_EI_power = c_null_ptr, section_GA_power = c_null_ptr, section_EA_power = c_null_ptr
         type(c_ptr) :: section_friction = c_null_ptr, section_N = c_null_ptr
+        type(c_ptr) :: section_friction_to = c_null_ptr, section_bedding = c_null_ptr
     end type c_model
 
 contains
@@ -294,6 +295,8 @@ contains
             if (has_integers(c%section_EA_power, n, integers)) s%EA_power = integers
             if (has_reals(c%section_friction, n, reals)) s%friction = reals
             if (has_reals(c%section_N, n, reals)) s%N = reals
+            if (has_reals(c%section_friction_to, n, reals)) s%friction_to = reals
+            if (has_reals(c%section_bedding, n, reals)) s%bedding = reals
         end associate
     end subroutine sections_from_c
 

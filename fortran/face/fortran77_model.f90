@@ -37,7 +37,7 @@ contains
         integer, intent(in), optional :: igrow, nmass
         !> Sections, as for GHPRSC
         integer, intent(in), optional :: nsec, isec(3, *)
-        real(wp), intent(in), optional :: sec(10, *)
+        real(wp), intent(in), optional :: sec(12, *)
         !> Arguments that are numbers of entries
         integer, parameter :: place_of_count(9) = [1, 3, 5, 8, 11, 15, 18, 21, 26]
         type(model_type) :: model
@@ -133,6 +133,8 @@ contains
                 s%EA_to = a(8)
                 s%N = a(9)
                 s%friction = a(10)
+                s%friction_to = a(11)
+                s%bedding = a(12)
                 s%EI_power = isec(1, i)
                 s%GA_power = isec(2, i)
                 s%EA_power = isec(3, i)

@@ -13,9 +13,10 @@
 !                       of time over that of length
 !
 !     ISEC(3, NSEC)     of sections: which powers of a linear depth EI, GA and EA are, 1 to 4
-!     SEC(10, NSEC)     of sections: left and right end; EI at both; GA at both; EA at both; N; most force per length with which
-!                       ground holds the beam along its axis, 0 or more. GBSAME() stands for what stays as it is, and for the
-!                       right end of the beam; at the right end of a stiffness for the value at the left one
+!     SEC(12, NSEC)     of sections: left and right end; EI at both; GA at both; EA at both; N; most force per length with which
+!                       ground holds the beam along its axis, 0 or more, at both; force per length of that ground for each
+!                       displacement before the beam slides, above 0 (GBINF(): rigid). GBSAME() stands for what stays as it is,
+!                       and for the right end of the beam; at the right end of other values for that at the left one
 !
 !     KIND              of modes: 1 buckling, 2 vibration, with the supports and the ground that act in a solved state
 
@@ -83,7 +84,7 @@ subroutine ghprsc(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     integer, intent(in) :: igrow, nmass
     ! See above; NSEC 0 or more
     integer, intent(in) :: nsec, isec(3, *)
-    double precision, intent(in) :: sec(10, *)
+    double precision, intent(in) :: sec(12, *)
     ! As from GHPREP
     integer(8), intent(out) :: beam
     integer, intent(out) :: ientry

@@ -36,7 +36,7 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, mmass
     ! As for model_from_arrays, in the scene's units
-    double precision, intent(in) :: span(6, mspan), hinge(2, mhinge), sect(13, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
+    double precision, intent(in) :: span(6, mspan), hinge(2, mhinge), sect(15, msect), sup(9, msup), alaw(2, mlaw), aload(4, mload)
     integer, intent(in) :: isup(5, msup), ilaw(mlaw), iload(3, mload)
     ! As for foundations_from_arrays
     integer, intent(in) :: ifound(mfound), iprof(mprof), iflaw(mflaw)

@@ -250,8 +250,10 @@ end subroutine gbleas
 ! Where a beam slides, or has slid last, over ground along it: the first MP parts, from left to right
 subroutine gbpart(beam, state, mp, number, place, way, force)
     use gapbeam_python_handles, only: handle_type, behind
-    use gapbeam_assembled_model, only: point_x, piece_length
+    use gapbeam_kinds, only: dp
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
     use gapbeam_ground_along, only: length_of
+    use gapbeam_axial_bedding, only: bedding_type, friction_on
     implicit none
     integer(8), intent(in) :: beam, state
     integer, intent(in) :: mp
@@ -270,6 +272,10 @@ subroutine gbpart(beam, state, mp, number, place, way, force)
     way = 0
     force = 0.0d0
     associate (lowered => handle%beam%lowered, ground => solved%result%state%along_ground)
+        if (allocated(ground%springs)) then
+            call look_at_springs(lowered, ground%springs)
+            return
+        end if
         do k = 1, size(ground%parts)
             associate (part => ground%parts(k), j => ground%parts(k)%bar)
                 if (part%slope == 0 .or. .not. ground%limit(j) > 0.0d0) cycle
@@ -281,6 +287,26 @@ subroutine gbpart(beam, state, mp, number, place, way, force)
             end associate
         end do
     end associate
+
+contains
+
+    ! The same where the ground has springs: where the beam slides
+    subroutine look_at_springs(lowered, springs)
+        type(assembled_type), intent(in) :: lowered
+        type(bedding_type), intent(in) :: springs
+        integer :: i
+
+        do i = 1, size(springs%cells)
+            associate (cell => springs%cells(i), j => springs%cells(i)%bar)
+                if (cell%way == 0) cycle
+                number = number + 1
+                if (number > mp) cycle
+                place(:, number) = point_x(lowered, j - 1) + piece_length(lowered, j)*real([cell%from, cell%to], dp)
+                way(number) = cell%way
+                force(number) = scale(real(friction_on(springs, cell), dp), lowered%axial%units%force)
+            end associate
+        end do
+    end subroutine look_at_springs
 end subroutine gbpart
 
 ! Slopes of the smooth laws in a state, in the scene's units

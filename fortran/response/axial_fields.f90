@@ -1,11 +1,13 @@
 !> Axial force and displacement between the nodes of the axial system.
 module gapbeam_axial_fields
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, qp
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
     use gapbeam_piece_stiffness, only: stiffness_along
     use gapbeam_taper, only: mean_softness
     use gapbeam_assemble_axial, only: axial_node
     use gapbeam_ground_along, only: ground_along_type, length_of, force_in
+    use gapbeam_exponential_curve, only: most_roots, value_of, derivative, roots_of
+    use gapbeam_axial_bedding, only: bedding_type, pulling, force_at
     implicit none
     private
     public :: axial_fields, extremes_along
@@ -33,7 +35,12 @@ contains
         bar = axial_node(assembled%axial%point, piece)
         share = distance/piece_length(assembled, piece)
         if (present(ground)) then
-            call fields_on_ground(ground, bar, share, tension, displacement)
+            if (allocated(ground%springs)) then
+                call fields_on_springs(ground%springs, cell_at(ground%springs, bar, real(share, qp)), real(share, qp), tension, &
+                                       displacement)
+            else
+                call fields_on_ground(ground, bar, share, tension, displacement)
+            end if
             return
         end if
         way = share
@@ -80,6 +87,12 @@ contains
             ! Of what comes from the nodes nothing stays: they have other values than bars
             value(1, :) = -huge(share)
             value(2, :) = huge(share)
+            if (allocated(ground%springs)) then
+                do k = 1, size(ground%springs%cells)
+                    call look_in_cell(ground%springs, k, value, x)
+                end do
+                return
+            end if
             do k = 1, size(ground%parts)
                 call look(ground%parts(k)%bar, ground%parts(k)%to - length_of(ground, k), k, value, x)
                 call look(ground%parts(k)%bar, top_in_part(ground, k), k, value, x)
@@ -98,15 +111,37 @@ contains
 
     contains
 
+        !> Values at the ends of a cell on springs, and where force and displacement turn inside it
+        pure subroutine look_in_cell(bedding, k, value, x)
+            type(bedding_type), intent(in) :: bedding
+            integer, intent(in) :: k
+            real(wp), intent(inout) :: value(2, 2), x(2, 2)
+            real(qp) :: of_force(most_roots), of_displacement(most_roots)
+            integer :: i, m, n
+
+            associate (cell => bedding%cells(k))
+                call roots_of(derivative(pulling(bedding, cell)), of_force, m)
+                call roots_of(derivative(cell%displacement), of_displacement, n)
+                associate (at => [cell%from, cell%to, of_force(:m), of_displacement(:n)])
+                    do i = 1, size(at)
+                        call look(cell%bar, real(at(i), wp), -k, value, x)
+                    end do
+                end associate
+            end associate
+        end subroutine look_in_cell
+
         !> Values at a place
         pure subroutine look(bar, share, part, value, x)
+            !> The part at the place, below 0: the cell, 0: there is no such ground
             integer, intent(in) :: bar, part
             real(wp), intent(in) :: share
             real(wp), intent(inout) :: value(2, 2), x(2, 2)
             real(wp) :: found(2), at
 
             at = point_x(assembled, bar - 1) + share*piece_length(assembled, bar)
-            if (part > 0) then
+            if (part < 0) then
+                call fields_on_springs(ground%springs, -part, real(share, qp), found(1), found(2))
+            else if (part > 0) then
                 call fields_on_ground(ground, bar, share, found(1), found(2), part)
             else
                 call axial_fields(assembled, factor, displacement, tension, bar, share*piece_length(assembled, bar), found(1), &
@@ -123,6 +158,32 @@ contains
         end subroutine look
 
     end subroutine extremes_along
+
+    !> The cell of a bar on springs along the beam at a share of it
+    pure function cell_at(bedding, bar, share) result(k)
+        type(bedding_type), intent(in) :: bedding
+        integer, intent(in) :: bar
+        real(qp), intent(in) :: share
+        integer :: k
+
+        k = findloc(bedding%cells%bar, bar, 1)
+        do while (k < size(bedding%cells))
+            if (bedding%cells(k)%to >= share .or. bedding%cells(k + 1)%bar /= bar) exit
+            k = k + 1
+        end do
+    end function cell_at
+
+    !> Axial force and displacement in a cell on springs along the beam
+    pure subroutine fields_on_springs(bedding, k, share, tension, displacement)
+        type(bedding_type), intent(in) :: bedding
+        integer, intent(in) :: k
+        !> Of the bar, from its left end
+        real(qp), intent(in) :: share
+        real(wp), intent(out) :: tension, displacement
+
+        tension = real(force_at(bedding, bedding%cells(k), share), wp)
+        displacement = real(value_of(bedding%cells(k)%displacement, share), wp)
+    end subroutine fields_on_springs
 
     !> Axial force and displacement in a bar on ground along the beam
     pure subroutine fields_on_ground(ground, bar, share, tension, displacement, part)

@@ -4,9 +4,10 @@ module gapbeam_assemble_axial
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
     use gapbeam_taper, only: mean_softness
-    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_dead
+    use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_dead, &
+        gapbeam_unchanged
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis
+    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis, has_ground_along, has_springs_along
     use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
@@ -54,7 +55,9 @@ contains
             stiffness = middle(stiff)
             if (middle(soft) /= no_exponent) stiffness = middle_of(-soft%low, -soft%high)
             do k = 1, size(model%sections)
-                call forces%note(model%sections(k)%friction*assembled%ends(size(model%spans)), 0)
+                associate (limit => max(model%sections(k)%friction, model%sections(k)%friction_to))
+                    if (limit <= huge(limit)) call forces%note(limit*assembled%ends(size(model%spans)), 0)
+                end associate
             end do
             axial%units = units_with_loads(0, stiffness, largest(forces), largest(ways))
             unit = middle(lengths)
@@ -153,15 +156,24 @@ contains
         integer :: j, k
         real(wp) :: EA, EA_to
         integer :: power
+        logical :: rigid
 
         associate (axial => assembled%axial, model => assembled%model, n => size(assembled%model%sections))
             axial%limit(:) = 0.0_wp
+            if (allocated(axial%bedding)) axial%bedding(:) = 0.0_wp
+            if (allocated(axial%bedding)) axial%limits(:, :) = 0.0_wp
+            rigid = .false.
             do k = 1, n
-                if (.not. model%sections(k)%friction > 0.0_wp) cycle
+                if (.not. has_ground_along(model%sections(k))) cycle
+                rigid = rigid .or. .not. has_springs_along(model%sections(k))
                 do j = assembled%section_from(k) + 1, assembled%section_to(k)
-                    axial%limit(j) = scale(model%sections(k)%friction*piece_length(assembled, j), -axial%units%force)
+                    call lay_on_piece(k, j)
                 end do
             end do
+            if (rigid .and. allocated(axial%bedding)) then
+                call say(" that is rigid beside such that has a stiffness,"//in_version//"; give all of it a stiffness")
+                return
+            end if
             if (allocated(axial%laws) .or. any(model%supports%direction == gapbeam_axial .and. &
                                                abs(model%supports%settlement) > 0.0_wp)) then
                 call say(" beside friction of supports, or axial supports that push one way, have a law, a settlement or a "// &
@@ -177,7 +189,7 @@ contains
                     call say(" beside an EA that changes along a section"//in_version//"; give short sections, each of one EA")
                 else if (EA > huge(EA)) then
                     call say(" needs the axial stiffness of the beam; give EA")
-                else if (allocated(axial%along_bar)) then
+                else if (allocated(axial%along_bar) .and. .not. allocated(axial%bedding)) then
                     if (any(abs(axial%along_bar(:, j)) > 0.0_wp)) then
                         call say(" beside loads that are distributed along it"//in_version//"; give these as forces at places")
                     end if
@@ -187,12 +199,36 @@ contains
 
     contains
 
+        !> One section on one piece
+        subroutine lay_on_piece(k, j)
+            integer, intent(in) :: k, j
+            real(wp) :: limits(2), from, to
+
+            associate (s => assembled%model%sections(k), axial => assembled%axial, length => piece_length(assembled, j))
+                limits(:) = s%friction
+                if (s%friction_to > gapbeam_unchanged) then
+                    from = point_x(assembled, assembled%section_from(k))
+                    to = point_x(assembled, assembled%section_to(k))
+                    associate (share => (point_x(assembled, j - 1) - from)/(to - from), share_to => (point_x(assembled, j) - from) &
+                               /(to - from))
+                        limits(:) = [s%friction*(1 - share) + s%friction_to*share, &
+                                     s%friction*(1 - share_to) + s%friction_to*share_to]
+                    end associate
+                end if
+                limits(:) = scale(limits*length, -axial%units%force)
+                axial%limit(j) = sum(limits)/2
+                if (.not. allocated(axial%bedding)) return
+                axial%limits(:, j) = limits
+                axial%bedding(j) = scale(s%bedding*length, -stiffness_unit(axial%units))
+            end associate
+        end subroutine lay_on_piece
+
         !> What is wrong
         subroutine say(problem)
             character(len=*), intent(in) :: problem
 
             associate (sections => assembled%model%sections)
-                call refuse(error, of_sections, findloc(sections%friction > 0.0_wp, .true., 1), size(sections), bad_law, &
+                call refuse(error, of_sections, findloc(has_ground_along(sections), .true., 1), size(sections), bad_law, &
                             "friction", "ground along the beam"//problem)
             end associate
         end subroutine say

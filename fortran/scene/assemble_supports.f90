@@ -8,7 +8,7 @@ module gapbeam_assemble_supports
         gapbeam_normal, gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed
     use gapbeam_model, only: node_support_type, order_supports
     use gapbeam_words, only: shown, whole
-    use gapbeam_assembled_model, only: assembled_type, is_along, turns
+    use gapbeam_assembled_model, only: assembled_type, is_along, turns, has_ground_along, has_springs_along
     use gapbeam_axial_force, only: in_stretches
     use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation, check_side, unclear
     use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
@@ -43,7 +43,7 @@ contains
         logical :: it_is
 
         associate (s => assembled%model%supports, loads => assembled%model%loads)
-            associate (axial => s%direction == gapbeam_axial, rubs => any(assembled%model%sections%friction > 0.0_wp))
+            associate (axial => s%direction == gapbeam_axial, rubs => any(has_ground_along(assembled%model%sections)))
                 it_is = assembled%model%stretching .or. any(is_along(loads)) &
                     .or. ((rubs .or. any(axial .or. s%friction > 0.0_wp)) .and. any(makes_longer(loads))) &
                     .or. any(axial .and. (abs(s%settlement) > 0.0_wp .or. s%gap < 0.0_wp))
@@ -350,7 +350,7 @@ contains
                 return
             end if
             every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed) &
-                .or. any(model%sections%friction > 0.0_wp) .or. model%stretching
+                .or. any(has_ground_along(model%sections)) .or. model%stretching
             node(:) = merge(0, -1, every)
             node(0) = 0
             node(n) = 0
@@ -366,7 +366,8 @@ contains
             if (stat == 0 .and. (any(makes_longer(model%loads)) .or. model%stretching)) then
                 allocate (axial%elongation(2, i), source=0.0_wp, stat=stat)
             end if
-            if (stat == 0 .and. any(model%sections%friction > 0.0_wp)) allocate (axial%limit(i), stat=stat)
+            if (stat == 0 .and. any(has_ground_along(model%sections))) allocate (axial%limit(i), stat=stat)
+            if (stat == 0 .and. any(has_springs_along(model%sections))) allocate (axial%bedding(i), axial%limits(2, i), stat=stat)
             if (stat == 0 .and. any(model%loads%kind == gapbeam_axial_distributed)) allocate (axial%along_bar(2, i), stat=stat)
             if (stat /= 0) then
                 call no_memory(error)

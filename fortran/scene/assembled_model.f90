@@ -5,8 +5,8 @@ module gapbeam_assembled_model
     use gapbeam_piece, only: greatest_softness
     use gapbeam_layers, only: layer_type, law_piece_type
     use gapbeam_model, only: beam_type, node_support_type
-    use gapbeam_scene, only: model_type, support_type, law_point_type, load_type, gapbeam_distributed, gapbeam_curvature, &
-        gapbeam_linear_curvature, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, &
+    use gapbeam_scene, only: section_type, model_type, support_type, law_point_type, load_type, gapbeam_distributed, &
+        gapbeam_curvature, gapbeam_linear_curvature, gapbeam_temperature, gapbeam_movement, gapbeam_ground_movement, &
         gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_force, gapbeam_axial_distributed, &
         gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right
     use gapbeam_stations, only: place_span_ends
@@ -15,7 +15,8 @@ module gapbeam_assembled_model
     private
     public :: in_bending, in_shear, along_axis, axial_force_in, kinds
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, is_stretch, &
-        is_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, piece_length, find_length_errors
+        is_along, has_ground_along, has_springs_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, &
+        piece_length, find_length_errors
 
     !> What spans and sections give: EI, GA, EA, and the axial force in bending
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3, axial_force_in = 4, kinds = 4
@@ -43,6 +44,8 @@ module gapbeam_assembled_model
         real(wp), allocatable :: along_bar(:, :)
         !> Where ground holds the beam along its axis, most force of it along each bar, shape (n): every piece is a bar then
         real(wp), allocatable :: limit(:)
+        !> Where that has a stiffness: it, along each bar, and the limits at both ends times the length, shapes (n) and (2, n)
+        real(wp), allocatable :: bedding(:), limits(:, :)
         !> Support of each point, 0: none, shape (0:n)
         real(wp), allocatable :: stiffness(:), settlement(:)
         !> For every support of the model its node of this system; -1 for supports across the beam that do not rub
@@ -169,6 +172,22 @@ contains
         yes = any(load%kind == [gapbeam_distributed, gapbeam_curvature, gapbeam_temperature, gapbeam_axial_distributed, &
                                 gapbeam_linear_curvature])
     end function is_stretch
+
+    !> Does ground hold the beam along its axis over a section
+    elemental function has_ground_along(section) result(it_does)
+        type(section_type), intent(in) :: section
+        logical :: it_does
+
+        it_does = max(section%friction, section%friction_to) > 0.0_wp
+    end function has_ground_along
+
+    !> Does it give way before the beam slides
+    elemental function has_springs_along(section) result(it_does)
+        type(section_type), intent(in) :: section
+        logical :: it_does
+
+        it_does = has_ground_along(section) .and. section%bedding <= huge(1.0_wp)
+    end function has_springs_along
 
     !> Is a load a force along the beam, and nothing else
     elemental function is_along(load) result(yes)

@@ -12,7 +12,7 @@ module gapbeam_axial_force
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
     use gapbeam_laws, only: is_smooth
     use gapbeam_units, only: rotation_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone, turns
+    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone, turns, has_ground_along
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
@@ -61,7 +61,7 @@ contains
                        .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
             if (.not. they_may) return
             they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
-                              .or. any(s%friction > 0.0_wp) .or. any(model%sections%friction > 0.0_wp) .or. any(is_smooth(s%law)) &
+                              .or. any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) .or. any(is_smooth(s%law)) &
                               .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle

@@ -10,7 +10,7 @@ module gapbeam_check
         gapbeam_ground_movement, gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, &
         gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
         gapbeam_axial_distributed, gapbeam_linear_curvature, gapbeam_live, gapbeam_dead
-    use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns
+    use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns, has_ground_along, has_springs_along
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_limits, only: most_power
     use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
@@ -130,9 +130,17 @@ contains
             call refuse_number(error, here, "EA", s%EA, "a number above 0 (infinite: rigid)")
         else if (.not. (abs(s%N) <= huge(s%N) .or. not_given(s%N))) then
             call refuse_number(error, here, "N", s%N, "a finite number, tension positive")
-        else if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(end))) then
+        else if (.not. s%bedding > 0.0_wp) then
+            call refuse_number(error, here, "bedding", s%bedding, "a number above 0 (infinite: rigid)")
+        else if (.not. (s%friction >= 0.0_wp .and. (s%friction <= huge(end) .or. has_springs_along(s) .and. &
+                                                    not_given(s%friction_to)))) then
             call refuse_number(error, here, "friction", s%friction, "a finite number, 0 or more")
-        else if (all(not_given([s%EI, s%GA, s%EA, s%N])) .and. .not. s%friction > 0.0_wp) then
+        else if (.not. (not_given(s%friction_to) .or. s%friction_to >= 0.0_wp .and. s%friction_to <= huge(end))) then
+            call refuse_number(error, here, "friction_to", s%friction_to, "a finite number, 0 or more")
+        else if (.not. (not_given(s%friction_to) .or. has_springs_along(s))) then
+            call refuse_entry(error, here, "friction_to", not_expected, "a limit that changes along rigid ground is not "// &
+                              "available in this version; give a stiffness too")
+        else if (all(not_given([s%EI, s%GA, s%EA, s%N])) .and. .not. has_ground_along(s)) then
             call refuse_entry(error, here, "", idle, "it changes nothing; give EI, GA, EA or N")
         end if
         if (.not. allocated(error)) call check_taper("EI", s%EI, s%EI_to, s%EI_power, here, error)
@@ -223,7 +231,7 @@ contains
         integer :: i
 
         held = any(model%supports%direction == gapbeam_axial .or. model%supports%friction > 0.0_wp) &
-            .or. any(model%sections%friction > 0.0_wp)
+            .or. any(has_ground_along(model%sections))
         do i = 1, size(loads)
             associate (load => loads(i), here => entry_type(of_loads, i, size(loads)))
                 call check_load(load, here, ends, held, error)

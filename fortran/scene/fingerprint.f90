@@ -37,6 +37,9 @@ contains
                 associate (s => model%sections(i))
                     call mix(all_bits, [s%from, s%to, s%EI, s%GA, s%EA, s%N])
                     if (s%friction > 0.0_wp) call mix(all_bits, [s%friction])
+                    if (s%friction_to > gapbeam_unchanged .or. s%bedding <= huge(1.0_wp)) then
+                        call mix(all_bits, [s%friction_to, s%bedding])
+                    end if
                     if (max(s%EI_to, s%GA_to, s%EA_to) > gapbeam_unchanged) then
                         call mix(all_bits, [s%EI_to, s%GA_to, s%EA_to, real([s%EI_power, s%GA_power, s%EA_power], wp)])
                     end if

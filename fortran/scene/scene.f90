@@ -82,8 +82,8 @@ module gapbeam_scene
         !> The same at its right end, where they change along it, and the powers of a linear depth that they are, 1 to most_power
         real(wp) :: EI_to = gapbeam_unchanged, GA_to = gapbeam_unchanged, EA_to = gapbeam_unchanged
         integer :: EI_power = 1, GA_power = 1, EA_power = 1
-        !> Most force per length with which the ground holds the beam along its axis, by friction, 0: no such ground
-        real(wp) :: friction = 0.0_wp
+        !> Most force per length of ground along the axis, 0: no ground, infinite: no limit; at its right end; its stiffness
+        real(wp) :: friction = 0.0_wp, friction_to = gapbeam_unchanged, bedding = gapbeam_infinity
         !> Axial force there, as in span_type
         real(wp) :: N = gapbeam_unchanged
     end type section_type

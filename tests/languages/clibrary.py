@@ -105,7 +105,7 @@ class Model(c.Structure):
         ("sections", c.c_int),
         *((f"section_{name}", REAL) for name in ("from", "to", "EI", "GA", "EA", "EI_to", "GA_to", "EA_to")),
         *((f"section_{name}_power", INTEGER) for name in ("EI", "GA", "EA")),
-        *((f"section_{name}", REAL) for name in ("friction", "N")),
+        *((f"section_{name}", REAL) for name in ("friction", "N", "friction_to", "bedding")),
     )
 
 
@@ -198,12 +198,19 @@ def with_rotations(scene):
 UNCHANGED = -sys.float_info.max
 
 
+def friction_of(ground):
+    """A section for ground along the beam."""
+    limit = ground.get("limit", np.inf)
+    ends = dict(zip(("friction", "friction_to"), limit, strict=True)) if isinstance(limit, list) else {"friction": limit}
+    return {**ground, **ends, "bedding": ground.get("stiffness", np.inf)}
+
+
 def sections_of(scene):
     """The arrays of sections, with ground along the beam."""
-    rows = [*scene.get("sections", ()), *({**one, "friction": one["limit"]} for one in scene.get("axial_ground", ()))]
+    rows = [*scene.get("sections", ()), *map(friction_of, scene.get("axial_ground", ()))]
     found = {f"section_{key}": np.array([row.get(key, UNCHANGED) for row in rows], dtype=float) for key in ("to", "N")}
-    for key in ("from", "friction"):
-        found[f"section_{key}"] = np.array([row.get(key, 0.0) for row in rows], dtype=float)
+    for key, default in (("from", 0.0), ("friction", 0.0), ("friction_to", UNCHANGED), ("bedding", np.inf)):
+        found[f"section_{key}"] = np.array([row.get(key, default) for row in rows], dtype=float)
     for key in ("EI", "GA", "EA"):
         given = [row.get(key, UNCHANGED) for row in rows]
         given = [dict(zip(("from", "to"), one, strict=True)) if isinstance(one, list) else one for one in given]
@@ -643,7 +650,8 @@ class F77Beam:
         if cut:
             prepare = "ghprsc"
             powers = np.array([a[f"section_{key}_power"] for key in ("EI", "GA", "EA")], np.int32).T.copy()
-            numbers = ("from", "to", "EI", "EI_to", "GA", "GA_to", "EA", "EA_to", "N", "friction")
+            numbers = ("from", "to", "EI", "EI_to", "GA", "GA_to", "EA", "EA_to", "N", "friction",
+                       "friction_to", "bedding")  # fmt: skip
             model += [cut, powers, np.array([a[f"section_{key}"] for key in numbers]).T.copy()]
         self.entry = np.zeros(1, np.int32)
         self.info_ = self.call(prepare, *model, self.beam, self.entry)

@@ -820,7 +820,7 @@ static void names_and_sizes(void)
     check(!strcmp(gapbeam_status_message(-5), "unknown status"), "an unknown one");
     check(isinf(gapbeam_infinity()) && gapbeam_infinity() > 0.0, "infinity");
     /* The init functions compare the sizes of two structures, the get functions those of the others */
-    _Static_assert(sizeof(gapbeam_model) == 640 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
+    _Static_assert(sizeof(gapbeam_model) == 656 || sizeof(void *) != 8, "gapbeam_model is part of the ABI");
     _Static_assert(sizeof(gapbeam_options) == 16 || sizeof(void *) != 8, "gapbeam_options is part of the ABI");
     _Static_assert(sizeof(gapbeam_info) == 40 || sizeof(void *) != 8, "gapbeam_info is part of the ABI");
     _Static_assert(sizeof(gapbeam_history_info) == 32 || sizeof(void *) != 8, "gapbeam_history_info is part of the ABI");

@@ -626,17 +626,24 @@ def test_sections_agree(library, changes):
     assert (f77.info_, f77.entry[0]) == (-36, len(wrong["sections"]))
 
 
-def test_ground_along_the_beam_agrees(library):
+@pytest.mark.parametrize("ground", [
+    [{"limit": 0.05}, {"from": 40.0, "limit": 0.02}],
+    [{"stiffness": 40.0, "limit": 0.05}, {"from": 40.0, "stiffness": 9.0, "limit": [0.05, 0.01]}],
+])  # fmt: skip
+def test_ground_along_the_beam_agrees(library, ground):
     """A pipe that is heated, cooled and pulled slips in its ground: events and states have the digits of Python."""
     scene = {
-        "beam": {"spans": [40.0, 20.0], "EI": 10.0, "EA": 2000.0, "alpha": 1e-5}, "supports": [{"node": k} for k in range(3)],
+        "beam": {"spans": [40.0, 20.0], "EI": 10.0, "EA": 2000.0, "alpha": 1e-5},
+        "supports": [*({"node": k} for k in range(3)), {"node": 0, "direction": "axial", "stiffness": 5.0}],
         "loads": [{"type": "temperature", "dT": 50.0, "to": 40.0}, {"type": "axial", "node": 2, "F": 0.4}],
-        "axial_ground": [{"limit": 0.05}, {"from": 40.0, "limit": 0.02}],
+        "axial_ground": ground,
         "analysis": {"history": [1.0, -0.5], "follow": "events", "first_order": True},
     }  # fmt: skip
     for step, *beams in states_on_history(library, scene):
         for one in beams:
             np.testing.assert_array_equal(one.at_supports()[0], step.reaction)
+        assert step.slip_zones
+        assert step.reaction[-1]
 
 
 def test_restraints_and_hinges_with_laws_agree(library):
