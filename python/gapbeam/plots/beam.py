@@ -49,6 +49,10 @@ _WALL = Path(
     [1, 2] * 8,
 )
 _SETTLED = Path([(0, 1), (0, -1), (-0.35, -0.5), (0, -1), (0.35, -0.5)], [1, 2, 1, 2, 2])
+#: Two half arrows, as of shear: what holds the beam along its axis
+_ALONG = Path([(-1, 0.25), (1, 0.25), (0.3, 0.9), (1, -0.25), (-1, -0.25), (-0.3, -0.9)], [1, 2, 2, 1, 2, 2])
+#: Such marks along the beam at most
+MOST_ALONG = 36
 _SPIRAL = Path(np.array([(t * math.cos(7 * t), t * math.sin(7 * t)) for t in np.linspace(0.0, 1.0, 40)]))
 
 
@@ -133,6 +137,8 @@ def draw_beam(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lane
         Where to draw.
     """
     _girder(axes, scene)
+    if scene.axial_ground:
+        _ground_along(axes, scene)
     if scene.beam.hinges:
         axes.scatter(scene.beam.hinges, [0.0] * len(scene.beam.hinges), s=22, c="white", edgecolors="black",
                      linewidths=1.0, zorder=6, label="hinges")  # fmt: skip
@@ -306,6 +312,17 @@ def _clamp(axes: Axes | Turned, x: float, end: float) -> None:
         vertices = _WALL.vertices * (sign, 1.0)
         axes.scatter([x], [0.0], marker=Path(vertices, _WALL.codes), s=area(11.0), facecolors="none",
                      edgecolors="black", linewidths=1.0, zorder=5, label="clamp")  # fmt: skip
+
+
+def _ground_along(axes: Axes | Turned, scene: "Scene") -> None:
+    """Mark where ground holds the beam along its axis."""
+    middles = (np.arange(MOST_ALONG) + 0.5) * (float(scene.span_ends()[-1]) / MOST_ALONG)
+    marks = []
+    for from_, to in (stretch(scene, one) for one in scene.axial_ground):
+        inside = middles[(middles > from_) & (middles < to)].tolist()
+        marks += inside or [(from_ + to) / 2]
+    axes.scatter(marks, [HALF + 3.5] * len(marks), marker=_ALONG, s=30, facecolors="none", edgecolors="0.35", linewidths=0.7,
+                 zorder=4, label="ground along the beam")  # fmt: skip
 
 
 def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: SupportLanes) -> None:
