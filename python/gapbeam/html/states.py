@@ -161,7 +161,7 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 
 def axial_parts(step: Step) -> list[list[float]]:
-    """Give the axial force of a state on ground along the beam, which has kinks inside the pieces.
+    """Give the axial force of a state on ground along the beam, which has kinks inside the pieces, and curves where that gives way.
 
     Parameters
     ----------
@@ -171,10 +171,11 @@ def axial_parts(step: Step) -> list[list[float]]:
     Returns
     -------
     list of list of float
-        Of every part over which it is straight: both ends, and the forces there.
+        Of every part over which it is straight, or nearly so: both ends, and the forces there.
     """
     beam, n = step._beam, ROW["axial_force"]
-    x = np.unique([*beam.places.point_x.tolist(), *(end for zone in step.slip_zones for end in (zone.from_, zone.to))])
+    points, ends = beam.places.point_x, [end for zone in step.slip_zones for end in (zone.from_, zone.to)]
+    x = np.unique([*points.tolist(), *ends, *np.linspace(points[0], points[-1], AXIAL_GRID).tolist()])
     right, left = (step.values(*beam.find(places, side))[n] for places, side in ((x[:-1], False), (x[1:], True)))
     return np.column_stack([x[:-1], x[1:], right, left]).tolist()
 

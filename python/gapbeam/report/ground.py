@@ -53,7 +53,7 @@ def write_foundations(say: Writer, result: "Result", at: str) -> None:
         (fmt.stacked(scene, "x", "from"), fmt.column(from_, fmt.DIGITS)),
         (fmt.stacked(scene, "x", "to"), fmt.column(to, fmt.DIGITS)),
         ("side", [item.side for item in scene.foundation]),
-        (fmt.stacked(scene, "k"), ["law" if item.law is not None else _pair(item.k) for item in scene.foundation]),
+        (fmt.stacked(scene, "k"), ["law" if item.law is not None else pair(item.k) for item in scene.foundation]),
         (f"gap\n{fmt.shown_unit(scene, 'gap')[0]}".rstrip(), [_gap(scene, item) for item in scene.foundation]),
         (fmt.stacked(scene, "length", "in contact"), fmt.column(touched, fmt.DIGITS)),
         (fmt.stacked(scene, "resultant"), fmt.column(carried, fmt.DIGITS)),
@@ -200,7 +200,7 @@ def _some(write: "Callable[[list[float]], list[str]]", values: Sequence[float | 
     return ["" if value is None else next(texts) for value in values]
 
 
-def _pair(value: Any) -> str:
+def pair(value: Any) -> str:
     """Write a number, the two at both ends, or the least and the greatest of a table."""
     if value is None:
         return ""
@@ -213,4 +213,4 @@ def _gap(scene: "Scene", item: "Foundation") -> str:
     if item.profile is not None:
         return "profile"
     factor, gap = fmt.shown_unit(scene, "gap")[1], item.gap
-    return _pair(factor * gap if isinstance(gap, int | float) else tuple(factor * value for value in gap))
+    return pair(factor * gap if isinstance(gap, int | float) else tuple(factor * value for value in gap))

@@ -20,6 +20,7 @@ from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from ..scene.rotations import at_support, which_turn
 from .axial_force import axial_forces_in_words, some_of, write_axial_force
+from .axial_ground import write_axial_ground
 from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
@@ -27,7 +28,7 @@ from .over_path import write_over_path
 from .signs import positive_fields
 from .system import write_system
 from .trains import write_trains
-from .writer import LONGEST, Writer, chosen
+from .writer import LONGEST, Writer, chosen, left_out
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -70,7 +71,7 @@ def print_report(result: "Result", console: "Console | None" = None, verbose: bo
         _supports(say, result, at)
         _rotations(say, result, at)
         _hinges(say, result, at)
-        _slip_zones(say, result, at)
+        write_axial_ground(say, result, at)
         write_foundations(say, result, at)
         write_contact(say, result, at)
         _extremes(say, result, at)
@@ -246,22 +247,7 @@ def _hinges(say: "Writer", result: "Result", at: str) -> None:
         for one in hinges[:LONGEST]
     ]
     say.table([fmt.with_unit(scene, "x"), fmt.shown_heading(scene, "moment"), fmt.shown_heading(scene, "rotation")], rows)
-    say.line(f"Rotation left of the hinge less that right of it.{_left_out(len(hinges))}", "dim")
-
-
-def _slip_zones(say: "Writer", result: "Result", at: str) -> None:
-    """Write where the beam slides, or has slid last, over ground along it."""
-    scene, zones = result.scene, result.steps[-1].slip_zones
-    if not zones:
-        return
-    say.heading(f"Slip along the ground {at}")
-    rows = [
-        [fmt.number(one.from_, fmt.DIGITS), fmt.number(one.to, fmt.DIGITS), fmt.number(one.to - one.from_, fmt.DIGITS),
-         one.way, fmt.shown(scene, "reaction", one.friction)]
-        for one in zones[:LONGEST]
-    ]  # fmt: skip
-    say.table(["from", "to", "length", "way of the beam", fmt.shown_heading(scene, "reaction", "friction")], rows)
-    say.line(f"Now, or last. Friction on the beam: positive to the right.{_left_out(len(zones))}", "dim")
+    say.line(f"Rotation left of the hinge less that right of it.{left_out(len(hinges))}", "dim")
 
 
 def _rotations(say: "Writer", result: "Result", at: str) -> None:
@@ -287,12 +273,7 @@ def _rotations(say: "Writer", result: "Result", at: str) -> None:
     set_kept = [fmt.with_unit(scene, "rotation", "set")] if left else []
     say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go, *set_kept], rows, left=(0, 2, 3))
     say.line("Couple on the beam: counterclockwise; rotation of the beam: clockwise. Of a hinge: sagging moment, and rotation left "
-             f"of it less that right of it.{_left_out(len(which))}", "dim")  # fmt: skip
-
-
-def _left_out(count: int) -> str:
-    """Say how many rows of a table are left out."""
-    return f" {count - LONGEST:,} more are in the output of --json." if count > LONGEST else ""
+             f"of it less that right of it.{left_out(len(which))}", "dim")  # fmt: skip
 
 
 def _side(support: "Support") -> str:

@@ -130,3 +130,14 @@ def chosen(count: int, important: Iterable[int], longest: int = LONGEST) -> list
             found.append(None)
         found.append(k)
     return found
+
+
+def left_out(count: int) -> str:
+    """Say how many rows of a table are left out.
+
+    Parameters
+    ----------
+    count : int
+        Rows of all of it.
+    """
+    return f" {count - LONGEST:,} more are in the output of --json." if count > LONGEST else ""

@@ -42,7 +42,7 @@ STATE = {
     "hinges?": ("[HingeState]", "Hinges with a stiffness."),
     "contact?": ("[ContactZone]", "Zones of contact with the ground; only with foundations."),
     "free_spans?": ("[FreeSpan]", "Spans without contact; only with foundations."),
-    "slip_zones?": ("[SlipZone]", "Where the beam slides over ground along its axis, or has slid last."),
+    "slip_zones?": ("[SlipZone]", "Where the beam slides over ground along its axis; where that is rigid, or has slid last."),
     "undecided?": ("[integer]", "Supports whose state the last digits of the data decide, by number."),
     "indifferent?": ("boolean", "true where the beam is in neutral equilibrium: forces are unique, its position is not."),
     "unique?": ("boolean", "false where under compression other stable states are not excluded; else left out."),
@@ -109,7 +109,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "moment": ("number", "Moment there (force*length), sagging."),
         "rotation": ("number", "Rotation left of it less that right of it (rad): moment over stiffness."),
     }),
-    "SlipZone": ("A length of the beam that slides over ground along its axis, or has slid last.", {
+    "SlipZone": ("A length of the beam that slides over ground along its axis; where that is rigid, or has slid last.", {
         "from": ("number", "Left end (length)."),
         "to": ("number", "Right end (length)."),
         "way": ("string", "Which way the beam goes, or went: right or left."),

@@ -6,24 +6,30 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .table import NotNegative, Stretch
+from .table import NotNegative, Positive, Stretch
 
 
 class AxialGround(Stretch, kw_only=True, gc=False):
     """Ground that holds the beam along its axis by friction, from one place to another; of those that overlap the last one counts.
 
-    It takes up to its limit against the way of the beam, and lets nothing move where it holds. It starts without force, and
-    remembers: see ``analysis.history``. Not beside foundations, friction of supports and axial supports with laws.
+    It takes up to its limit against the way of the beam. Below that it gives way by its stiffness (t-z curves of piles, soil along
+    pipes), or lets nothing move. It starts without force, and remembers: see ``analysis.history``. Not beside foundations,
+    friction of supports and axial supports with laws. Give the limit, the stiffness or both.
 
     Parameters
     ----------
-    limit : float
-        Most that it takes along the beam (force/length), either way.
+    limit : float or pair of floats, optional
+        Most that it takes along the beam (force/length), either way; a pair at both ends, linear between these, needs a
+        stiffness. Default: no limit.
+    stiffness : float
+        Force per length for each displacement along the beam (force/length^2), until the limit is reached; infinite: rigid up to
+        the limit. All such ground of a beam is rigid, or none.
     name : str, optional
         Its name; shown instead of its number.
     """
 
-    limit: NotNegative
+    limit: NotNegative | tuple[NotNegative, NotNegative] | None = None
+    stiffness: Positive = float("inf")
     name: str | None = None
 
 
@@ -33,7 +39,8 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
     Parameters
     ----------
     sections : numpy.ndarray
-        As of `Columns`, a column for each, and one more; the limit is in the last row.
+        As of `Columns`, a column for each, and one more; the limit, that at the right end and the stiffness are in rows of their
+        own.
     grounds : sequence of AxialGround
         Of the scene.
     not_given : float
@@ -45,5 +52,8 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
     found[0] = [one.from_ for one in grounds]
     found[1] = [not_given if one.to is None else one.to for one in grounds]
     found[8:11] = 1.0
-    found[11] = [one.limit for one in grounds]
+    limits = [one.limit if isinstance(one.limit, tuple) else (one.limit, not_given) for one in grounds]
+    found[11] = [np.inf if limit is None else limit for limit, _ in limits]
+    found[13] = [limit for _, limit in limits]
+    found[14] = [one.stiffness for one in grounds]
     return np.asfortranarray(np.hstack([sections[:, :-1], found, sections[:, -1:]]))

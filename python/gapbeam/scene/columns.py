@@ -146,9 +146,10 @@ def _empty(rows: int, count: int, kind: type = float) -> np.ndarray:
 
 
 def _sections(items: Sequence[Any], grounds: Sequence[AxialGround]) -> np.ndarray:
-    found = _empty(13, len(items))
+    found = _empty(15, len(items))
     found[0, :-1], found[1, :-1] = _numbers(items, "from_"), _optional(items, "to")
     found[5:8], found[8:11], found[11], found[12, :-1] = NOT_GIVEN, 1.0, 0.0, _optional(items, "N")
+    found[13], found[14] = NOT_GIVEN, np.inf
     for row, key in enumerate(("EI", "GA", "EA"), 2):
         values = _column(items, key)
         tapered = [i for i, one in enumerate(values) if isinstance(one, tuple | Taper)] if isinstance(values, list) else []

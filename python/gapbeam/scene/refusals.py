@@ -33,6 +33,8 @@ EXPECTED = {
     "friction": "a finite number, 0 or more",
     "limit": "a finite number, 0 or more",
 }
+OF_AXIAL_GROUND = {"friction": "limit", "friction_to": "limit", "bedding": "stiffness"}
+"""Keys of ground along the beam, by those of the sections that it is given to the layer as."""
 AXIAL = {
     "rotation": "an axial support holds no rotation; a normal one here can do that",
 }
@@ -62,8 +64,10 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     items = scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
     if table == SECTIONS and i >= len(items):  # ground along the beam is given to the layer as sections
         i, items = i - len(items), scene.axial_ground
-        path, message = f"axial_ground[{i}]", message.replace(": friction: ", ": limit: ")
-        key = "limit" if key == "friction" else key
+        ours = OF_AXIAL_GROUND.get(key, key)
+        path, message, key = f"axial_ground[{i}]", message.replace(f": {key}: ", f": {ours}: "), ours
+        if key == "limit" and items[i].limit is None:
+            return SceneError(path, "give its limit, its stiffness or both")
     else:
         path = f"{NAMES[table]}[{i}]"
     item, end = items[i], scene.span_ends()[-1]

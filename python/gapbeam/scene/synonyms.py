@@ -72,8 +72,6 @@ def meant_by_key(key: str, known: list[str], place: str) -> str | None:
     >>> meant_by_key("P", ["type", "x", "F"], "loads[0]"), meant_by_key("k", ["node", "stiffness"], "supports[0]")
     ('did you mean "F"?', 'did you mean "stiffness"?')
     """
-    if place.startswith("axial_ground") and key in ("stiffness", "k"):
-        return "ground along the beam that is elastic is not available in this version; leave it out, and it holds up to its limit"
     if place.startswith("supports") and key.lower() in OF_SUPPORTS:
         return OF_SUPPORTS[key.lower()]
     other = None if place.endswith(".law") else KEYS.get(key.lower())

@@ -18,7 +18,7 @@ JOINED = 1e-12
 
 
 class SlipZone(NamedTuple):
-    """A stretch over which the beam slides, or has slid last, one way.
+    """A stretch over which the beam slides one way; over ground that is rigid up to its limit, or has slid last.
 
     Attributes
     ----------
