@@ -85,9 +85,9 @@ module gapbeam_path_tolerances
     !> The same where rounding hides more: zones that have just begun. Read by contact/bedding_zones
     real(wp), parameter :: steady_zone = 2.0_wp**(-44)
     !> Share of a way to loads that move all of a beam at which it is looked at instead: zones go with the root of it. Read by
-    !> continuation/bedding_path
+    !> response/bedding_loads
     real(wp), parameter :: before_all_slides = 2.0_wp**(-90)
-    !> Share of the largest by which a state on springs along the beam may be off. Read by continuation/bedding_states
+    !> Share of the largest by which a state on springs along the beam may be off. Read by response/bedding_state
     real(wp), parameter :: bedding_audited = 1e-12_wp
     !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path
     real(wp), parameter :: shortest_interval = 2.0_wp**(-30)

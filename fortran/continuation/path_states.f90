@@ -18,7 +18,7 @@ module gapbeam_path_states
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
     use gapbeam_history_record, only: history_type, scheme_at, laws_at, same_laws
     use gapbeam_ground_along_states, only: take_ground_along
-    use gapbeam_bedding_states, only: take_bedding
+    use gapbeam_bedding_path, only: take_bedding
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
     private

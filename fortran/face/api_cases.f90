@@ -19,8 +19,8 @@ module gapbeam_api_cases
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: solve_in_room => solve_cases
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, options_type, cases_type, require_beam, require_no_path, require_no_curves, &
-        require_size, check_call
+    use gapbeam_api_objects, only: prepared_type, options_type, cases_type, require_beam, require_no_path, &
+        require_no_ground_along, require_no_curves, require_size, check_call
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
@@ -42,6 +42,7 @@ contains
         if (allocated(error)) return
         ! A case has the movements of supports that its factors make, on whatever path
         if (laws_depend_on_path(beam%lowered)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_ground_along(beam, error)
         if (.not. allocated(error)) call require_no_curves(beam, error)
         if (allocated(error)) return
         associate (lowered => beam%lowered)

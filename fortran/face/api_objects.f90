@@ -23,7 +23,8 @@ module gapbeam_api_objects
     private
     public :: prepared_type, options_type, result_type, certificate_type
     public :: history_type, stretch_type, limit_type, cases_type, passing_type, train_gap_type
-    public :: require_beam, require_no_ground, require_no_path, require_no_curves, require_result, require_size, check_call
+    public :: require_beam, require_no_ground, require_no_ground_along, require_no_path, require_no_curves
+    public :: require_result, require_size, check_call
     public :: bad_argument, make_state, summarise
 
     !> A prepared beam: opaque
@@ -172,6 +173,16 @@ contains
             call fatal_error(error, gapbeam_not_prepared, "the beam is not prepared: call prepare_model first")
         end if
     end subroutine require_beam
+
+    !> Refuse a beam on ground along its axis, where states are not solved for one by one
+    subroutine require_no_ground_along(beam, error)
+        type(prepared_type), intent(in) :: beam
+        type(error_type), allocatable, intent(out) :: error
+
+        if (.not. allocated(beam%lowered%axial%limit)) return
+        call fatal_error(error, gapbeam_bad_input, "ground along the beam beside trains and in many cases is not available in "// &
+                         "this version: use solve_beam for each case")
+    end subroutine require_no_ground_along
 
     !> Refuse a beam whose state depends on the loading history
     subroutine require_no_path(beam, error)

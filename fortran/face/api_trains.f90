@@ -33,7 +33,8 @@ module gapbeam_api_trains
         quantity_names
     use gapbeam_api_quantities, only: require_quantities
     use gapbeam_api_train_loads, only: moving_train_type, train_gap_type, check_train, put_axles, find_gaps, lost_in
-    use gapbeam_api_objects, only: prepared_type, passing_type, require_beam, require_no_path, require_size, bad_argument
+    use gapbeam_api_objects, only: prepared_type, passing_type, require_beam, require_no_path, require_no_ground_along, &
+        require_size, bad_argument
     implicit none
     private
     public :: moving_train_type, passing_type, train_event_type, train_gap_type, train_extreme_type, gapbeam_moves_freely
@@ -70,6 +71,7 @@ contains
 
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
+        if (.not. allocated(error)) call require_no_ground_along(beam, error)
         if (.not. allocated(error)) then
             if (.not. allocated(beam%lowered%layers) .and. (any(is_tapered(beam%lowered%pieces)) &
                                                             .or. any(beam%lowered%joint > 0.0_wp) &

@@ -8,6 +8,7 @@ module gapbeam_along_axis
     use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_bedding_state, only: solve_bedding
     use gapbeam_solution, only: state_type
     implicit none
     private
@@ -42,6 +43,10 @@ contains
 
         ! Links that act one way, yield or rub, and ground are known on a path alone
         if (.not. allocated(assembled%axial%point)) return
+        if (allocated(assembled%axial%bedding) .and. .not. assembled%depends_on_path) then
+            call solve_bedding(assembled, state, error)
+            return
+        end if
         if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return
         associate (axial => assembled%axial)
             allocate (longer(size(axial%flexibility)), source=0.0_wp)

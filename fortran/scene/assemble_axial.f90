@@ -8,7 +8,7 @@ module gapbeam_assemble_axial
         gapbeam_unchanged
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
     use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis, has_ground_along, has_springs_along
-    use gapbeam_axial_force, only: in_stretches, what_stretches
+    use gapbeam_axial_force, only: in_stretches, only_foundations, what_stretches
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, of_sections, bad_load, bad_law
@@ -178,7 +178,7 @@ contains
                                                abs(model%supports%settlement) > 0.0_wp)) then
                 call say(" beside friction of supports, or axial supports that push one way, have a law, a settlement or a "// &
                          "movement,"//in_version//"; leave one of them out")
-            else if (in_stretches(model)) then
+            else if (in_stretches(model) .and. .not. (allocated(axial%bedding) .and. only_foundations(model))) then
                 call say(" beside "//trim(what_stretches(model))//in_version//"; their effects do not meet, so "// &
                          "look at them one by one")
             end if

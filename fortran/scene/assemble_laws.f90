@@ -112,7 +112,11 @@ contains
         type(motion_type), allocatable :: motions(:)
 
         depends = .true.
-        if (allocated(assembled%axial%laws) .or. allocated(assembled%axial%limit)) return
+        if (allocated(assembled%axial%laws)) return
+        ! Beside a foundation what sliders remember is that of the dead loads alone
+        if (allocated(assembled%axial%limit)) then
+            if (.not. (allocated(assembled%axial%bedding) .and. allocated(assembled%layers))) return
+        end if
         associate (s => assembled%beam%supports)
             depends = any(s%breakpoint > 0 .and. (s%stiffness < 0.0_wp .or. s%before < 0.0_wp))
         end associate

@@ -17,8 +17,8 @@ module gapbeam_axial_force
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
     private
-    public :: has_axial_force, axial_loads_may_bend, in_stretches, what_stretches, or_first_order, check_axial_force, &
-        check_masses, assign_axial_force
+    public :: has_axial_force, axial_loads_may_bend, in_stretches, only_foundations, what_stretches, or_first_order, &
+        check_axial_force, check_masses, assign_axial_force
 
 contains
 
@@ -96,6 +96,16 @@ contains
             .or. any(turns(model%supports)) &
             .or. any(max(model%sections%EI_to, model%sections%GA_to) > gapbeam_unchanged)
     end function in_stretches
+
+    !> Do foundations alone make it so
+    pure function only_foundations(model) result(they_do)
+        !> As for in_stretches
+        type(model_type), intent(in) :: model
+        logical :: they_do
+
+        they_do = size(model%foundations) > 0 .and. .not. (has_axial_force(model) .or. any(model%spans%mass > 0.0_wp) &
+                                                           .or. size(model%masses) > 0 .or. model%with_trains)
+    end function only_foundations
 
     !> What makes it so, in words
     pure function what_stretches(model) result(words)

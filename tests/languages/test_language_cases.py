@@ -148,3 +148,16 @@ def test_widths_agree(library, spans):
     for values, name in zip(found, ("status", "reaction", "deflection", "moment_left", "moment_right"), strict=True):
         assert values.tobytes() == getattr(expected, name).tobytes(), name
     beam.close()
+
+
+def test_ground_along_the_beam_is_refused_in_words(library):
+    """Beside a foundation one state of it is solved by itself, many cases are not."""
+    scene = {
+        "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "supports": [{"node": 1, "direction": "axial", "stiffness": 5e4}],
+        "foundation": [{"k": 1e4}], "axial_ground": [{"stiffness": 2e4, "limit": 60.0}],
+        "loads": [{"type": "axial", "node": 0, "F": 1000.0}], "analysis": {"first_order": True},
+    }  # fmt: skip
+    beam, message = library.prepare(scene)
+    assert not message
+    status, message, _ = solve_in_c(beam, np.ones((2, 1)), (None, None, None), "block")
+    assert (status, "ground along the beam beside trains and in many cases" in message) == (11, True)

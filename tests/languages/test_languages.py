@@ -646,6 +646,21 @@ def test_ground_along_the_beam_agrees(library, ground):
         assert step.reaction[-1]
 
 
+def test_a_pile_in_ground_across_and_along_it_agrees(library):
+    """On a foundation there is no path: states and fields have the digits of Python; what is pulled out slides."""
+    scene = {
+        "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "supports": [{"node": 1, "direction": "axial", "stiffness": 5e4}],
+        "foundation": [{"k": [0.0, 4e4], "side": "both"}], "axial_ground": [{"stiffness": 2e4, "limit": [20.0, 100.0]}],
+        "loads": [{"type": "axial", "node": 0, "F": 1000.0}, {"type": "force", "node": 0, "F": 100.0},
+                  {"type": "axial_uniform", "q": 5.0, "case": "dead"}],
+        "analysis": {"first_order": True},
+    }  # fmt: skip
+    result, beam, f77 = solved_everywhere(library, scene)
+    assert_same_state(beam, f77, result, scene, random.Random(1))
+    scene |= {"supports": [], "loads": [{"type": "axial", "node": 0, "F": 2000.0}]}
+    assert library.prepare(scene)[0].solve(1.0)[0] == 1
+
+
 def test_restraints_and_hinges_with_laws_agree(library):
     """Supports that hold rotations, along a history: events, couples, rotations and fields have the digits of Python."""
     states = []

@@ -13,8 +13,8 @@ class AxialGround(Stretch, kw_only=True, gc=False):
     """Ground that holds the beam along its axis by friction, from one place to another; of those that overlap the last one counts.
 
     It takes up to its limit against the way of the beam. Below that it gives way by its stiffness (t-z curves of piles, soil along
-    pipes), or lets nothing move. It starts without force, and remembers: see ``analysis.history``. Not beside foundations,
-    friction of supports and axial supports with laws. Give the limit, the stiffness or both.
+    pipes), or lets nothing move. It starts without force, and remembers: see ``analysis.history``. Not beside friction of
+    supports and axial supports with laws, and beside foundations only with a stiffness. Give the limit, the stiffness or both.
 
     Parameters
     ----------

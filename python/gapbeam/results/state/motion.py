@@ -12,6 +12,7 @@ from ...engine.modes import Buckling, buckled_shape
 from ...engine.states import Solution
 
 SLIDES = "the beam slides along its axis, no axial support holds it"
+SLIDES_ON_GROUND = "the beam slides along its axis: the ground along it takes no more, and no axial support holds it"
 
 
 def describe_motion(beam: Beam, motion: np.ndarray) -> str:
@@ -91,7 +92,11 @@ def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: B
     at = f" {where}" if where else ""
     if buckling is not None:
         return "buckles", f"buckles{at}: {describe_buckling(buckling)}"
-    return "no-equilibrium", f"no equilibrium{at}: {SLIDES if motion is None else describe_motion(beam, motion)}"
+    return "no-equilibrium", f"no equilibrium{at}: {_sliding(beam) if motion is None else describe_motion(beam, motion)}"
+
+
+def _sliding(beam: Beam) -> str:
+    return SLIDES_ON_GROUND if beam.is_on_axial_ground else SLIDES
 
 
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:

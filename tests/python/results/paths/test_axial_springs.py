@@ -114,6 +114,57 @@ def test_extremes_inside():
         assert (both["max"].value, both["min"].value) == pytest.approx((values.max(), values.min()), rel=1e-5)
 
 
+# Beside a foundation, where there is no path
+
+
+def pile(**more):
+    return {
+        "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "supports": [{"node": 1, "direction": "axial", "stiffness": 5e4}],
+        "axial_ground": [{"stiffness": 2e4, "limit": [20.0, 100.0]}],
+        "loads": [{"type": "axial", "node": 0, "F": 1000.0}, {"type": "axial_uniform", "q": 5.0, "case": "dead"}],
+        "analysis": {"first_order": True},
+    } | more  # fmt: skip
+
+
+@pytest.mark.parametrize("asked", [{}, {"steps": 4}, {"follow": "events"}])
+def test_a_pile_in_ground_across_it_too(asked):
+    """What is along the beam does not feel what is across it: as between supports, and bent as without it."""
+    ground, push = {"foundation": [{"k": [0.0, 4e4]}]}, {"type": "force", "node": 0, "F": 100.0}
+    guided = pile(supports=[*pile()["supports"], {"node": 0}, {"node": 1}])
+    between, both = gapbeam.solve(guided), gapbeam.solve(
+        pile(**ground, loads=[*pile()["loads"], push], analysis={"first_order": True, **asked}))  # fmt: skip
+    alone = gapbeam.solve({**pile(**ground, loads=[push], axial_ground=[])})
+    x = [0.0, 5.0, 12.5, 20.0]
+    assert both.at(x).axial_force.tolist() == between.at(x).axial_force.tolist()
+    assert both.at(x).moment == pytest.approx(alone.at(x).moment, rel=1e-12, abs=1e-12)
+    assert both.steps[-1].slip_zones == between.steps[-1].slip_zones
+    assert both.steps[-1].reaction[0] == between.steps[-1].reaction[0]
+
+
+def test_what_a_pile_in_ground_does_not_bear():
+    """1200 along its shaft, and no tip."""
+    made = pile(foundation=[{"k": 1e4}], supports=[], loads=[{"type": "axial", "node": 0, "F": 1199.0}])
+    assert gapbeam.solve(made).status == "solved"
+    made["loads"][0]["F"] = 1201.0
+    result = gapbeam.solve(made)
+    assert result.status == "no-equilibrium"
+    assert "the ground along it takes no more" in result.reason
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"axial_ground": [{"limit": 1.0}]}, "ground along the beam beside a foundation is not available"),
+        ({"beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6, "N": 3.0}}, r"axial_ground\[0\]\.limit: .*is not available"),
+        ({"analysis": {"history": [1.0, 0.0], "first_order": True}}, "a beam with a foundation unloads along its path"),
+        ({"trains": [{"axles": [[0.0, 1.0]]}]}, "is not available in this version"),
+    ],
+)
+def test_refusals_beside_a_foundation(change, message):
+    with pytest.raises(gapbeam.SceneError, match=message):
+        gapbeam.solve(pile(foundation=[{"k": 1e4}]) | change)
+
+
 # Springs and sliders in a row
 
 

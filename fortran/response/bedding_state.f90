@@ -1,5 +1,5 @@
-!> States of a beam on springs and sliders along it at load factors on a path, and their audit.
-module gapbeam_bedding_states
+!> State of a beam on springs and sliders along it, and its audit; found from the loads alone where there is no path.
+module gapbeam_bedding_state
     use gapbeam_kinds, only: wp, qp
     use gapbeam_path_tolerances, only: bedding_audited
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
@@ -7,59 +7,65 @@ module gapbeam_bedding_states
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_exponential_curve, only: curve_type, most_roots, value_of, derivative, roots_of
     use gapbeam_axial_bedding, only: bedding_type, loads_type, give_way, pulling, force_at, is_bedded, no_limit
-    use gapbeam_bedding_path, only: loads_at, go_to_loads
-    use gapbeam_history_record, only: history_type
+    use gapbeam_bedding_zones, only: new_bedding, start_anew
+    use gapbeam_bedding_loads, only: loads_at, follow_loads
     use gapbeam_solution, only: state_type
     implicit none
     private
-    public :: take_bedding
+    public :: put_bedding, solve_bedding
 
 contains
 
-    !> What there is along the beam at a load factor on a stretch
-    subroutine take_bedding(beam, history, stretch, factor, state, error)
-        !> With the loads of the leg: its dead ones as live ones while these are put on
-        type(assembled_type), intent(in) :: beam
-        type(history_type), intent(in) :: history
-        integer, intent(in) :: stretch
-        real(wp), intent(in) :: factor
+    !> Put the dead loads on, then go to the load factor of a state
+    subroutine solve_bedding(assembled, state, error)
+        type(assembled_type), intent(in) :: assembled
+        !> With its load factor in; what there is along the beam out, or that it slides
+        type(state_type), intent(inout) :: state
+        !> As from follow_loads, or it does not stand its audit
+        type(error_type), allocatable, intent(out) :: error
+        type(bedding_type) :: bedding
+        type(loads_type) :: unloaded, dead, acting
+        real(wp) :: reached
+
+        associate (axial => assembled%axial)
+            call new_bedding(axial%softness, axial%bedding, axial%limits, axial%stiffness, bedding)
+        end associate
+        unloaded = bedding%loads
+        dead = loads_at(assembled, 1.0_wp, .true.)
+        acting = loads_at(assembled, state%factor, .false.)
+        call follow_loads(assembled, [0.0_wp, 1.0_wp], unloaded, dead, bedding, reached, error)
+        if (allocated(error)) return
+        state%slides = reached < 1.0_wp
+        if (state%slides) return
+        call start_anew(bedding)
+        call follow_loads(assembled, [0.0_wp, state%factor], dead, acting, bedding, reached, error)
+        if (allocated(error)) return
+        state%slides = abs(reached) < abs(state%factor)
+        if (.not. state%slides) call put_bedding(bedding, state, error)
+    end subroutine solve_bedding
+
+    !> Put what there is along the beam into a state
+    subroutine put_bedding(bedding, state, error)
+        type(bedding_type), intent(in) :: bedding
         !> Of the same beam
         type(state_type), intent(inout) :: state
         !> It does not stand its audit
         type(error_type), allocatable, intent(out) :: error
-        type(bedding_type) :: bedding
-        type(loads_type) :: loads
-        real(wp) :: worst
         real(qp) :: reaction(0:size(state%tension))
-        logical :: settled
-        integer :: k
+        real(wp) :: worst
 
-        k = findloc(history%along%on_ground(:history%along%number)%stretch <= stretch, .true., 1, back=.true.)
-        loads = loads_at(beam, factor, .false.)
-        if (k == 0) then
-            ! All of the way is passed in a jump
-            settled = .false.
-        else
-            bedding = history%along%on_ground(k)%ground%springs
-            call go_to_loads(bedding, bedding%loads, loads, 1.0_qp, settled)
-        end if
-        if (settled) then
-            state%displacement(:) = real(bedding%displacement, wp)
-            state%tension(:) = least_forces(bedding)
-            reaction(:) = reactions_of(bedding)
-            state%axial_reaction(:) = merge(real(reaction, wp), 0.0_wp, bedding%support > 0.0_wp)
-            if (.not. allocated(state%along_ground)) allocate (state%along_ground)
-            state%along_ground%springs = bedding
-            worst = misfit(bedding, reaction)
-            if (worst <= bedding_audited) return
-            call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
-                             "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(factor))// &
-                             "; report the scene")
-        else
-            call fatal_error(error, gapbeam_not_converged, "along the beam no state is found at load factor "// &
-                             trim(shown(factor))//"; report the scene")
-        end if
-    end subroutine take_bedding
+        state%displacement(:) = real(bedding%displacement, wp)
+        state%tension(:) = least_forces(bedding)
+        reaction(:) = reactions_of(bedding)
+        state%axial_reaction(:) = merge(real(reaction, wp), 0.0_wp, bedding%support > 0.0_wp)
+        if (.not. allocated(state%along_ground)) allocate (state%along_ground)
+        state%along_ground%springs = bedding
+        worst = misfit(bedding, reaction)
+        if (worst <= bedding_audited) return
+        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
+                         "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(state%factor))// &
+                         "; report the scene")
+    end subroutine put_bedding
 
     !> Smallest axial force of every bar
     pure function least_forces(bedding) result(least)
@@ -149,4 +155,4 @@ contains
         worst = real(off, wp)
     end function misfit
 
-end module gapbeam_bedding_states
+end module gapbeam_bedding_state
