@@ -133,12 +133,6 @@ def test_what_makes_no_sense_is_refused(loads, beam, words):
     assert words in str(refused.value)
 
 
-def test_what_is_not_there_yet_is_refused_by_name():
-    one = scene([])
-    with pytest.raises(SceneError, match="ground along the beam that is elastic is not available in this version"):
-        gapbeam.read_scene(one | {"axial_ground": [{"stiffness": 1e5, "limit": 1.5}]})
-
-
 def test_pictures_and_pages_take_it(tmp_path):
     one = scene([{"gradient": 20.0, "dT": 5.0}])
     result = gapbeam.solve(one)
