@@ -14,8 +14,8 @@ module gapbeam_bedding_zones
     private
     public :: new_bedding, start_anew, find_zones, turns_back
 
-    !> Newton steps under one load, and how often a way to loads is halved
-    integer, parameter :: most_steps = 60, most_halves = 40
+    !> Newton steps under one load, parts of a way to loads that are tried, and how often these are halved
+    integer, parameter :: most_steps = 60, most_parts = 48, most_halves = 12
 
 contains
 
@@ -85,34 +85,39 @@ contains
         type(bedding_type) :: next
         type(loads_type) :: start
         real(qp) :: done, step
-        integer :: halves
+        integer :: part
 
         start = bedding%loads
         done = 0.0_qp
         step = 1.0_qp
-        halves = 0
-        do
+        do part = 1, most_parts
             next = bedding
             next%loads%node(:) = start%node + (done + step)*(loads%node - start%node)
             next%loads%along(:) = start%along + (done + step)*(loads%along - start%along)
             next%loads%longer(:) = start%longer + (done + step)*(loads%longer - start%longer)
-            call iterate(next, settled)
+            call iterate(next, .true., settled)
+            if (.not. settled) then
+                next%cells = bedding%cells
+                call iterate(next, .false., settled)
+            end if
             if (settled) then
                 bedding = next
                 done = done + step
                 if (done >= 1.0_qp) return
                 step = min(2*step, 1 - done)
             else
-                halves = halves + 1
-                if (halves > most_halves) return
+                if (step < 0.5_qp**most_halves) return
                 step = step/2
             end if
         end do
+        settled = .false.
     end subroutine find_zones
 
     !> Newton's method under the loads that there are
-    pure subroutine iterate(bedding, settled)
+    pure subroutine iterate(bedding, grows, settled)
         type(bedding_type), intent(inout) :: bedding
+        !> Are zones to grow by what they pass on, which may lead astray where they meet
+        logical, intent(in) :: grows
         logical, intent(out) :: settled
         type(cell_type), allocatable :: cells(:)
         real(qp) :: off, before
@@ -130,7 +135,7 @@ contains
             ! Zones that have just begun are known to the root of rounding only
             settled = off <= found_zone .or. (off <= steady_zone .and. off >= before/2)
             if (settled) return
-            call grow_zones(bedding, cells)
+            if (grows) call grow_zones(bedding, cells)
             call move_alloc(cells, bedding%cells)
         end do
     end subroutine iterate
