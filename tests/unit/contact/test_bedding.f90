@@ -30,7 +30,9 @@ contains
         call roots_of(curve, found, n)
         call check(n == 3, "three of a cubic")
         call check_close(real(found(:3), wp), [0.2_wp, 0.5_wp, 0.9_wp], "of a cubic")
-        curve = new_curve(0.0_qp, 1.0_qp, [-0.4_qp, 0.8_qp, 0.0_qp, 0.0_qp], 30.0_qp, 1.0_qp, -1.0_qp)
+        ! Two of them, and the turns beside them, lie on one side of the middle
+        curve = new_curve(0.0_qp, 1.0_qp, [-2.25_qp, 3.0_qp, 0.0_qp, 0.0_qp], 3.0_qp, 4.48_qp - exp(-3.0_qp), &
+                          4.48_qp*exp(-3.0_qp) - 1.0_qp)
         call roots_of(curve, found, n)
         call check(n == 3, "three of a line and two exponentials")
         do i = 1, n
