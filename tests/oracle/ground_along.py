@@ -9,30 +9,26 @@ from __future__ import annotations
 import numpy as np
 
 
-class Bar:
-    """Nodes at equal distances along a scene's beam.
+class Mesh:
+    """A bar at equal distances along a scene's beam, with its axial supports and loads.
 
     Parameters
     ----------
     scene : dict
-        Spans, EA, alpha, sections, axial supports, axial ground, temperatures and axial forces, all places on the mesh.
+        Spans, EA, alpha, sections, axial supports, temperatures and loads along the beam, all places on the mesh.
     cells : int
         Nodes per length 1, less one.
     """
 
     def __init__(self, scene: dict, cells: int):
-        end = sum(scene["beam"]["spans"])
-        n = round(end * cells)
+        self.end = sum(scene["beam"]["spans"])
+        n = round(self.end * cells)
         self.x = np.arange(n + 1) / cells
-        middle = (self.x[1:] + self.x[:-1]) / 2
+        self.middle = (self.x[1:] + self.x[:-1]) / 2
         EA = np.full(n, scene["beam"]["EA"])
         for one in scene.get("sections", ()):
-            EA[self._in(one, middle, end)] = one["EA"]
+            EA[self.inside(one)] = one["EA"]
         self.stiffness = EA * cells
-        limit = np.zeros(n)
-        for one in scene["axial_ground"]:
-            limit[self._in(one, middle, end)] = one["limit"]
-        self.limit = (np.append(limit, 0.0) + np.append(0.0, limit)) / (2 * cells)
         self.spring = np.zeros(n + 1)
         for one in scene["supports"]:
             if one.get("direction") == "axial":
@@ -43,14 +39,15 @@ class Bar:
             case = one.get("case", "live")
             if one["type"] == "axial":
                 self.load[case][round(one["x"] * cells)] += one["F"]
+            elif one["type"] == "axial_uniform":
+                self.load[case] += beside_nodes(np.where(self.inside(one), one["q"], 0.0)).sum(0) / (2 * cells)
             else:
-                self.longer[case][self._in(one, middle, end)] += scene["beam"]["alpha"] * one["dT"] / cells
+                self.longer[case][self.inside(one)] += scene["beam"]["alpha"] * one["dT"] / cells
         self.u = np.zeros(n + 1)
-        self.state = np.where(self.limit > 0.0, 0, 2)
 
-    @staticmethod
-    def _in(one: dict, x: np.ndarray, end: float) -> np.ndarray:
-        return (x > one.get("from", 0.0)) & (x < (one.get("to") or end))
+    def inside(self, one: dict) -> np.ndarray:
+        """Which cells lie in a stretch."""
+        return (self.middle > one.get("from", 0.0)) & (self.middle < (one.get("to") or self.end))
 
     def follow(self, history: list[float], steps: int) -> tuple[np.ndarray, np.ndarray]:
         """Put the dead loads on, then go through load factors; give forces of the springs and displacements of the nodes."""
@@ -61,11 +58,28 @@ class Bar:
             begin = at[case]
             for k in range(1, steps + 1):
                 at[case] = begin + (goal - begin) * k / steps
-                self._step(sum(at[one] * self.load[one] for one in at), sum(at[one] * self.longer[one] for one in at))
+                self.step(sum(at[one] * self.load[one] for one in at), sum(at[one] * self.longer[one] for one in at))
         longer = sum(at[one] * self.longer[one] for one in at)
         return self.stiffness * (np.diff(self.u) - longer), self.u.copy()
 
-    def _step(self, load: np.ndarray, longer: np.ndarray) -> None:
+
+def beside_nodes(of_cells: np.ndarray) -> np.ndarray:
+    """Values of the cells on the left and on the right of the nodes, shape (2, nodes)."""
+    return np.array([np.append(0.0, of_cells), np.append(of_cells, 0.0)])
+
+
+class Bar(Mesh):
+    """The same on ground that rubs along it; parameters as for `Mesh`, the ground with its limits."""
+
+    def __init__(self, scene: dict, cells: int):
+        super().__init__(scene, cells)
+        limit = np.zeros(len(self.middle))
+        for one in scene["axial_ground"]:
+            limit[self.inside(one)] = one["limit"]
+        self.limit = beside_nodes(limit).sum(0) / (2 * cells)
+        self.state = np.where(self.limit > 0.0, 0, 2)
+
+    def step(self, load: np.ndarray, longer: np.ndarray) -> None:
         """One load step: 0 sticks, 1 and -1 slide to the right and to the left."""
         before, state = self.u, self.state
         for count in range(4000):
