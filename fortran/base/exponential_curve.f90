@@ -4,7 +4,7 @@ module gapbeam_exponential_curve
     use gapbeam_kinds, only: qp
     implicit none
     private
-    public :: curve_type, new_curve, value_of, derivative, roots_of, most_roots
+    public :: curve_type, new_curve, value_of, derivative, scaled, roots_of, most_roots
 
     !> Such a curve has no more: four derivatives leave two exponentials, which have one
     integer, parameter :: most_roots = 5
@@ -63,6 +63,18 @@ contains
         slope%left = -curve%rate*curve%left
         slope%right = curve%rate*curve%right
     end function derivative
+
+    !> The curve times a number
+    pure function scaled(curve, factor) result(times)
+        type(curve_type), intent(in) :: curve
+        real(qp), intent(in) :: factor
+        type(curve_type) :: times
+
+        times = curve
+        times%power(:) = factor*curve%power
+        times%left = factor*curve%left
+        times%right = factor*curve%right
+    end function scaled
 
     !> Where it is 0 inside its stretch and changes its sign there, in order. Between roots of its derivative there is one at most;
     !> derivatives end in one that has a single root: that of two exponentials, or of a straight line

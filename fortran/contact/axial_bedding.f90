@@ -9,7 +9,7 @@
 !> precision: what springs give way may be small beside what sliders went.
 module gapbeam_axial_bedding
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_exponential_curve, only: curve_type, new_curve, value_of, derivative
+    use gapbeam_exponential_curve, only: curve_type, new_curve, value_of, derivative, scaled
     implicit none
     private
     public :: memory_type, cell_type, bedding_type, loads_type, no_limit
@@ -56,8 +56,9 @@ module gapbeam_axial_bedding
     !> A cell as a bar between its ends: forces there are stiffnesses times displacements, and what is without these
     type :: element_type
         real(qp) :: between, to_ground, without(2)
-        !> Displacement with ends at rest: its polynomial, and what exponentials or a line add to it at the ends
-        real(qp) :: power(0:3), rate
+        !> Displacement as its loads alone make it, a polynomial, and the rate of what its ends add to that
+        type(curve_type) :: loaded
+        real(qp) :: rate
     end type element_type
 
 contains
@@ -122,8 +123,8 @@ contains
         bedding%displacement(0) = at(0)
         do k = 1, m
             associate (c => bedding%cells(k), e => element(k))
-                c%displacement = new_curve(c%from, c%to, e%power, e%rate, at(k - 1) - polynomial(e%power, c%from), &
-                                           at(k) - polynomial(e%power, c%to))
+                c%displacement = new_curve(c%from, c%to, e%loaded%power, e%rate, at(k - 1) - value_of(e%loaded, c%from), &
+                                           at(k) - value_of(e%loaded, c%to))
                 if (c%to < 1.0_qp) cycle
                 node = node + 1
                 bedding%displacement(node) = at(k)
@@ -138,52 +139,30 @@ contains
         type(element_type) :: element
         real(qp) :: decay, stiff, ends(2), slopes(2)
 
-        associate (j => cell%bar, c => bedding%softness(cell%bar), K => bedding%stiffness(cell%bar), slid => &
-                   bedding%memory(cell%memory)%slid, p => bedding%loads%along(cell%bar), t => bedding%limit(:, cell%bar))
+        associate (j => cell%bar, c => bedding%softness(cell%bar), K => bedding%stiffness(cell%bar), power => &
+                   element%loaded%power, p => bedding%loads%along(cell%bar), t => bedding%limit(:, cell%bar))
             element%rate = 0.0_qp
             if (cell%way == 0 .and. is_bedded(bedding, j)) element%rate = sqrt(c*K)
             if (element%rate > 0.0_qp) then
-                element%power(:) = slid
-                element%power(0) = element%power(0) + (p + 2*slid(2)/c)/K
-                element%power(1) = element%power(1) + 6*slid(3)/(c*K)
+                power(:) = bedding%memory(cell%memory)%slid + [settled_push(bedding, cell)/K, 0.0_qp, 0.0_qp]
                 decay = exp(-element%rate*(cell%to - cell%from))
                 stiff = element%rate*2*decay/(1 - decay**2)
                 element%to_ground = element%rate*(1 - decay)/(1 + decay)/c
             else
-                element%power(:) = 0.0_qp
-                element%power(2) = -c*p/2
-                if (cell%way /= 0) then
-                    element%power(2) = element%power(2) + cell%way*c*t(1)/2
-                    element%power(3) = cell%way*c*(t(2) - t(1))/6
-                end if
+                power(:) = [0.0_qp, 0.0_qp, -c*p/2, 0.0_qp]
+                if (cell%way /= 0) power(2:) = power(2:) + cell%way*c*[t(1)/2, (t(2) - t(1))/6]
                 stiff = 1/(cell%to - cell%from)
                 element%to_ground = 0.0_qp
             end if
             element%between = stiff/c
-            ends(:) = [polynomial(element%power, cell%from), polynomial(element%power, cell%to)]
-            slopes(:) = [slope_of(element%power, cell%from), slope_of(element%power, cell%to)]
+            ends(:) = [value_of(element%loaded, cell%from), value_of(element%loaded, cell%to)]
+            slopes(:) = [value_of(derivative(element%loaded), cell%from), value_of(derivative(element%loaded), cell%to)]
             element%without(1) = element%between*(ends(1) - ends(2)) + element%to_ground*ends(1) &
                 + (slopes(1) - bedding%loads%longer(j))/c
             element%without(2) = element%between*(ends(1) - ends(2)) - element%to_ground*ends(2) &
                 + (slopes(2) - bedding%loads%longer(j))/c
         end associate
     end function element_of
-
-    !> Value of a polynomial of degree 3
-    pure function polynomial(power, x) result(value)
-        real(qp), intent(in) :: power(0:3), x
-        real(qp) :: value
-
-        value = power(0) + x*(power(1) + x*(power(2) + x*power(3)))
-    end function polynomial
-
-    !> Its derivative
-    pure function slope_of(power, x) result(slope)
-        real(qp), intent(in) :: power(0:3), x
-        real(qp) :: slope
-
-        slope = power(1) + x*(2*power(2) + x*3*power(3))
-    end function slope_of
 
     !> What pushes the ground of a cell to the right as far as its springs are concerned, K (u - s)
     pure function give_way(bedding, cell) result(curve)
@@ -192,16 +171,10 @@ contains
         type(curve_type) :: curve
 
         curve = cell%displacement
-        if (cell%way == 0) then
-            ! Not as a difference: what springs give way is what the exponentials and the loads do
-            curve%power(:) = [settled_push(bedding, cell), 0.0_qp, 0.0_qp]
-        else
-            curve%power(:) = bedding%stiffness(cell%bar)*(curve%power - bedding%memory(cell%memory)%slid)
-        end if
-        associate (K => bedding%stiffness(cell%bar))
-            curve%left = K*curve%left
-            curve%right = K*curve%right
-        end associate
+        curve%power(:) = curve%power - bedding%memory(cell%memory)%slid
+        curve = scaled(curve, bedding%stiffness(cell%bar))
+        ! Not as a difference: what springs give way where they hold is what the exponentials and the loads do
+        if (cell%way == 0) curve%power(:) = [settled_push(bedding, cell), 0.0_qp, 0.0_qp]
     end function give_way
 
     !> Force of the ground on the beam along a cell over which it slides, to the right
@@ -233,12 +206,8 @@ contains
         type(curve_type) :: curve
 
         curve = derivative(cell%displacement)
-        associate (c => bedding%softness(cell%bar))
-            curve%power(0) = curve%power(0) - bedding%loads%longer(cell%bar)
-            curve%power(:) = curve%power/c
-            curve%left = curve%left/c
-            curve%right = curve%right/c
-        end associate
+        curve%power(0) = curve%power(0) - bedding%loads%longer(cell%bar)
+        curve = scaled(curve, 1/bedding%softness(cell%bar))
     end function pulling
 
     !> Axial force at a place in a cell

@@ -6,7 +6,8 @@
 module gapbeam_bedding_zones
     use gapbeam_kinds, only: wp, qp
     use gapbeam_path_tolerances, only: no_slip, found_zone, steady_zone
-    use gapbeam_exponential_curve, only: curve_type, most_roots, value_of, derivative, roots_of
+    use gapbeam_ordered_quad, only: sort
+    use gapbeam_exponential_curve, only: curve_type, most_roots, value_of, derivative, scaled, roots_of
     use gapbeam_bedding_growth, only: grow_zones
     use gapbeam_axial_bedding, only: memory_type, cell_type, bedding_type, loads_type, solve_cells, give_way, is_bedded, &
         no_limit
@@ -232,29 +233,18 @@ contains
         real(qp), intent(in) :: limit(2)
         real(qp), intent(out) :: at(:)
         integer, intent(out) :: number
-        real(qp) :: roots(most_roots), x
-        integer :: i, n, way
+        real(qp) :: roots(most_roots)
+        integer :: n, way
 
         at(:) = 0.0_qp
         number = 0
         if (maxval(limit) >= no_limit) return
         do way = -1, 1, 2
             call roots_of(beyond(push, limit, way), roots, n)
-            do i = 1, n
-                number = number + 1
-                at(number) = roots(i)
-            end do
+            at(number + 1:number + n) = roots(:n)
+            number = number + n
         end do
-        do i = 2, number
-            x = at(i)
-            n = i - 1
-            do while (n > 0)
-                if (at(n) <= x) exit
-                at(n + 1) = at(n)
-                n = n - 1
-            end do
-            at(n + 1) = x
-        end do
+        call sort(at(:number))
     end subroutine find_changes
 
     !> By how much a push one way passes the limit: what has not come farther than rounding has not
@@ -264,10 +254,7 @@ contains
         integer, intent(in) :: way
         type(curve_type) :: curve
 
-        curve = push
-        curve%power(:) = way*push%power
-        curve%left = way*push%left
-        curve%right = way*push%right
+        curve = scaled(push, real(way, qp))
         curve%power(0) = curve%power(0) - limit(1)*(1 + no_slip)
         curve%power(1) = curve%power(1) - (limit(2) - limit(1))*(1 + no_slip)
     end function beyond

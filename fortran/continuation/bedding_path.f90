@@ -9,8 +9,9 @@ module gapbeam_bedding_path
     use gapbeam_bedding_zones, only: new_bedding, start_anew
     use gapbeam_bedding_loads, only: loads_at, go_to_loads, follow_loads
     use gapbeam_bedding_state, only: put_bedding
-    use gapbeam_ground_along_path, only: end_path
-    use gapbeam_history_record, only: history_type, along_type, on_ground_type
+    use gapbeam_ground_along, only: ground_along_type
+    use gapbeam_ground_along_path, only: keep, end_path
+    use gapbeam_history_record, only: history_type
     use gapbeam_solution, only: state_type
     implicit none
     private
@@ -26,13 +27,14 @@ contains
         type(history_type), intent(inout) :: history
         !> Ground that slid begins to hold before the load turns
         type(error_type), allocatable, intent(out) :: error
-        type(bedding_type) :: bedding
+        type(ground_along_type) :: ground
         real(wp) :: at
         integer :: first, last
         logical :: lost
 
         associate (axial => assembled%axial)
-            call new_bedding(axial%softness, axial%bedding, axial%limits, axial%stiffness, bedding)
+            allocate (ground%springs)
+            call new_bedding(axial%softness, axial%bedding, axial%limits, axial%stiffness, ground%springs)
         end associate
         allocate (history%along)
         allocate (history%along%on_ground(8))
@@ -40,11 +42,11 @@ contains
         do
             call next_run(history, last, first)
             if (first == 0) exit
-            call keep(history%along, first, history%stretches(first)%from, bedding)
+            call keep(history%along, first, history%stretches(first)%from, ground)
             associate (a => history%stretches(first)%from, b => history%stretches(last)%to, is_dead => &
                        history%stretches(first)%leg == 0)
-                call follow_loads(assembled, [a, b], loads_at(assembled, a, is_dead), loads_at(assembled, b, is_dead), bedding, &
-                                  at, error)
+                call follow_loads(assembled, [a, b], loads_at(assembled, a, is_dead), loads_at(assembled, b, is_dead), &
+                                  ground%springs, at, error)
                 lost = abs(at - a) < abs(b - a)
             end associate
             if (allocated(error)) return
@@ -52,29 +54,9 @@ contains
                 call end_path(history, stretch_at(history, first, last, at), at)
                 return
             end if
-            call start_anew(bedding)
+            call start_anew(ground%springs)
         end do
     end subroutine follow_bedding
-
-    !> Keep how the beam is where the load turns
-    pure subroutine keep(along, k, at, bedding)
-        type(along_type), intent(inout) :: along
-        !> The stretch after it, and the load factor
-        integer, intent(in) :: k
-        real(wp), intent(in) :: at
-        type(bedding_type), intent(in) :: bedding
-        type(on_ground_type), allocatable :: longer(:)
-
-        if (along%number == size(along%on_ground)) then
-            allocate (longer(2*along%number))
-            longer(:along%number) = along%on_ground
-            call move_alloc(longer, along%on_ground)
-        end if
-        along%number = along%number + 1
-        along%on_ground(along%number)%stretch = k
-        along%on_ground(along%number)%factor = at
-        along%on_ground(along%number)%ground%springs = bedding
-    end subroutine keep
 
     !> The next stretches over which the load goes one way in one leg; those that are passed in a jump do not count
     pure subroutine next_run(history, last, first)

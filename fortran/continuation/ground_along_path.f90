@@ -14,7 +14,7 @@ module gapbeam_ground_along_path
     use gapbeam_history_record, only: history_type, along_type, limit_type, on_ground_type, mechanism
     implicit none
     private
-    public :: follow_ground_along, go_to_change, end_path
+    public :: follow_ground_along, go_to_change, keep, end_path
 
     !> Most steps until a change is found
     integer, parameter :: most_tries = 200
@@ -121,7 +121,7 @@ contains
         end do
     end subroutine pass
 
-    !> Keep how the beam is where something changes
+    !> Keep how the beam is where something changes, or where the load turns
     pure subroutine keep(along, k, at, ground)
         type(along_type), intent(inout) :: along
         !> The stretch, and the load factor
