@@ -13,7 +13,7 @@ import numpy as np
 from ..base.errors import SceneError
 from ..results import formatting as fmt
 from ..results.state.arguments import whole
-from ..scene.reading import read_scene
+from ..scene.reading import as_written, read_scene
 from ..scene.structs import Beam, Scene, Units
 from ..scene.wording import shown
 from .chunks import TEXTS, count_statuses, read_columns
@@ -264,5 +264,5 @@ class Batch(BatchVerbs):
         data = from_json(manifest["data"])
         row = self._columns_of(case // size, manifest["inputs"])
         values = [float(row[name][case % size]) for name in manifest["inputs"]]
-        paths = find_paths(read_scene(data), manifest["inputs"])
+        paths = find_paths(as_written(data), manifest["inputs"])
         return read_scene(with_values(data, paths, values))

@@ -15,7 +15,7 @@ from ..base.errors import SceneError
 from ..results.formatting import unit
 from ..results.state.arguments import numbers, whole
 from ..scene.key_units import key_unit
-from ..scene.reading import read_beam
+from ..scene.reading import as_written, read_beam
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .job import Job
@@ -235,6 +235,7 @@ def function(
     (array([nan, nan, nan]), 'refused')
     """
     checked, beam = read_beam(scene)
+    written = as_written(scene)
     names = {"inputs": inputs, "outputs": outputs}
     for key, given in names.items():
         names[key] = (given,) if isinstance(given, str) else tuple(map(str, given))
@@ -243,13 +244,13 @@ def function(
         if doubled := [name for name in names[key] if names[key].count(name) > 1]:
             raise SceneError(key, f"{shown(doubled[0])} is there twice; leave one out")
     found = find_outputs(checked, beam, names["outputs"])
-    job = job_of(checked, beam, names["inputs"], tuple(dict.fromkeys(one.want for one in found)))
+    job = job_of(written, checked, beam, names["inputs"], tuple(dict.fromkeys(one.want for one in found)))
     for one in found:
         if one.column not in job.columns:
             near = get_close_matches(one.column, job.columns, n=1, cutoff=0.5)
             raise SceneError("outputs", f"there is no {shown(one.name)}; did you mean {shown((near or job.columns)[0])}?")
     threads = whole("threads", threads, least=1) if threads is not None else cores()
-    units = {path.text: key_unit(checked, path.parts) for path in job.paths}
+    units = {path.text: key_unit(written, path.parts) for path in job.paths}
     units |= {one.name: unit(checked, one.quantity) if one.quantity else one.plain_unit for one in found}
     return Function(job, found, cases_a_chunk(job, checked, beam), threads, units)
 

@@ -12,7 +12,8 @@ from typing import Any
 from ..base.errors import GapbeamError
 from ..results.stepping import solve
 from ..scene.names import DEAD
-from .paths import KeyPath, varies_by_case
+from ..scene.reading import read_scene
+from .paths import KeyPath, scene_data, varies_by_case
 
 
 def is_held(scene: dict[str, Any]) -> bool:
@@ -23,6 +24,7 @@ def is_held(scene: dict[str, Any]) -> bool:
     scene : dict
         As plain data.
     """
+    scene = _as_solved(scene)
     kept = {key: [one for one in scene[key] if one["side"] == "both" and one["law"] is None] for key in ("supports", "foundation")}
     try:
         nothing = {key: [] for key in ("loads", "trains", "combinations")}
@@ -45,10 +47,16 @@ def shares_before(scene: dict[str, Any]) -> list[float]:
         The loads under which supports without laws have an equilibrium are a convex set, in which no load is: where the first
         step stands and the last one, those between do, and without dead loads the last one is enough.
     """
+    scene = _as_solved(scene)
     steps, held = scene["analysis"]["steps"], (*scene["supports"], *scene["foundation"])
     if any(one["law"] is not None for one in held) or _is_rigid(scene):
         return [k / steps for k in range(1, steps)]
     return [1 / steps] if steps > 1 and any(load["case"] == DEAD for load in scene["loads"]) else []
+
+
+def _as_solved(scene: dict[str, Any]) -> dict[str, Any]:
+    """The same where what holds rotations by a law, with a slack or one way is a support of its own."""
+    return scene_data(read_scene(scene))
 
 
 def _is_rigid(scene: dict[str, Any]) -> bool:
@@ -78,6 +86,7 @@ def at_once(scene: dict[str, Any], paths: Sequence[KeyPath]) -> dict[str, Any]:
     if not all(path.parts[0] in ("combinations", "trains") or varies_by_case(scene, path) for path in paths):
         return scene
     loose = any(path.parts[0] == "supports" and path.parts[2] == "stiffness" for path in paths)
-    if shares_before(scene) and (loose or len(shares_before(scene)) > 1 or not is_held(scene)):
+    before = shares_before(scene)
+    if before and (loose or len(before) > 1 or not is_held(scene)):
         return scene
     return {**scene, "analysis": {**analysis, "steps": 1}}

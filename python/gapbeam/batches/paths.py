@@ -28,13 +28,14 @@ from ..scene.trains import joined
 from ..scene.typed import plain
 from ..scene.wording import key_of, shown
 
-HEADS = ("beam", "sections", "supports", "foundation", "loads", "trains", "combinations")
+HEADS = ("supports", "loads", "beam", "sections", "hinges", "foundation", "axial_ground", "masses", "trains", "combinations")
 """What of a scene has numbers that may vary by row."""
-OPTIONAL = {"x", "to", "k", "EI", "GA", "EA"}
+OPTIONAL = {"x", "to", "k", "EI", "GA", "EA", "N", "stiffness", "limit"}
 """Keys that hold a number where they are given."""
 OF_SPANS = ("EI", "GA", "EA")
 """Keys of the beam that hold one number for all spans, or one for each."""
-NAMES = (*NAMED, "trains")
+NAMES = (*NAMED, "hinges", "axial_ground", "masses", "trains")
+"""Tables whose entries may be told by name."""
 MOST = 20_000
 """Numbers of a scene among which a similar one is looked for."""
 PIECE = re.compile(r"""\.?(?:"(?P<quoted>(?:[^"\\]|\\.)*)"|'(?P<single>[^']*)'|\[(?P<index>\d{1,9})\]|(?P<bare>[^.\[\]"']+))""")
@@ -229,8 +230,11 @@ def _resolve(scene: Scene, data: dict[str, Any], name: str) -> tuple[str | int, 
             value = [value] * len(data["beam"]["spans"])
         if isinstance(value, dict) and piece in value:
             key: str | int = piece
-        elif isinstance(value, list) and (k := _entry(value, piece, len(parts) == 1 and parts[0] in NAMES)) is not None:
-            key = k
+        elif isinstance(value, list) and (found := _entries(value, piece, len(parts) == 1 and parts[0] in NAMES)):
+            if len(found) > 1:
+                problem = f"there are {len(found)} of the name {shown(piece)}; give the number of one"
+                raise SceneError(place, f"{problem}, as {parts[0]}[{found[0]}]")
+            key = found[0]
         elif isinstance(value, list) and value and re.fullmatch(r"\d+", str(piece)):
             raise SceneError(place, f"there is no entry {piece}; the scene has {len(value)} there, 0 to {len(value) - 1}")
         else:
@@ -265,14 +269,14 @@ def _pieces(name: str) -> list[str | int] | None:
     return found if at == len(name) and found else None
 
 
-def _entry(items: list, piece: str | int, named: bool) -> int | None:
-    """Number of an entry of a list by name or number; None where there is none."""
+def _entries(items: list, piece: str | int, named: bool) -> list[int]:
+    """Numbers of the entries of a list that have a name or number."""
     if named and isinstance(piece, str):
-        k = next((k for k, one in enumerate(items) if one["name"] == piece), None)
-        if k is not None:
-            return k
+        found = [k for k, one in enumerate(items) if one["name"] == piece]
+        if found:
+            return found
         piece = int(piece) if re.fullmatch(r"\d{1,9}", piece) else -1
-    return piece if isinstance(piece, int) and 0 <= piece < len(items) else None
+    return [piece] if isinstance(piece, int) and 0 <= piece < len(items) else []
 
 
 def _may_vary(key: str | int, value: Any) -> bool:
@@ -295,7 +299,7 @@ def _all_paths(scene: Scene, data: dict[str, Any]) -> Iterator[str]:
     """Every number of a scene as a path, by names where there are any."""
     for case in _cases(scene):
         yield f"factors.{key_of(case)}"
-    for head in ("supports", "loads", "beam", "foundation", "sections", "trains", "combinations"):
+    for head in HEADS:
         yield from _paths_in(head, data[head], head in NAMES)
 
 

@@ -104,11 +104,12 @@ class PreparedCases(OnOneBeam):
                 raise SceneError("analysis.follow", "the beam may lose its hold at any share of the loads")
             self._before = shares_before(scene)
         self._sides = beam.sides
-        x = self._solver.scene.positions(self._solver.scene.supports)
+        supports = self._solver.scene.supports
+        x = self._solver.scene.positions(supports)
         self._nodes = np.abs(beam.node_x - x[:, None]).argmin(axis=1)
         # Reactions and openings then follow from what is known of the nodes
         self._is_simple = not scene["foundation"] and all(
-            one["law"] is None and one["direction"] == "normal" and one["stiffness"] > 0.0 for one in scene["supports"]
+            one.law is None and one.direction == "normal" and one.stiffness > 0.0 for one in supports
         )
         done = ("input", ERRORS, *(("reaction", "opening") if self._is_simple else ()))
         self._rest = [name for name in job.want if name not in done and "@" not in name]

@@ -12,6 +12,7 @@ from ..base.errors import EngineError, SceneError
 from ..results.result import Result
 from ..results.stepping import solve
 from ..results.views.extreme import KINDS
+from ..scene.names import labels
 from ..scene.structs import Scene
 from .load_steps import at_once
 from .paths import with_values
@@ -210,10 +211,12 @@ class SceneCases:
     def _keep_at_supports(
         self, name: str, scene: Scene, of_kinds: tuple[np.ndarray, ...], k: int, numbers: dict[str, np.ndarray]
     ) -> None:
-        """Keep the values at every support."""
+        """Keep the values at every support; a hinge whose slack a row sets to 0 is none."""
+        there = labels(scene.supports)
         for end, values in zip(self._ends, of_kinds, strict=True):
-            for one, value in zip(self._supports, values, strict=True):
-                numbers[f"{name}.{one}{end}"][k] = value + 0.0  # there is one zero
+            for one, value in zip(there, values, strict=True):
+                if f"{name}.{one}{end}" in numbers:
+                    numbers[f"{name}.{one}{end}"][k] = value + 0.0  # there is one zero
 
 
 def _limit_factor(result: Result) -> float:

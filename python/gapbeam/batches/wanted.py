@@ -41,13 +41,15 @@ def known_results(scene: Scene, beam: Beam) -> tuple[str, ...]:
     return ("input", *AT_SUPPORTS, *beam.fields, ERRORS, LIMIT)
 
 
-def job_of(scene: Scene, beam: Beam, columns: Sequence[str], want: tuple[str, ...] | None) -> Job:
+def job_of(written: Scene, scene: Scene, beam: Beam, columns: Sequence[str], want: tuple[str, ...] | None) -> Job:
     """Make what is done with every row of a table.
 
     Parameters
     ----------
+    written : Scene
+        From `as_written`.
     scene : Scene
-        Checked.
+        The same, checked.
     beam : Beam
         Its beam.
     columns : sequence of str
@@ -64,12 +66,12 @@ def job_of(scene: Scene, beam: Beam, columns: Sequence[str], want: tuple[str, ..
     SceneError
         A column is no key path, or something is wanted that there is not.
     """
-    data = scene_data(scene)
+    data = scene_data(written)
     wanted = check_wanted(want, known_results(scene, beam), WANTED, float(beam.node_x[-1]))
     is_followed = scene.analysis.follow == "events" or any(support.law is not None for support in scene.supports)
     if LIMIT in wanted and not is_followed:
         raise SceneError("want", f'{LIMIT} is found where the load is followed; set analysis.follow = "events" in the scene')
-    return Job(data, find_paths(scene, columns), wanted, tuple(labels(scene.supports)))
+    return Job(data, find_paths(written, columns), wanted, tuple(labels(scene.supports)))
 
 
 def check_wanted(

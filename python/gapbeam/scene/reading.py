@@ -151,8 +151,24 @@ def _prepared(scene: Scene) -> Beam:
             raise refusal(scene, *refused.codes) from None
 
 
-def _structured(source: Scene | Mapping[str, Any]) -> Scene:
-    """A scene whose keys and types are right, and which asks for nothing that this version has not."""
+def as_written(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
+    """Read a scene of which only keys and types are checked, with rotations where they were written.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        As for `read_scene`, in whose scenes restraints and hinges that are more than a stiffness are supports of their own.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    SceneError
+        A key, type or name is wrong.
+    """
+    source = _opened(source)
     if isinstance(source, Written):
         source = dict(source)
     if not isinstance(source, Scene | Mapping):
@@ -168,9 +184,16 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
         setattr(scene.foundation[i], key, array)
     check_names(scene)
     with names_in_errors(scene):
+        _settle_foundations(scene)
+    return scene
+
+
+def _structured(source: Scene | Mapping[str, Any]) -> Scene:
+    """A scene whose keys and types are right, and which asks for nothing that this version has not."""
+    scene = as_written(source)
+    with names_in_errors(scene):
         _check_laws(scene)
         spread_rotations(scene)
-        _settle_foundations(scene)
         _check_foundations(scene)
     check_trains(scene)
     check_limits(scene.limits, scene.beam.width, bool(len(scene.foundation)))
