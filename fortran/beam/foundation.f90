@@ -204,6 +204,16 @@ contains
         link%s7 = link%p1*link%gab + link%pa*link%gbb
         link%s8 = link%gaa*link%p1**2 + link%pa*(2*link%p1*link%gab + link%pa*link%gbb)
         link%grounded = .true.
+        if (any(abs([a%dg, a%dh, b%dg, b%dh]) > 0.0_wp)) return
+        ! Without ground nothing resists ends that move alike, not even by rounding
+        link%gaa = -link%gab
+        link%gbb = -link%gab
+        link%dg = 0.0_wp
+        link%dh = 0.0_wp
+        link%s4 = 0.0_wp
+        link%s6 = 0.0_wp
+        link%s7 = 0.0_wp
+        link%s8 = 0.0_wp
     end subroutine link_of_halves
 
     !> Rotations and shears of the ends of a stretch that its loads make where deflections and moments are zero there

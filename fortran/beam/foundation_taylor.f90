@@ -68,6 +68,8 @@ contains
         found(:, 4) = t(:, 4)/stretched_shear(stretch)
         found(:, 2) = t(:, 2) - stretch%tension*found(:, 4)
         found(4, :) = stretched_shear(stretch)*found(4, :) + tension_at(stretch, 1.0_wp)*found(2, :)
+        ! Without ground deflections make no force, and the transverse force is that of the loads, not even by rounding another
+        if (.not. any(abs(t(2:4, 1)) > 0.0_wp)) found(4, :4) = [0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
     end function transfer_of_forces
 
     !> The same from what the right end gets of the left one

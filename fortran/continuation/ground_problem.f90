@@ -116,11 +116,33 @@ contains
             return
         end if
         problem%path%last = point%at
-        problem%path%beyond = beyond
         problem%path%at_limit = .true.
         ended = .true.
+        problem%path%beyond = beyond
         call problem%find(beyond, point, error)
+        if (allocated(error)) return
+        if (allocated(point%trouble)) call go_beyond(problem, beyond, point%trouble, error)
     end subroutine go_to_limit
+
+    !> Find a factor just above one at which there is no equilibrium for sure, and how the beam moves there
+    subroutine go_beyond(problem, from, trouble, error)
+        class(ground_problem_type), intent(inout) :: problem
+        real(wp), intent(in) :: from
+        !> What keeps a state there from being found
+        type(error_type), intent(in) :: trouble
+        !> As for find, or that
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: point
+        integer :: power
+
+        do power = -50, -9, 4
+            problem%path%beyond = from*(1 + 2.0_wp**power)
+            call problem%find(problem%path%beyond, point, error)
+            if (allocated(error)) return
+            if (.not. point%stands .and. .not. allocated(point%trouble)) return
+        end do
+        allocate (error, source=trouble)
+    end subroutine go_beyond
 
     !> Nearer to where the loads begin to do work along the motion at the upper of two factors
     subroutine approach_by_work(problem, below, above, error)
@@ -171,14 +193,13 @@ contains
         end select
     end function factor_without_work
 
-    !> End the path, and find a factor just above at which there is no equilibrium for sure, and how the beam moves there
+    !> End the path, and find how the beam moves just above
     subroutine take_end(problem, below, above, goes_on, error)
         class(ground_problem_type), intent(inout) :: problem
         class(point_type), intent(in) :: below, above
         logical, intent(out) :: goes_on
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: point
-        integer :: power
 
         goes_on = .false.
         associate (path => problem%path)
@@ -191,14 +212,8 @@ contains
                 if (problem%levels_off .or. problem%state%status == gapbeam_buckles) path%beyond = above%at
                 return
             end if
-            do power = -50, -9, 4
-                path%beyond = path%last*(1 + 2.0_wp**power)
-                call problem%find(path%beyond, point, error)
-                if (allocated(error)) return
-                if (.not. point%stands .and. .not. allocated(point%trouble)) return
-            end do
         end associate
-        error = above%trouble
+        call go_beyond(problem, below%at, above%trouble, error)
     end subroutine take_end
 
 end module gapbeam_ground_problem

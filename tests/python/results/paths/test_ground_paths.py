@@ -126,6 +126,20 @@ def test_a_beam_tips_where_its_loads_begin_to_do_work():
     assert result.path.segments[-1].stop == pytest.approx(4.0 * 1.5**2 / 2 / 9.0, rel=1e-13)
 
 
+def test_a_beam_tips_off_ground_whose_curve_levels_off():
+    """Where it does, no state can be settled beside rounding; that was an answer without a status."""
+    law = {"type": "hyperbolic", "stiffness": [0.0, 5020.0], "limit": [0.0, 18.8]}
+    ground = {"side": "below", "from": 0.5, "to": 1.5, "gap": 0.00133, "law": law}
+    loads = [scenes.force(1.875, -6.3), scenes.uniform(0.182, case="dead")]
+    supports = [{"x": 2.625, "stiffness": 1880.0}]
+    result = gapbeam.solve(on_ground([4.25], [ground], loads, supports, EI=379.0, analysis={"follow": "events"}))
+    assert result.status == "limit-load"
+    weight, lift = 0.182 * 4.25 * (2.625 - 4.25 / 2), 6.3 * (2.625 - 1.875)
+    assert result.path.segments[-1].stop == pytest.approx(weight / lift, rel=1e-5)
+    assert result.path.segments[-1].stop < weight / lift
+    assert "the beam tips about the support at x = 2.625" in result.reason
+
+
 def smaller(made, share):
     """A scene with a share of all loads, gaps and settlements: everything is that share of it, at the same load factors."""
     new = copy.deepcopy(made)

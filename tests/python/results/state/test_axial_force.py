@@ -310,6 +310,23 @@ def test_a_thread_that_tapers_is_refused():
         gapbeam.solve(beam(1e10, loads=[uniform(1.0)], sections=taper))
 
 
+@pytest.mark.parametrize("power", [1, 2, 3, 4])
+@pytest.mark.parametrize("GA", [1.05, 50.0, float("inf")])
+def test_nothing_holds_a_tapered_beam_that_flies_up(power, GA):
+    """Rounding did: it was solved, with deflections of 1e35."""
+    taper = {"from": 0.5, "to": 1.25, "EI": {"from": 1.17, "to": 0.0589, "power": power}}
+    data = {
+        "beam": {"spans": [1.25], "EI": 0.00334, "N": 0.0349, "GA": GA}, "supports": [{"node": 1, "side": "below"}],
+        "sections": [{"from": 0.25, "to": 1.125, "EI": 0.0134, "N": 0.047}, taper],
+        "loads": [uniform(-92.0, **{"from": 0.375, "to": 0.625}), uniform(7.22), {"type": "moment", "x": 0.75, "M": 4.15}],
+    }  # fmt: skip
+    result = gapbeam.solve(data)
+    assert result.status == "no-equilibrium"
+    assert "the beam moves up as a whole" in result.reason
+    data["loads"][0]["q"] = -7.22 * 1.25 / 0.25  # in balance
+    assert gapbeam.solve(data).steps[-1].indifferent
+
+
 def test_cases_of_a_tapered_beam_are_those_of_single_scenes():
     made = generated.random_scene(7, compression=0.6, tapers=True)
     for load in made["loads"]:
