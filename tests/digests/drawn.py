@@ -16,9 +16,15 @@ def read(path):
     return tomllib.loads(path.read_text()) if path.suffix == ".toml" else json.loads(path.read_text())
 
 
-def scenes_of_files():
-    """Name and scene of every example and of every fault that was mended."""
-    for folder in ("examples", "tests/faults"):
+def scenes_of_files(folders):
+    """Name and scene of every example and of every fault that was mended.
+
+    Parameters
+    ----------
+    folders : sequence of str
+        Where they are.
+    """
+    for folder in folders:
         for path in sorted((TOP / folder).glob("*.*")):
             if path.suffix in (".toml", ".json"):
                 yield path.stem, read(path)
@@ -36,7 +42,7 @@ def scenes_of_families(count):
             yield f"{name} {seed}", family.draw(seed)[1]
 
 
-def write_scenes(count, path):
+def write_scenes(count, path, folders=("examples", "tests/faults")):
     """Write all scenes, so that both commits solve the same ones.
 
     Parameters
@@ -44,12 +50,14 @@ def write_scenes(count, path):
     count : int
         Of those that are drawn.
     path : Path
+    folders : sequence of str, optional
+        Of those that have files.
 
     Returns
     -------
     int
         How many there are.
     """
-    scenes = [*scenes_of_files(), *scenes_of_families(count)]
+    scenes = [*scenes_of_files(folders), *scenes_of_families(count)]
     path.write_text("".join(json.dumps(pair) + "\n" for pair in scenes))
     return len(scenes)

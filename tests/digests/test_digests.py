@@ -42,7 +42,7 @@ def test_numbers_may_be_compared_to_a_share_of_the_largest():
 
 def test_two_processes_give_the_same_digests(tmp_path, installed):
     scenes = tmp_path / "scenes"
-    number = write_scenes(COUNT, scenes)
+    number = write_scenes(COUNT, scenes, ["examples"])  # faults are solved by tests of their own
     names = [json.loads(line)[0] for line in scenes.read_text().splitlines()]
     assert len(set(names)) == number >= COUNT
     assert {name.split()[0] for name in names} >= set(FAMILIES)
