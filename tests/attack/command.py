@@ -18,13 +18,15 @@ from . import (
     memory,
     models,
     mutants,
+    roads,
     signs,
     trains,
 )  # fmt: skip
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, doubled, ground, trains, combinations, batches, axial_force, mutants, models, memory,
+    enumeration, events, signs, hinges, laws, doubled, ground, trains, combinations, batches, roads, axial_force,
+    mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 

@@ -27,7 +27,7 @@ from attack.workers import Ended, judge_all
 TOP = Path(__file__).resolve().parents[2]
 SMALL = {
     "events": 60, "signs": 150, "hinges": 60, "mutants": 60, "memory": 15,
-    "laws": 60, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40,
+    "laws": 60, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40, "roads": 36,
 }  # fmt: skip
 
 

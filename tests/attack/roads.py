@@ -1,0 +1,233 @@
+"""Every road to one state of a beam beside the others: steps, events, combinations, cases, functions, files."""
+
+import random
+import tomllib
+
+import gapbeam
+import numpy as np
+from scenes import (
+    axial_force,
+    curved,
+    foundation,
+    law,
+    links_along,
+    moving,
+    plain,
+    rigid_ground,
+    tabled,
+    tapered,
+)
+from scenes.axial_springs import bedded_bar
+
+from .family import Family, Verdict
+
+PROMISE = (
+    "A scene of any kind has the reactions, fields and extremes that it has as a combination, an envelope over it, a prepared case "
+    "alone and among others, a row of a function, in several load steps, from event to event, and written to a file and read again"
+)
+NEAR = 1e-9
+PLACES = np.array([0.1337, 0.3141, 0.5, 0.6517, 0.8779])
+"""Shares of the beam."""
+
+
+def _plain(made):
+    return {**made, "analysis": {}}
+
+
+def _first_order(made):
+    return {**made, "analysis": {"first_order": True}}
+
+
+def _rack(seed):
+    beam, supports, loads, _ = links_along.random_rack(random.Random(seed))
+    return {"beam": {"EI": 1e3, **beam}, "supports": supports, "loads": loads}
+
+
+def _joints(seed):
+    made = plain.random_scene(random.Random(seed), held=True)
+    tapered.with_joints(random.Random(seed), made)
+    return _plain(made)
+
+
+KINDS = {
+    "plain": lambda seed: _plain(plain.random_scene(random.Random(seed))),
+    "foundation": lambda seed: _plain(foundation.random_scene(seed)),
+    "curved": lambda seed: _plain(curved.random_curved_scene(seed)),
+    "tables": lambda seed: _plain(tabled.random_tabled_scene(seed)),
+    "moving": lambda seed: _plain(moving.random_moving_scene(seed)),
+    "tension": lambda seed: _plain(axial_force.random_scene(seed)),
+    "compression": lambda seed: _plain(axial_force.random_scene(seed, compression=0.5)),
+    "tension on ground": lambda seed: _plain(axial_force.random_scene(seed, ground=True)),
+    "tapers": lambda seed: _plain(axial_force.random_scene(seed, tapers=True, u=(1e-6, 1e2))),
+    "joints": _joints,
+    "rigid ground": lambda seed: _plain(rigid_ground.rigid_scene(seed)),
+    "rack": _rack,
+    "pipe": lambda seed: _first_order(links_along.random_pipe(random.Random(seed))),
+    "pile": lambda seed: _first_order(bedded_bar(seed)),
+    "pile on ground": lambda seed: {**_first_order(bedded_bar(seed)), "foundation": [{"k": 1e4}]},
+    **{family: lambda seed, family=family: _plain(law.law_scene(seed, family)) for family in law.FAMILIES},
+}
+
+
+def draw_scene(seed):
+    """Kind and scene of a seed."""
+    kind = list(KINDS)[seed % len(KINDS)]
+    return kind, KINDS[kind](seed)
+
+
+class State:
+    """What a solved scene says, and what else differs from it.
+
+    Parameters
+    ----------
+    result : Result
+        Solved.
+    wrong : list of str
+        Receives what differs.
+    """
+
+    def __init__(self, result, wrong):
+        self.step, self.extremes, self.wrong = result.steps[-1], result.extremes, wrong
+        self.x = PLACES * float(result.scene.span_ends()[-1])
+        self.right, self.left = (result.at(self.x, side=side).columns() for side in ("right", "left"))
+        bounds = self.step.error_bounds
+        self.sizes, self.slack = {}, {}
+        for name in self.step._beam.fields:
+            self.sizes[name] = max(abs(self.extremes[name][way].value) for way in ("max", "min"))
+            self.slack[name] = NEAR * self.sizes[name] + 3 * (bounds.get(name) or 0.0) + (1e-12 if name == "pressure" else 0.0)
+        self.force = max(np.abs(self.step.reaction).max(initial=0.0), self.sizes["shear"])
+        self.slack["reaction"] = NEAR * self.force + 3 * (bounds["reaction"] or 0.0)
+
+    def compare(self, road, name, found, own):
+        if self.step.indifferent and name in ("deflection", "rotation"):
+            return
+        off = np.abs(np.asarray(found, dtype=float) - np.asarray(own, dtype=float)).max(initial=0.0)
+        if not off <= self.slack[name]:
+            self.wrong.append(f"{road}: {name} differs by {off:.3g} of {self.sizes.get(name, self.force):.3g}")
+
+    def reactions(self, road, found, which=slice(None)):
+        """Reactions of some supports."""
+        self.compare(road, "reaction", found, self.step.reaction[which])
+
+    def fields(self, road, found, extremes):
+        """Fields at the places, right of where they jump, and extremes, of those that are given."""
+        for name in self.sizes:
+            if name in found:
+                self.compare(road, name, found[name], self.right[name])
+            if name in extremes:
+                for way in ("max", "min"):
+                    self.compare(f"{road}, {way}", name, extremes[name][way].value, self.extremes[name][way].value)
+
+    def envelope(self, found):
+        """An envelope of this state alone."""
+        curves = found.envelope(x=self.x)
+        for name in self.sizes:
+            if name in curves.fields.largest:
+                both = self.left[name], self.right[name]
+                self.compare("envelope", name, curves.fields.largest[name], np.maximum(*both))
+                self.compare("envelope", name, curves.fields.smallest[name], np.minimum(*both))
+        self.fields("envelope", {}, curves.extremes)
+        self.reactions("envelope", [one["reaction"]["max"].value for one in curves.supports])
+
+    def result(self, road, found):
+        """Another result."""
+        if said(found) != "solved":
+            self.wrong.append(f"{road}: {said(found)}, {getattr(found, 'reason', found)}")
+            return
+        self.reactions(road, found.steps[-1].reaction)
+        self.fields(road, found.at(self.x).columns(), found.extremes)
+
+
+def solved(scene):
+    """Solve a scene; an error is an answer."""
+    try:
+        return gapbeam.solve(scene)
+    except gapbeam.GapbeamError as error:
+        return error
+
+
+def said(result):
+    """The status of a result, or the kind of an error."""
+    return type(result).__name__ if isinstance(result, Exception) else result.status
+
+
+def judge(made, seed=0):
+    """Go all roads.
+
+    Parameters
+    ----------
+    made : dict
+    seed : int
+        Not used: the roads are always the same.
+
+    Returns
+    -------
+    Verdict
+    """
+    alone = solved(made)
+    verdict = Verdict(said(alone))
+    if isinstance(alone, gapbeam.SceneError):
+        return verdict
+    state = State(alone, verdict.wrong) if verdict.outcome == "solved" else None
+
+    def reached(road, outcome):
+        """Whether a road leads to a state where there is one."""
+        if (outcome == "solved") != (state is not None):
+            verdict.wrong.append(f"{road}: {outcome}, alone {verdict.outcome}")
+        return state is not None and outcome == "solved"
+
+    _as_combination(made, state, reached)
+    _as_case(made, state, reached)
+    _as_row(made, state, reached)
+    again = solved(tomllib.loads(gapbeam.read_scene(made).to_toml()))
+    if reached("written to a file", said(again)):
+        state.result("written to a file", again)
+    for road, asked in (("steps", {"steps": 3}), ("events", {"follow": "events"})):
+        found = solved({**made, "analysis": {**made.get("analysis", {}), **asked}})
+        if state is not None and said(found) == "solved":  # on its way a beam may come to where it does not stand
+            state.result(road, found)
+    return verdict
+
+
+def _as_combination(made, state, reached):
+    cases = dict.fromkeys(load.get("case", "live") for load in made["loads"])
+    if not cases:
+        return
+    found = solved({**made, "combinations": [{"name": "all", "factors": dict.fromkeys(cases, 1.0)}]})
+    one = found if isinstance(found, Exception) else found.combinations["all"]
+    if reached("combination", said(one)):
+        state.result("combination", one)
+        state.envelope(found)
+
+
+def _as_case(made, state, reached):
+    try:
+        prepared = gapbeam.prepare(made)
+    except gapbeam.EngineError:
+        reached("prepared", "EngineError")
+        return
+    one, many = prepared.solve(), prepared.solve(np.ones((9, len(made["loads"]))))
+    if reached("case", "solved" if one.status == 0 else f"status {one.status}"):
+        state.reactions("case", one.reaction, prepared.supports)
+        state.fields("case", one.at(state.x).columns(), one.extremes)
+        state.result("result of a case", prepared.result())
+    if reached("nine cases", "solved" if not many.status.any() else f"status {many.status}"):
+        for row in many.reaction:
+            state.reactions("nine cases", row, prepared.supports)
+
+
+def _as_row(made, state, reached):
+    if not made["loads"]:
+        return
+    at = float(sum(made["beam"]["spans"])) * PLACES[1]
+    names = ["moment"] if state is None else list(state.sizes)
+    outputs = [*(f"{name}@{at:.17g}" for name in names), *(f"{name}.max" for name in names)]
+    function = gapbeam.function(made, [f'factors."{made["loads"][0].get("case", "live")}"'], outputs)
+    values = function([1.0])
+    if reached("function", "solved" if np.isfinite(values).all() else str(function.evaluate([1.0]).status)):
+        for k, name in enumerate(names):
+            state.compare("function", name, values[k], state.right[name][1])
+            state.compare("function, max", name, values[len(names) + k], state.extremes[name]["max"].value)
+
+
+FAMILY = Family("roads", PROMISE, draw_scene, judge, share=0.05)
