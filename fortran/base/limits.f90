@@ -32,7 +32,8 @@ module gapbeam_limits
     !> continuation/smooth_branches
     integer, parameter :: most_branch_points = 5000
     !> Segments after which a path through a history is cut off: without a history there are finitely many, with one a beam may
-    !> flip to and fro without end. Read by face/api_history and, through the engine, by gapbeam.results.paths
+    !> flip to and fro without end. Read by continuation/full_load, face/api_history and, through the engine, by
+    !> gapbeam.results.paths
     integer, parameter :: most_path_segments = 20000
     !> So many more for every breakpoint of a law and every load factor that is gone to: each may be passed on the way there. Read
     !> by continuation/smooth_path

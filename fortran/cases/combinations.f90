@@ -8,7 +8,7 @@ module gapbeam_combinations
     use gapbeam_assemble, only: assemble_model
     use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state
+    use gapbeam_full_load, only: solve_full_load
     use gapbeam_support_values, only: support_values
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces, make_starts
     use gapbeam_quantities, only: quantity_count
@@ -138,13 +138,13 @@ contains
         logical, intent(in) :: closed(:)
         !> Solved, or with the status gapbeam_no_equilibrium
         type(state_type), intent(out) :: state
-        !> As for solve_state
+        !> As for solve_full_load
         type(error_type), allocatable, intent(out) :: error
 
         call new_state(assembled, state, error)
         if (allocated(error)) return
         state%closed(:) = closed
-        call solve_state(assembled, 1.0_wp, rule, state, error)
+        call solve_full_load(assembled, rule, state, error)
     end subroutine solve_combination
 
     !> What a solved combination says, in the user's units
@@ -174,7 +174,7 @@ contains
         if (.not. allocated(state%ground)) call make_starts(assembled, state, error)
         if (allocated(error)) return
         call fields_in_pieces(assembled, 1.0_wp, state%starts, state%displacement, state%tension, [(i, i=1, quantity_count)], &
-                              piece, distance, fields, error, state%ground)
+                              piece, distance, fields, error, state%ground, state%along_ground)
     end subroutine values_of_combination
 
 end module gapbeam_combinations

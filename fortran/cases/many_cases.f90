@@ -1,7 +1,7 @@
 !> Many cases of a beam: each in the widest way that holds it, what is doubtful there in the next one.
 !> The ways: eight segments of a long beam side by side (gapbeam_segment_cases), eight cases side by side (gapbeam_lane_cases), one
-!> by one (gapbeam_single_cases). All give the same digits. Beams that are solved stretch by stretch have a way of their own
-!> (gapbeam_stretch_cases)
+!> by one (gapbeam_single_cases). All give the same digits. Beams that are solved stretch by stretch, on curves or on a path have a
+!> way of their own (gapbeam_stretch_cases)
 module gapbeam_many_cases
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
@@ -9,6 +9,7 @@ module gapbeam_many_cases
     use gapbeam_search, only: rule_block
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
+    use gapbeam_full_load, only: takes_more_than_a_search
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes
     use gapbeam_lane_spans, only: fits_spans
@@ -23,7 +24,7 @@ module gapbeam_many_cases
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: case_room_type
-        logical :: made = .false., fits = .false., fits_with_own_spans = .false., is_long = .false.
+        logical :: made = .false., fits = .false., fits_with_own_spans = .false., is_long = .false., alone = .false.
         type(lane_room_type) :: lanes, lanes_with_own_spans
         type(segments_type) :: segments
         type(single_room_type) :: single
@@ -51,12 +52,14 @@ contains
         solutions%status(:) = gapbeam_no_memory
         if (.not. room%made) then
             if (.not. enough_memory(for_solving, size(assembled%beam%links), size(assembled%beam%supports), 0)) return
+            room%alone = allocated(assembled%layers)
+            if (.not. room%alone) room%alone = takes_more_than_a_search(assembled)
             room%is_long = fits_segments(assembled)
             room%fits = fits_lanes(assembled)
             room%fits_with_own_spans = room%fits .and. fits_spans(assembled, loads)
             room%made = .true.
         end if
-        if (allocated(assembled%layers)) then
+        if (room%alone) then
             call solve_stretch_cases(assembled, numbers, room%stretches, solutions)
             if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
             return

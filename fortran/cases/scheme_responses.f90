@@ -52,7 +52,8 @@ contains
         type(error_type), allocatable :: error
 
         it_is = allocated(assembled%layers) .and. .not. has_other_supports(assembled%beam) &
-            .and. .not. (allocated(assembled%given_settlement) .or. assembled%model%stretching)
+            .and. .not. (allocated(assembled%given_settlement) .or. assembled%model%stretching &
+                       .or. allocated(assembled%axial%limit))
         if (.not. it_is) return
         associate (layers => assembled%layers)
             it_is = all(layers%side == both) .and. all(branches_of_law(layers) == 0) .and. .not. any(layers%rigid) &

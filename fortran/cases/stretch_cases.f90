@@ -1,4 +1,4 @@
-!> Cases of a beam that is solved stretch by stretch: on ground, or with an axial force that bending feels.
+!> Cases of a beam that is solved stretch by stretch, on ground or with an axial force that bending feels; or on curves or a path.
 !> Each is solved alone. Where the beam is linear in its loads as long as no support changes, cases in a scheme that comes again and
 !> again are sums of responses.
 module gapbeam_stretch_cases

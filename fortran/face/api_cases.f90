@@ -10,17 +10,16 @@ module gapbeam_api_cases
     use gapbeam_words, only: shown, whole
     use gapbeam_input_error, only: named, of_supports, of_loads
     use gapbeam_scene, only: load_type, gapbeam_axial, gapbeam_both, gapbeam_movement
-    use gapbeam_assemble_laws, only: laws_depend_on_path
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
-    use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_bilateral
+    use gapbeam_pieces, only: acting_type, acts_in, gapbeam_open, gapbeam_bilateral
+    use gapbeam_full_load, only: takes_more_than_a_search
     use gapbeam_cases, only: split_loads
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: solve_in_room => solve_cases
     use gapbeam_query, only: node_places
-    use gapbeam_api_objects, only: prepared_type, options_type, cases_type, require_beam, require_no_path, &
-        require_no_ground_along, require_no_curves, require_size, check_call
+    use gapbeam_api_objects, only: prepared_type, options_type, cases_type, require_beam, require_size, check_call
     implicit none
     private
     public :: cases_type, prepare_cases, solve_cases, get_nodes
@@ -29,7 +28,7 @@ contains
 
     !> Make ready for many cases of a beam: what every load does alone is worked out once, where it adds up
     subroutine prepare_cases(beam, cases, error)
-        !> Prepared, without laws that make the state depend on the loading history. Loads may move supports that have no law
+        !> Prepared. Where a state depends on the loading history, dead loads are put on first in every case, then the others
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases
@@ -39,11 +38,6 @@ contains
         integer :: n, m, stat
 
         call require_beam(beam, error)
-        if (allocated(error)) return
-        ! A case has the movements of supports that its factors make, on whatever path
-        if (laws_depend_on_path(beam%lowered)) call require_no_path(beam, error)
-        if (.not. allocated(error)) call require_no_ground_along(beam, error)
-        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (allocated(error)) return
         associate (lowered => beam%lowered)
             n = size(lowered%node_point)
@@ -59,6 +53,8 @@ contains
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)
             if (allocated(error)) return
+            cases%alone = allocated(lowered%layers)
+            if (.not. cases%alone) cases%alone = takes_more_than_a_search(lowered)
             cases%fingerprint = lowered%fingerprint
             cases%nodes = n
             cases%supports = m
@@ -99,7 +95,7 @@ contains
         type(case_solutions_type) :: solutions
         integer, allocatable, target :: codes(:)
         integer :: supports, nodes, first, last, n, i, stat
-        logical :: given, alone
+        logical :: given
 
         call require_beam(beam, error)
         if (allocated(error)) return
@@ -110,10 +106,8 @@ contains
         if (.not. allocated(error)) call check_factors(factors, size(beam%lowered%model%loads), size(status), error)
         supports = size(beam%lowered%model%supports)
         nodes = size(beam%lowered%node_point)
-        ! Beams in stretches are assembled for each case, their loads with them
-        alone = allocated(beam%lowered%layers)
         given = present(settlement) .or. present(gap) .or. present(stiffness) &
-            .or. (allocated(beam%lowered%given_settlement) .and. .not. alone)
+            .or. (allocated(beam%lowered%given_settlement) .and. .not. cases%alone)
         if (given) call require_own_supports(beam%lowered, error)
         if (present(settlement)) call check_values(beam%lowered, size(status), settlement, "settlement", error)
         if (present(gap)) call check_values(beam%lowered, size(status), gap, "gap", error)
@@ -139,7 +133,7 @@ contains
                     if (present(settlement)) values(1, :) = settlement(:, c)
                     if (present(gap)) values(2, :) = gap(:, c)
                     if (present(stiffness)) values(3, :) = stiffness(:, c)
-                    if (.not. alone) call move_supports(beam%lowered%model%loads, factors(:, c), values(1, :))
+                    if (.not. cases%alone) call move_supports(beam%lowered%model%loads, factors(:, c), values(1, :))
                 end associate
             end do
             cases%closed(:, :n) = spread(cases%start, 2, n)
@@ -363,15 +357,13 @@ contains
         integer, intent(in) :: status(:), closed(:, :)
         integer, intent(out) :: condition(:, :)
         type(acting_type) :: acting
-        integer :: i, j, k, last
+        integer :: i, k
 
         do k = 1, size(lowered%model%supports)
             associate (side => lowered%model%supports(k)%side)
-                j = lowered%beam_support(k)
-                if (j > 0) then
-                    last = last_breakpoint(lowered%beam%supports, j)
+                if (lowered%beam_support(k) > 0) then
                     do i = 1, size(status)
-                        acting = acting_piece(lowered%beam%supports(j:last), side, closed(j:last, i) /= 0)
+                        acting = acts_in(lowered, k, closed(:, i) /= 0)
                         condition(k, i) = acting%condition
                     end do
                 else

@@ -131,6 +131,8 @@ module gapbeam_api_objects
     !> What solving many cases of a beam takes, kept from call to call: opaque. It belongs to one thread at a time
     type :: cases_type
         integer :: fingerprint = 0, nodes = 0, supports = 0
+        !> Is each case another beam, assembled with its loads
+        logical :: alone = .false.
         type(case_loads_type), allocatable :: loads
         type(case_room_type) :: room
         integer, allocatable :: start(:), closed(:, :), solves(:)
@@ -180,8 +182,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(beam%lowered%axial%limit)) return
-        call fatal_error(error, gapbeam_bad_input, "ground along the beam beside trains and in many cases is not available in "// &
-                         "this version: use solve_beam for each case")
+        call fatal_error(error, gapbeam_bad_input, "ground along the beam beside trains is not available in "// &
+                         "this version: leave one of both out")
     end subroutine require_no_ground_along
 
     !> Refuse a beam whose state depends on the loading history

@@ -150,14 +150,43 @@ def test_widths_agree(library, spans):
     beam.close()
 
 
-def test_ground_along_the_beam_is_refused_in_words(library):
-    """Beside a foundation one state of it is solved by itself, many cases are not."""
-    scene = {
-        "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "supports": [{"node": 1, "direction": "axial", "stiffness": 5e4}],
-        "foundation": [{"k": 1e4}], "axial_ground": [{"stiffness": 2e4, "limit": 60.0}],
-        "loads": [{"type": "axial", "node": 0, "F": 1000.0}], "analysis": {"first_order": True},
-    }  # fmt: skip
+RACK = {
+    "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e6, "alpha": 1.2e-5},
+    "supports": [*({"node": k, "side": "below", "friction": 0.3} for k in range(3)), {"node": 0, "direction": "axial"}],
+    "loads": [{"type": "uniform", "q": 10.0, "case": "dead"}, {"type": "temperature", "dT": 60.0},
+              {"type": "force", "x": 9.0, "F": 20.0}],
+}  # fmt: skip
+PILE = {
+    "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "axial_ground": [{"stiffness": 2e4, "limit": 60.0}],
+    "supports": [{"node": 0}, {"node": 1}, {"node": 1, "direction": "axial", "stiffness": 5e4}],
+    "loads": [{"type": "axial", "node": 0, "F": 1000.0}, {"type": "force", "x": 5.0, "F": 10.0}], "analysis": {"first_order": True},
+}  # fmt: skip
+YIELDING = {"unloading": "plastic", "law": [[0.01, 5.0], [0.05, 6.0]]}
+CURVE = {"law": {"type": "tanh", "stiffness": 500.0, "limit": 8.0}}
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        RACK, PILE, PILE | {"foundation": [{"k": 1e4}]},
+        *(RACK | {"supports": [{"node": 0}, {"node": 1, **law}, {"node": 2}, {"node": 0, "direction": "axial"}]}
+          for law in (YIELDING, CURVE)),
+    ],
+    ids=["friction", "ground along", "ground along and below", "plastic", "curve"],
+)  # fmt: skip
+def test_cases_on_paths(library, scene):
+    """Beams whose state depends on the loading history, and on curves: the digits of Python."""
     beam, message = library.prepare(scene)
     assert not message
-    status, message, _ = solve_in_c(beam, np.ones((2, 1)), (None, None, None), "block")
-    assert (status, "ground along the beam beside trains and in many cases" in message) == (11, True)
+    factors = np.array([[1.0, 1.0, 1.0], [1.35, -0.5, 1.0], [1.0, 1.0, -30.0], [0.0, 1.0, 0.5]])[:, : len(scene["loads"])].copy()
+    status, message, found = solve_in_c(beam, factors, [None] * 3, "block")
+    assert (status, message) == (0, "")
+    expected = gapbeam.prepare(scene).solve(factors)
+    assert found[0].tolist() == expected.status.tolist()
+    assert 0 in expected.status
+    names, across = ("reaction", "deflection", "moment_left", "moment_right"), expected.reaction.shape[1]
+    for name, values in zip(names, [found[1][:, :across], *found[2:]], strict=True):
+        assert values.tobytes() == getattr(expected, name).tobytes(), name
+    info, in_f77 = solve_in_f77(library, scene, factors, [None] * 3, "block", found)
+    assert (info, [one.tobytes() for one in in_f77]) == (0, [one.tobytes() for one in found])
+    beam.close()

@@ -120,6 +120,8 @@ class PreparedCases(OnOneBeam):
     def seconds(self, nodes: int, states: int) -> float:
         """Tell roughly how long a case takes; arguments as of `SceneCases.seconds`."""
         steps = 1 + len(self._before)
+        if self._solver.beam.beyond_one_search is not None:
+            return super().seconds(nodes, steps)
         if self._scene["foundation"]:
             return 2e-2 * steps
         known = KNOWN if any(path.parts[0] == "beam" for path in self._paths) else {*KNOWN, ERRORS}

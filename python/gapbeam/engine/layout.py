@@ -127,6 +127,11 @@ class Layout:
         return "path" if self.depends_on_path else "curve" if self.curves else None
 
     @property
+    def is_solved_alone(self) -> bool:
+        """Whether no other case helps to solve a case: on ground, with an axial force that bending feels, on curves, on a path."""
+        return self.in_stretches or self.beyond_one_search is not None
+
+    @property
     def has_one_sided_ground(self) -> bool:
         """Whether some foundation acts one way only, or by a law."""
         return bool(self.columns.foundation_sides[:-1].any()) or len(self.columns.ground_law_foundations) > 1

@@ -53,7 +53,7 @@ class Asked(Record):
     @property
     def is_anew(self) -> bool:
         """Whether each case is another beam, with all that is asked of it: what is in contact, or the breakpoints of laws vary."""
-        return self.beam.in_stretches or (self.beam.has_laws and self.varied.supports is not None)
+        return self.beam.is_solved_alone or (self.beam.has_laws and self.varied.supports is not None)
 
     def solve(self, x: np.ndarray | None = None, side: str = "right") -> Combined:
         """Solve all cases.

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from msgspec.structs import replace
 
 from ...base.errors import EngineError, SceneError
 from ...engine.beam import Beam, RefusalError
 from ...engine.combinations import Varied
+from ...scene.combinations import times
+from ...scene.reading import beam_of
 from ...scene.refusals import refusal
 from ...scene.structs import Scene
 from ..paths.compression_check import compression_of
+from ..paths.following import follow_path
 from ..result import Result
 from ..state.schemes import starting_scheme
 from ..state.steps import LoadSteps
@@ -36,18 +40,26 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
     -------
     Result
     """
+    columns = beam.columns
     if not varied.is_nothing:
-        scene, columns = replace_numbers(scene, beam.columns, varied)
-        try:
-            beam = Beam(columns)
-        except RefusalError as refused:
-            raise refusal(scene, *refused.codes) from None
-    beam = beam.with_factors(factors)
+        scene, columns = replace_numbers(scene, columns, varied)
+    try:
+        if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
+            once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
+            scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])
+            beam = beam_of(scene)
+        else:
+            beam = (beam if varied.is_nothing else Beam(columns)).with_factors(factors)
+    except RefusalError as refused:
+        raise refusal(scene, *refused.codes) from None
     result = Result(scene, beam, rule)
-    result.steps = LoadSteps(beam, rule, starting_scheme(beam), 1)
-    fallen = result.steps.solve_all()
-    if fallen is not None:
-        result._refuse("in this load case", *fallen[1:])
+    if beam.depends_on_path:
+        follow_path(result)
+    else:
+        result.steps = LoadSteps(beam, rule, starting_scheme(beam), 1)
+        fallen = result.steps.solve_all()
+        if fallen is not None:
+            result._refuse("in this load case", *fallen[1:])
     for step in result.steps:
         result.compression = compression_of(result, step)
     return result

@@ -305,8 +305,7 @@ def prepare(source: Scene | Mapping[str, Any] | str | os.PathLike, *, rule: str 
     Raises
     ------
     SceneError
-        The scene is not valid, or has combinations or trains; or the state of a support depends on the loading history to it, or
-        its law is a curve, so that each case is more than one solve.
+        The scene is not valid, or has combinations or trains.
     """
     return Prepared(prepared_solver(source, rule))
 
@@ -335,13 +334,11 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if scene.trains:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
-    scene, movements = take_movements(scene)
+    without, movements = take_movements(scene)
     if movements is not None:
-        beam = beam_of(scene)
-    if beam.has_links_along:
-        what = "friction, ground along the beam, or axial supports that push one way or have a law"
-        raise SceneError("supports", f"cases cannot be prepared beside {what}; use gapbeam.solve for each case")
-    if beam.beyond_one_search is not None:
-        what = {"path": "its state depends on the loading history", "curve": "one of them is a curve"}[beam.beyond_one_search]
-        raise SceneError("supports", f"cases cannot be prepared with these laws, as {what}; use gapbeam.solve for each case")
+        unmoved = beam_of(without)
+        if unmoved.depends_on_path:  # supports move as the loads grow
+            movements = None
+        else:
+            scene, beam = without, unmoved
     return solver_of(scene, beam, choose_rule(scene, rule), movements)

@@ -255,8 +255,8 @@ class WithLaws(CaseSolver):
         return tuple(np.concatenate(parts) for parts in zip(*sides, strict=True))
 
 
-class InStretches(WithLaws):
-    """Cases of a beam on the ground or with an axial force that bending feels, most of them another beam each."""
+class SolvedAlone(WithLaws):
+    """Cases of a beam on ground, with an axial force that bending feels, on curves or on a path, most of them another beam each."""
 
     def _find(
         self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
@@ -266,6 +266,8 @@ class InStretches(WithLaws):
         return self._find_anew(factors, closed, varied, want)
 
     def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
+        if self.beam.has_links_along and not (self.beam.has_laws or self.beam.is_on_axial_ground):
+            return super()._buckling(asked, solved)  # bars are straight between the supports, whose stiffness is their own
         return np.array([bool(one) and self._buckles(asked, k) for k, one in enumerate(solved)], dtype=bool)
 
     def _buckles(self, asked: Asked, k: int) -> bool:
@@ -283,5 +285,5 @@ def solver_of(scene: Scene, beam: Beam, rule: str, movements: Movements | None =
     scene, beam, rule, movements
         As for `CaseSolver`.
     """
-    kind = InStretches if beam.in_stretches else WithLaws if beam.has_laws else CaseSolver
+    kind = SolvedAlone if beam.is_solved_alone else WithLaws if beam.has_laws else CaseSolver
     return kind(scene, beam, rule, movements)

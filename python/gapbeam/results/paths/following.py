@@ -75,7 +75,7 @@ def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
     if result._beam.in_stretches:
         _refuse_on_ground(result.scene, result._beam)
     if result.depends_on_path:
-        return _on_path
+        return follow_path
     if result.scene.analysis.follow == "steps":
         return _by_steps
     return partial(_by_events, follow_on_ground if result._beam.in_stretches else follow)
@@ -126,8 +126,23 @@ def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
         raise SceneError("analysis.history", f"a beam with {there} unloads along its path; leave it out")
 
 
-def _on_path(result: Result, _: np.ndarray) -> None:
-    """Solve a scene whose state depends on the loading history."""
+def follow_path(result: Result, closed: np.ndarray | None = None) -> None:
+    """Solve a scene whose state depends on the loading history.
+
+    Parameters
+    ----------
+    result : Result
+        Of its scene, without states yet.
+    closed : numpy.ndarray of int, optional
+        Nothing depends on it.
+
+    Raises
+    ------
+    SceneError
+        What is asked for cannot be had for this beam.
+    EngineError
+        No unique answer exists.
+    """
     analysis = result.scene.analysis
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":

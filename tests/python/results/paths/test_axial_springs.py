@@ -141,6 +141,20 @@ def test_a_pile_in_ground_across_it_too(asked):
     assert both.steps[-1].reaction[0] == between.steps[-1].reaction[0]
 
 
+def test_envelopes_have_the_forces_between_nodes():
+    """They had the force of the left end along the whole pile."""
+    made = pile(foundation=[{"k": 1e4}], loads=[{"type": "axial", "node": 0, "F": 1000.0, "case": "push"}])
+    factors = {"half": 0.5, "full": 1.0}
+    made["combinations"] = [{"name": name, "factors": {"push": one}} for name, one in factors.items()]
+    result, x = gapbeam.solve(made), [1.0, 5.0, 12.5, 19.0]
+    found = result.envelope(x=x).fields
+    for name in ("axial_force", "axial_displacement"):
+        both = [getattr(result.combinations[one].at(x), name) for one in factors]
+        assert found.largest[name] == pytest.approx(np.maximum(*both), rel=1e-13)
+        assert found.smallest[name] == pytest.approx(np.minimum(*both), rel=1e-13)
+    assert len(set(found.smallest["axial_force"].tolist())) == 4
+
+
 def test_what_a_pile_in_ground_does_not_bear():
     """1200 along its shaft, and no tip."""
     made = pile(foundation=[{"k": 1e4}], supports=[], loads=[{"type": "axial", "node": 0, "F": 1199.0}])

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from oracle.axial_chain import Chain, Link, LooseError
 from scenes import at, force
+from scenes.links_along import along, own_weight, random_rack, warm
 
 EA, ALPHA = 1000.0, 1e-3
 FOLLOW = {"follow": "events"}
@@ -18,18 +19,6 @@ FOLLOW = {"follow": "events"}
 def solve(beam, supports, loads, history):
     beam = {"EI": 1e3, "EA": EA, "alpha": ALPHA} | beam
     return gapbeam.solve({"beam": beam, "supports": supports, "loads": loads, "analysis": FOLLOW | {"history": history}})
-
-
-def along(node, **keys):
-    return at(node, direction="axial", **keys)
-
-
-def warm(dT, **keys):
-    return {"type": "temperature", "dT": dT, **keys}
-
-
-def own_weight(q=8.0):
-    return {"type": "uniform", "q": q, "case": "dead"}
 
 
 def test_a_stop_with_a_gap():
@@ -195,17 +184,17 @@ def test_what_is_not_there_yet_is_refused_by_name(keys, message):
         gapbeam.solve(one | {"loads": [own_weight(), warm(5.0)]} | keys)
 
 
-def test_cases_are_not_prepared_and_combinations_start_anew():
-    """Each combination puts the dead loads on, then goes once to its factors."""
+def test_combinations_start_anew():
+    """Each combination puts the dead loads on, then goes once to its factors; so do cases."""
     supports = [at(0), at(1, friction=0.3), along(0)]
     one = {"beam": {"spans": [4.0], "EI": 1e3, "EA": EA, "alpha": ALPHA}, "supports": supports}
     loads = [own_weight(), warm(50.0, case="heat")]
-    with pytest.raises(gapbeam.SceneError, match="cases cannot be prepared beside friction"):
-        gapbeam.prepare(one | {"loads": loads})
     factors = {"hot": {"dead": 1.0, "heat": 1.0}, "cool": {"dead": 1.35, "heat": -0.5}}
     found = gapbeam.solve(one | {"loads": loads, "combinations": [{"name": n, "factors": f} for n, f in factors.items()]})
     assert found.combinations["hot"].steps[-1].friction[1] == pytest.approx(-4.8, rel=1e-14)
     assert found.combinations["cool"].steps[-1].friction[1] == pytest.approx(1.35 * 4.8, rel=1e-14)
+    cases = gapbeam.prepare(one | {"loads": loads}).solve([[1.0, 1.0], [1.35, -0.5]])
+    assert cases.extremes["axial_force"]["min"].value.tolist() == pytest.approx([-4.8, 1.35 * 4.8], rel=1e-14)
 
 
 def test_report_json_and_picture(tmp_path):
@@ -219,43 +208,6 @@ def test_report_json_and_picture(tmp_path):
     assert state == {"force": pytest.approx(-4.8), "slip": pytest.approx(0.15), "slides": "right"} or state["slides"] == ""
     result.plot(tmp_path / "one.svg")
     assert (tmp_path / "one.svg").stat().st_size > 1000
-
-
-def random_scene(draw):
-    """A beam of one to three spans on supports that rub or not, with links along it; no two rigid ones at a node."""
-    spans = [draw.choice([1.0, 2.0, 1.5]) for _ in range(draw.choice([1, 2, 2, 3]))]
-    end, supports = len(spans), []
-    for node in range(end + 1):
-        side = draw.choice(["below", "below", "both"])
-        supports.append(at(node, side=side, friction=draw.choice([0.0, 0.2, 0.3, 0.5])))
-    if end > 1 and supports[1]["side"] == "below" and draw.random() < 0.4:
-        supports[1]["gap"] = 0.001
-    links = {}
-    for node in draw.sample(range(end + 1), draw.choice([0, 1, 1, 2])):
-        kind = draw.choice(["left", "right", "spring", "yields"])
-        if kind in ("left", "right"):
-            links[node] = along(node, side=kind, gap=draw.choice([0.0, 0.01, 0.02, -0.005]))
-            if draw.random() < 0.6:
-                links[node]["stiffness"] = draw.choice([50.0, 400.0])
-            else:
-                supports[node]["friction"] = 0.0
-        elif kind == "spring":
-            links[node] = along(node, stiffness=draw.choice([30.0, 300.0]), settlement=draw.choice([0.0, 0.0, 0.01]))
-        else:
-            links[node] = along(node, law=[[0.01, 2.0], [1.0, 2.0]], unloading="plastic")
-    loads = [own_weight(draw.choice([15.0, 28.0])), force(draw.uniform(0.1, sum(spans) - 0.1), draw.choice([-20.0, -8.0, 25.0]))]
-    part = {} if draw.random() < 0.6 else {"from": 0.0, "to": spans[0]}
-    loads.append(warm(draw.choice([20.0, 60.0, -40.0]), case=draw.choice(["live", "live", "dead"]), **part))
-    if links and draw.random() < 0.25:
-        loads.append({"type": "movement", "support": len(supports), "value": draw.choice([0.02, -0.01])})
-    if (links or any(one["friction"] for one in supports)) and draw.random() < 0.6:
-        x = draw.choice([0.0, sum(spans), spans[0], spans[0] / 2])
-        loads.append({"type": "axial", "x": x, "F": draw.choice([3.0, -4.0, 1.0]), "case": draw.choice(["live", "dead"])})
-    history = [1.0]
-    for _ in range(draw.choice([0, 1, 2, 3])):
-        history.append(draw.choice([to for to in (0.0, -1.0, 0.5, 1.5, 1.0, -0.5) if to != history[-1]]))
-    beam = {"spans": spans, "EA": draw.choice([50.0, 200.0, 1000.0, 3e4]), "alpha": draw.choice([1e-4, 1e-3])}
-    return beam, supports + list(links.values()), loads, history
 
 
 class Beside:
@@ -354,7 +306,7 @@ class Beside:
 @pytest.mark.parametrize("seed", [*sorted(set(range(120)) - {89}), 10280, 11690])
 def test_beside_a_chain_in_rationals(seed):
     """Forces and displacements at the end of every leg; a limit where the chain in rationals finds one."""
-    compare(*random_scene(random.Random(seed)))
+    compare(*random_rack(random.Random(seed)))
 
 
 def test_two_reactions_that_change_their_sign_between_two_events():

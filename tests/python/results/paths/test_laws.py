@@ -379,10 +379,6 @@ def test_prepared_cases():
         step = prepared.result(case).steps[-1]
         assert cases.reaction[row] == pytest.approx(step.reaction, rel=1e-13, abs=1e-15)
         assert cases.closed[row].tolist() == [int(state != "open") for state in step.state]
-    with pytest.raises(SceneError, match="one of them is a curve"):
-        gapbeam.prepare(midspan({"type": "tanh", "stiffness": 1.0, "limit": 2.0}))
-    with pytest.raises(SceneError, match="depends on the loading history"):
-        gapbeam.prepare(snap())
     for factors, words in (([], "has no load factor; give one"), ([0.0, 0.0], "has no load factor other than 0")):
         with pytest.raises(SceneError, match=words):
             gapbeam.solve(snap(history=factors))
