@@ -22,8 +22,8 @@ from scenes.axial_springs import bedded_bar
 from .family import Family, Verdict
 
 PROMISE = (
-    "A scene of any kind has the reactions, fields and extremes that it has as a combination, an envelope over it, a prepared case "
-    "alone and among others, a row of a function, in several load steps, from event to event, and written to a file and read again"
+    "A scene of any kind has the same reactions, fields and extremes on every road. Roads are a combination and its envelope, a "
+    "prepared case alone and among others, a row of a function, load steps, events, and a file that is written and read again"
 )
 NEAR = 1e-9
 PLACES = np.array([0.1337, 0.3141, 0.5, 0.6517, 0.8779])
