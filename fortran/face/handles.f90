@@ -18,23 +18,24 @@ module gapbeam_handles
     integer(int64), parameter :: beam_tag = 7233173843452522818_int64, state_tag = beam_tag + 1, history_tag = beam_tag + 2, &
                                  cases_tag = beam_tag + 3, passing_tag = beam_tag + 4, fields_tag = beam_tag + 5
 
-    !> What is behind a handle: the tag says which of its objects there is
+    !> What is behind a handle: the tag says which of its objects there is. They are pointers, so that compilers write down once how
+    !> the largest types of all are freed
     type :: handle_type
         integer(int64) :: tag = 0
-        type(prepared_type), allocatable :: beam
+        type(prepared_type), pointer :: beam => null()
         !> On calls with the beam
         type(watch_type) :: watch
         !> Of a beam in Python: the thread that hears signals; its loads one by one, and the path on the ground followed last, where
         !> they have been asked for
         integer(int64) :: thread = 0
         type(case_loads_type), allocatable :: loads
-        type(ground_path_type), allocatable :: ground_path
-        type(result_type), allocatable :: result
+        type(ground_path_type), pointer :: ground_path => null()
+        type(result_type), pointer :: result => null()
         !> Fields of a state at the left end of every piece, none on the ground: for Python, where threads share states
         type(field_type), allocatable :: starts(:)
-        type(history_type), allocatable :: history
-        type(cases_type), allocatable :: cases
-        type(passing_type), allocatable :: passing
+        type(history_type), pointer :: history => null()
+        type(cases_type), pointer :: cases => null()
+        type(passing_type), pointer :: passing => null()
     end type handle_type
 
 contains
@@ -83,8 +84,22 @@ contains
         if (.not. freed) return
         ! The tag is gone before the memory is, should somebody keep the address
         handle%tag = 0
-        deallocate (handle)
+        call dispose(handle)
     end subroutine free_handle
+
+    !> Free an object with all that it has
+    subroutine dispose(handle)
+        !> Associated in, null out
+        type(handle_type), pointer, intent(inout) :: handle
+
+        if (associated(handle%beam)) deallocate (handle%beam)
+        if (associated(handle%ground_path)) deallocate (handle%ground_path)
+        if (associated(handle%result)) deallocate (handle%result)
+        if (associated(handle%history)) deallocate (handle%history)
+        if (associated(handle%cases)) deallocate (handle%cases)
+        if (associated(handle%passing)) deallocate (handle%passing)
+        deallocate (handle)
+    end subroutine dispose
 
     !> Make a place for an object
     subroutine new_handle(tag, handle, error)
@@ -111,7 +126,7 @@ contains
                 allocate (handle%passing, stat=stat)
             case default
             end select
-            if (stat /= 0) deallocate (handle)
+            if (stat /= 0) call dispose(handle)
         end if
         if (stat /= 0) call no_memory(error)
     end subroutine new_handle
@@ -123,9 +138,8 @@ contains
         type(error_type), allocatable, intent(in) :: error
 
         if (allocated(error)) then
-            if (associated(handle)) deallocate (handle)
-            nullify (handle)
-        else if (allocated(handle%beam)) then
+            if (associated(handle)) call dispose(handle)
+        else if (associated(handle%beam)) then
             handle%beam%lowered%beam%watch = c_loc(handle%watch)
         end if
     end subroutine finish_handle

@@ -31,7 +31,7 @@ subroutine gbgpth(beam, nl, ns, rule, closed, sizes, ends, motion, status, messa
     sizes = 0
     ends = 0.0d0
     motion = 0.0d0
-    if (allocated(handle%ground_path)) deallocate (handle%ground_path)
+    if (associated(handle%ground_path)) deallocate (handle%ground_path)
     allocate (handle%ground_path)
     call new_state(handle%beam%lowered, state, error)
     if (.not. allocated(error)) then
