@@ -17,6 +17,7 @@ from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope, holds_values
 from ..results.envelopes.over_path import PathEnvelope
 from ..results.event_words import state_in_words
+from ..scene.axial_ground import places_of_marks
 from .geometry import foundations_data, panels_data, units_data
 from .hand_check import sums_data
 from .states import packed, stands
@@ -98,7 +99,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "units": units_data(scene),
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "said": list(map(state_in_words, collected.words)),
-        "foundations": foundations_data(scene),
+        "foundations": foundations_data(scene), "along": places_of_marks(scene),
         "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
     }  # fmt: skip

@@ -15,6 +15,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.path import Path
 
 from ..results.formatting import stretch
+from ..scene.axial_ground import places_of_marks
 from ..scene.movements import supports_moved
 from ..scene.rotations import turns
 from ..scene.tapers import ends_of, is_tapered
@@ -51,8 +52,6 @@ _WALL = Path(
 _SETTLED = Path([(0, 1), (0, -1), (-0.35, -0.5), (0, -1), (0.35, -0.5)], [1, 2, 1, 2, 2])
 #: Two half arrows, as of shear: what holds the beam along its axis
 _ALONG = Path([(-1, 0.25), (1, 0.25), (0.3, 0.9), (1, -0.25), (-1, -0.25), (-0.3, -0.9)], [1, 2, 2, 1, 2, 2])
-#: Such marks along the beam at most
-MOST_ALONG = 36
 _SPIRAL = Path(np.array([(t * math.cos(7 * t), t * math.sin(7 * t)) for t in np.linspace(0.0, 1.0, 40)]))
 
 
@@ -316,11 +315,7 @@ def _clamp(axes: Axes | Turned, x: float, end: float) -> None:
 
 def _ground_along(axes: Axes | Turned, scene: "Scene") -> None:
     """Mark where ground holds the beam along its axis."""
-    middles = (np.arange(MOST_ALONG) + 0.5) * (float(scene.span_ends()[-1]) / MOST_ALONG)
-    marks = []
-    for from_, to in (stretch(scene, one) for one in scene.axial_ground):
-        inside = middles[(middles > from_) & (middles < to)].tolist()
-        marks += inside or [(from_ + to) / 2]
+    marks = places_of_marks(scene)
     axes.scatter(marks, [HALF + 3.5] * len(marks), marker=_ALONG, s=30, facecolors="none", edgecolors="0.35", linewidths=0.7,
                  zorder=4, label="ground along the beam")  # fmt: skip
 

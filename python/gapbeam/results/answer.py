@@ -32,6 +32,8 @@ MOST_LIMITS = 5
 """Limits of the load, and supports that yield or break, that are named."""
 MOST_WORK = 2_000_000
 """States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds."""
+ALONG = {"axial_force": "Largest axial force", "axial_displacement": "Axial displacement"}
+"""What is said of fields along the beam."""
 WIDTH = 56
 """Characters of two values that stand in one line."""
 ONE_OF_SEVERAL = ("Under this compression other stable states are not excluded. This one is reached as the axial forces grow "
@@ -97,8 +99,15 @@ def _one(result: Result, name: str, one: Extreme, factor: bool) -> str:
     return f"{value} at {_place(scene, one)}{f' ({source})' if source else ''}"
 
 
+def _size(envelope: Envelope | TrainEnvelope, name: str) -> float:
+    """Give the largest magnitude of a field; 0 where there is none."""
+    return max((abs(one.value) for one in envelope.extremes[name].values() if one is not None), default=0.0)
+
+
 def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[str]:
     """Say the largest reaction, and the largest and smallest moment, shear and deflection, each with its place and source.
+
+    Axial forces and displacements too, where there are any; where there is nothing else, they alone.
 
     Parameters
     ----------
@@ -121,20 +130,23 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
     if sizes.size:
         sizes[:, which_turn(result.scene.supports)] = np.nan  # couples
-    if np.isfinite(sizes).any():
+    along = [name for name in ALONG if name in envelope.extremes and _size(envelope, name) > 0.0]
+    across = ["moment", "shear", "deflection", *(["pressure"] if "pressure" in envelope.extremes else [])]
+    if along and not any(_size(envelope, name) > 0.0 for name in across):
+        across = []
+    if np.isfinite(sizes).any() and (across or np.nanmax(sizes) > 0.0):
         k, i = np.unravel_index(np.nanargmax(sizes.T), sizes.T.shape)  # the first support that has it
         largest = envelope.supports[int(k)]["reaction"][KINDS[i]]
         lines.append(f"Largest reaction    {_one(result, 'reaction', largest, said(largest))}")
-    for name in ("moment", "shear", "deflection", *(["pressure"] if "pressure" in envelope.extremes else [])):
-        both = [envelope.extremes[name][kind] for kind in KINDS]
-        both = [one for one in both if one is not None]
+    for name in (*across, *along):
+        both = [one for one in (envelope.extremes[name][kind] for kind in KINDS) if one is not None]
         if not both:
             continue  # where the beam can move freely its deflections are not unique
-        largest = max((abs(one.value) for one in both), default=0.0)
+        largest = _size(envelope, name)
         both = [one for one in both if abs(one.value) > NONE * largest] or both[:1]
         texts = [_one(result, name, one, said(one)) for one in both]
         apart = "; " if sum(map(len, texts)) <= WIDTH else f"\n{'':<20}"
-        lines.append(f"{f'Largest {name}':<20}{apart.join(texts)}")
+        lines.append(f"{ALONG.get(name, f'Largest {name}'):<20}{apart.join(texts)}")
     return lines
 
 

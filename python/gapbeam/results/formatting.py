@@ -235,7 +235,7 @@ AREAS = {("N", "m"): "Pa", ("kN", "m"): "kPa", ("MN", "m"): "MPa", ("N", "mm"): 
 """Names of a force over an area."""
 HUGE = 1e300
 """Beyond it a value may leave the range of doubles in a smaller unit."""
-SMALL = ("deflection", "opening", "sag", "gap", "set", "slip")
+SMALL = ("deflection", "axial_displacement", "opening", "sag", "gap", "set", "slip")
 """Displacements, which are small beside lengths."""
 
 

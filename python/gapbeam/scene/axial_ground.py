@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .table import NotNegative, Positive, Stretch
+
+if TYPE_CHECKING:
+    from .structs import Scene
+
+MOST_MARKS = 36
+"""Marks along a beam that ground holds it along its axis, at most."""
 
 
 class AxialGround(Stretch, kw_only=True, gc=False):
@@ -57,3 +64,19 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
     found[13] = [limit for _, limit in limits]
     found[14] = [one.stiffness for one in grounds]
     return np.asfortranarray(np.hstack([sections[:, :-1], found, sections[:, -1:]]))
+
+
+def places_of_marks(scene: Scene) -> list[float]:
+    """Give the places at which pictures mark that ground holds the beam along its axis.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    """
+    end, found = float(scene.span_ends()[-1]), []
+    middles = (np.arange(MOST_MARKS) + 0.5) * (end / MOST_MARKS)
+    for one in scene.axial_ground:
+        to = end if one.to is None else one.to
+        found += middles[(middles > one.from_) & (middles < to)].tolist() or [(one.from_ + to) / 2]
+    return found

@@ -88,6 +88,11 @@ def test_the_slider_moves_the_beam_and_opens_its_supports(browser, look_at):
     assert slider.get_attribute("aria-valuetext").startswith("load factor 0.00")
 
 
+def test_half_arrows_mark_ground_along_the_beam(browser, look_at):
+    look_at(Path(__file__).resolve().parents[3] / "examples" / "buried_pipe.toml")
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#picture .held")) == 2 * 36
+
+
 def test_events_are_stops_that_one_clicks(browser, look_at):
     result = look_at(scene())
     steps, events = result.to_dict()["steps"], result.events

@@ -56,6 +56,18 @@ def test_the_result_is_that_of_the_json_output(make):
         assert one["extremes"] == other["extremes"]
 
 
+def test_ground_along_the_beam_is_marked():
+    """In the stretches that have some, in one at least, and nowhere else."""
+    result = gapbeam.solve(EXAMPLES / "pile_load_test.toml")
+    assert len(data_of(result.to_html())["along"]) == 36
+    made = result.scene.to_dict()
+    made["axial_ground"] = [{"from": 2.0, "to": 4.0, "limit": 500.0, "stiffness": 1e4}, {"from": 9.0, "to": 9.1, "stiffness": 1e4}]
+    places = data_of(gapbeam.solve(made).to_html())["along"]
+    assert [one for one in places if not 2.0 < one < 4.0] == pytest.approx([9.05])
+    assert len(places) > 3
+    assert data_of(gapbeam.solve(scene()).to_html())["along"] == []
+
+
 @pytest.mark.parametrize("make", [scene, combined, train, on_ground, see_saw])
 def test_pages_are_the_same_when_made_again(make):
     first = gapbeam.solve(make()).to_html()

@@ -2,6 +2,8 @@
 
 import json
 import math
+import re
+from pathlib import Path
 
 import gapbeam
 import numpy as np
@@ -12,6 +14,7 @@ from gapbeam.plots.bezier import cells_of
 from gapbeam.plots.result import figure
 from gapbeam.report import report_text, to_json
 
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 UNITS = {"force": "kN", "length": "m"}
 EULER = math.pi**2 * 10.0
 
@@ -153,3 +156,17 @@ def test_modes_that_are_not_available_are_told_once():
     assert not {"buckling", "frequencies"} & data.keys()
     assert "whose law is a curve" in data["remarks"][-1]
     html_page(result)
+
+
+def test_the_answer_tells_what_is_along_the_beam():
+    """Of a pipe that does not bend that alone; beside bending too; and where there is nothing along, nothing of it."""
+    pipe = gapbeam.solve(EXAMPLES / "buried_pipe.toml").report()
+    assert re.search(r"\nLargest axial force 1440 kN at x = 5040 \(load factor 0 of leg 1\)\n +-2880 kN at x = 4080\n", pipe)
+    assert "\nAxial displacement  691.2 mm at x = 6000; -691.2 mm at x = 0\n" in pipe
+    assert "Largest moment" not in pipe
+    assert "Largest reaction" not in pipe
+    rack = gapbeam.solve(EXAMPLES / "pipe_rack_hot.toml").report()
+    assert "\nLargest reaction    120.44 kN at support anchor along\n" in rack
+    assert "\nLargest moment " in rack
+    assert "\nLargest axial force 15.94 kN at x = 0 " in rack
+    assert "xial" not in gapbeam.solve(EXAMPLES / "three_spans.toml").report().partition("\n\n")[0]

@@ -101,10 +101,16 @@ function drawModel(state, scale, axis, changed) {
   for (const [, from, to, name] of state.zones) parts.push(path(along(state, scale, from, to, 7), name === "touching" ? "ground touching" : "ground"));
   for (const [, from, to] of state.free) parts.push(path(along(state, scale, from, to, 7), "ground free"));
   parts.push(path(along(state, scale, 0, scale.end, 0), "girder"));
+  for (const x of DATA.along) parts.push(halfArrows(scale.x(x), y(x, false) + 9));
   for (const x of state.beam.hinges) parts.push(`<circle cx="${scale.x(x).toFixed(1)}" cy="${y(x, false).toFixed(1)}" r="4" class="hinge"/>`);
   parts.push(drawLoads(state, scale, y, axis));
   parts.push(drawSupports(state, scale, y, axis, changed));
   return parts.join("");
+}
+
+/* What holds the beam along its axis: two half arrows, as of shear. */
+function halfArrows(x, y) {
+  return path([[x - 7, y - 1.5], [x + 7, y - 1.5], [x + 2, y - 5]], "held") + path([[x + 7, y + 1.5], [x - 7, y + 1.5], [x - 2, y + 5]], "held");
 }
 
 function along(state, scale, from, to, below) {
