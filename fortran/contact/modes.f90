@@ -82,7 +82,7 @@ contains
         call new_workspace(grounded%beam, work)
         call set_loads(grounded%beam, 0.0_wp, work)
         call apply_scheme(grounded%beam, acting, [0, size(grounded%beam%links)], work)
-        if (any(ground%layers%rigid)) call hold_on_rigid_ground(ground, cut, work%nodes)
+        if (any(ground%layers%rigid)) call hold_on_rigid_ground(cut, work%nodes)
         if (what == by_vibration .and. allocated(ground%mass)) then
             do i = 0, ubound(ground%mass, 1)
                 associate (node => work%nodes(grounded%node(i)))
@@ -100,8 +100,7 @@ contains
 
     !> Rigid ground holds the beam where it pushes at a place, and its slope as well where a zone begins or ends: that moves, but so
     !> little that the beam does not feel it, since its moment vanishes there
-    pure subroutine hold_on_rigid_ground(ground, zones, nodes)
-        type(ground_type), intent(in) :: ground
+    pure subroutine hold_on_rigid_ground(zones, nodes)
         type(zones_type), intent(in) :: zones
         !> Of the beam on the zones, shape (0:m)
         type(node_type), intent(inout) :: nodes(0:)

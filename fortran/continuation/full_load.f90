@@ -83,7 +83,7 @@ contains
         integer, allocatable :: runs(:, :)
         integer :: k
 
-        runs = runs_of(history)
+        allocate (runs, source=runs_of(history))
         do k = size(runs, 2), 1, -1
             number = runs(2, k)
             associate (first => history%stretches(runs(1, k)), s => history%stretches(number))

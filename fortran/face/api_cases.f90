@@ -32,7 +32,7 @@ contains
         type(prepared_type), intent(in) :: beam
         !> For solve_cases; it keeps nothing of the beam, and is of no use after replace_loads
         type(cases_type), intent(out) :: cases
-        !> gapbeam_bad_input for beams that are not taken, gapbeam_not_prepared, gapbeam_no_memory
+        !> gapbeam_not_prepared, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
         integer :: n, m, stat

@@ -21,9 +21,8 @@ subroutine ghcase(beam, cases, info)
     info = info_of(error, 1)
 end subroutine ghcase
 
-! Solve NCASE cases in one call, eight side by side. In each all loads act, dead or live, every one times a factor of its own; where
-! a state depends on the loading history dead ones are put on first. The
-! digits are those of each case alone
+! Solve NCASE cases in one call, eight side by side. In each all loads act, dead or live, every one times a factor of its own;
+! where a state depends on the loading history, dead ones are put on first. The digits are those of each case alone
 subroutine ghmany(beam, cases, ncase, factor, nvary, supval, rule, istat, react, icond, defl, bmleft, bmrigt, info)
     use gapbeam_input_error, only: of_loads, of_supports
     use gapbeam_api, only: count_supports, count_nodes

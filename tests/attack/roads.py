@@ -5,6 +5,7 @@ import tomllib
 
 import gapbeam
 import numpy as np
+from gapbeam.engine.quantities import QUANTITIES
 from scenes import (
     axial_force,
     curved,
@@ -18,16 +19,20 @@ from scenes import (
     tapered,
 )
 from scenes.axial_springs import bedded_bar
+from scenes.units import in_units, powers
 
 from .family import Family, Verdict
 
 PROMISE = (
     "A scene of any kind has the same reactions, fields and extremes on every road. Roads are a combination and its envelope, a "
-    "prepared case alone and among others, a row of a function, load steps, events, and a file that is written and read again"
+    "prepared case alone and among others, a row of a function, load steps, events, other units, and a file that is read again"
 )
 NEAR = 1e-9
 PLACES = np.array([0.1337, 0.3141, 0.5, 0.6517, 0.8779])
 """Shares of the beam."""
+FORCE, LENGTH = -20, 7
+"""Powers of two of other units."""
+UNITS = {one.name: one.unit.format(force="F", length="L") for one in QUANTITIES}
 
 
 def _plain(made):
@@ -129,6 +134,14 @@ class State:
         self.fields("envelope", {}, curves.extremes)
         self.reactions("envelope", [one["reaction"]["max"].value for one in curves.supports])
 
+    def in_units(self, road, found):
+        """The same beam in other units: all digits."""
+        for name in self.sizes:
+            power = sum(unit * times for unit, times in zip((FORCE, LENGTH), powers(UNITS[name]), strict=True))
+            for way in ("max", "min"):
+                theirs = float(np.ldexp(found.extremes[name][way].value, -power))
+                self.compare(f"{road}, {way}", name, theirs, self.extremes[name][way].value)
+
     def result(self, road, found):
         """Another result."""
         if said(found) != "solved":
@@ -179,6 +192,9 @@ def judge(made, seed=0):
     _as_combination(made, state, reached)
     _as_case(made, state, reached)
     _as_row(made, state, reached)
+    there = solved(in_units(made, 2.0**FORCE, 2.0**LENGTH))
+    if reached("other units", said(there)):
+        state.in_units("other units", there)
     again = solved(tomllib.loads(gapbeam.read_scene(made).to_toml()))
     if reached("written to a file", said(again)):
         state.result("written to a file", again)

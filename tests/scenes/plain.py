@@ -284,41 +284,6 @@ def mirrored(made):
     return new
 
 
-def scaled(made, a, b):
-    """The scene in other units: every force number times `a`, every length number times `b`."""
-    new = copy.deepcopy(made)
-    powers = {
-        "EI": a * b * b,
-        "GA": a,
-        "EA": a,
-        "spans": b,
-        "hinges": b,
-        "x": b,
-        "from": b,
-        "to": b,
-        "gap": b,
-        "settlement": b,
-        "stiffness": a / b,
-        "rotation": a * b,
-        "F": a,
-        "M": a * b,
-        "q": a / b,
-        "kappa": 1.0 / b,
-    }
-
-    def multiply(item):
-        for key in item.keys() & powers.keys():
-            value = item[key]
-            if isinstance(value, list):
-                item[key] = [number * powers[key] for number in value]
-            elif not isinstance(value, str):
-                item[key] = value * powers[key]
-
-    for item in (new["beam"], *new["supports"], *new["loads"], *new.get("sections", ())):
-        multiply(item)
-    return new
-
-
 def cut(made, span, share):
     """The same beam with one more node, at `share` of one span."""
     new = copy.deepcopy(made)

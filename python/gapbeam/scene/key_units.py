@@ -14,6 +14,10 @@ from .structs import Scene
 TABLES = {"beam": "Beam", "sections": "Section", "hinges": "Hinge", "supports": "Support", "foundation": "Foundation",
           "axial_ground": "AxialGround", "masses": "Mass", "trains": "Train", "combinations": "Combination"}  # fmt: skip
 """Tables of a scene by the key under which they are."""
+OF_LAWS = ("supports", "hinges", "foundation")
+"""Tables of a scene whose entries may have a law that is a table."""
+OF_ROTATIONS = {"force/length": "force*length/rad", "force": "force*length", "length": "rad"}
+"""Units of the numbers of a law where it holds a rotation."""
 ONE = r"(?:force|length|rad|1)(?:[*/^](?:\d|force|length|time|rad|\([^)]*\)))*"
 UNIT = re.compile(rf"\(({ONE}(?:, {ONE})*)(?:, from the left end(?: of the beam)?)?\)")
 """In a description: the unit of a number, or those of a pair."""
@@ -55,20 +59,29 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
     head, *rest = parts
     table = TABLES.get(str(head), "")
     keys = [one for one in rest if isinstance(one, str)]
+    entry = getattr(scene, str(head))[rest[0]] if head in ("loads", *OF_LAWS) and rest[0] < len(getattr(scene, str(head))) else None
     if head == "loads":
-        table = type(scene.loads[rest[0]]).__name__
-    if table == "Support" and keys[:1] == ["law"] and len(keys) == 2:
-        table = type(scene.supports[rest[0]].law).__name__
-    if table == "Support" and keys[:1] == ["rotation"] and len(keys) == 2:
-        table = "Rotation"
-    elif table == "Support" and rest[0] < len(scene.supports) and turns(scene.supports[rest[0]]):
+        table = type(entry).__name__
+    turning = head == "hinges" or (head == "supports" and entry is not None and turns(entry))
+    if table == "Support" and keys[:1] == ["rotation"] and len(keys) > 1:
+        table, keys, entry, turning = "Rotation", keys[1:], getattr(entry, "rotation", None), True
+    if keys[:1] == ["law"] and len(keys) == 2:
+        law = getattr(entry, "law", None)
+        table = "LawAt" if isinstance(law, list) else type(law).__name__
+    elif table == "Support" and turning:
         table, keys = "Rotation", ["slack" if keys[-1] in ("gap", "settlement") else keys[-1]]
+    if table == "Section" and len(keys) == 2 and keys[1] != "power":  # of a taper
+        keys = keys[:1]
     pair = _units().get((table, keys[-1] if keys else ""), ())
     if not pair:
         return ""
+    if len(pair) == 1 and len(rest) > 1 and isinstance(rest[-2], int) and isinstance(rest[-1], int):
+        pair = ("length", *pair)  # values at places
     at = rest[-1] if isinstance(rest[-1], int) and len(pair) > 1 else 0
     force, length = visible(scene.units.force), visible(scene.units.length)
     pattern = pair[min(at, len(pair) - 1)]
+    if turning and keys[0] == "law" and len(keys) == 2:
+        pattern = OF_ROTATIONS.get(pattern, pattern)
     if ("force" in pattern and not force) or ("length" in pattern and not length):
         return ""
     words = {"force": force, "length": length, "*": " "}

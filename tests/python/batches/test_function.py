@@ -228,3 +228,33 @@ def test_a_path_with_quotes_in_a_name_is_taken_as_it_is_suggested():
         gapbeam.function(scene, ['supports.a "b" \\c.gap'], ["reaction[0]"])
     suggested = json.loads(str(error.value).partition("did you mean ")[2].removesuffix("?"))
     assert gapbeam.function(scene, [suggested], ["reaction[0]"])([0.0]) == pytest.approx([3.0])
+
+
+def test_units_of_laws_tables_and_tapers():
+    """By the place of a number in its table: of rotations, of values at places, of the ends of a taper."""
+    scene = {
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [4.0, 4.0], "EI": 1e3},
+        "supports": [{"node": 0, "rotation": {"law": {"type": "plastic", "stiffness": 1e3, "limit": 2.0}}}, {"node": 2},
+                     {"node": 1, "law": {"type": "hardening", "stiffness": 1e3, "limit": 2.0, "slope": 1.0}}],
+        "hinges": [{"x": 2.0, "law": [[0.01, 2.0]]}],
+        "sections": [{"to": 1.0, "EI": {"from": 1e3, "to": 2e3, "power": 3}}],
+        "loads": [{"type": "uniform", "q": 1.0}],
+    }  # fmt: skip
+    units = {
+        "supports[0].rotation.law.stiffness": "kN m/rad", "supports[0].rotation.law.limit": "kN m",
+        "supports[2].law.stiffness": "kN/m", "supports[2].law.limit": "kN",
+        "hinges[0].law[0][0]": "rad", "hinges[0].law[0][1]": "kN m",
+        "sections[0].EI.from": "kN m^2", "sections[0].EI.to": "kN m^2", "sections[0].to": "m",
+    }  # fmt: skip
+    found = gapbeam.function(scene, list(units), ["moment.max"]).units
+    assert {name: found[name] for name in units} == units
+    clay = {"type": "tanh", "stiffness": [[0.0, 1e3], [8.0, 2e3]], "limit": [20.0, 30.0]}
+    units = {
+        "foundation[0].law.stiffness[1][0]": "m", "foundation[0].law.stiffness[1][1]": "kN/m^2",
+        "foundation[0].law.limit[1]": "kN/m", "foundation[1].k[1][0]": "m", "foundation[1].k[1][1]": "kN/m^2",
+        "foundation[2].law[0].x": "m", "foundation[2].law[0].points[0][0]": "m", "foundation[2].law[0].points[0][1]": "kN/m",
+    }  # fmt: skip
+    layer = [{"x": x, "points": [[0.01, 5.0]]} for x in (0.0, 8.0)]
+    ground = {"foundation": [{"law": clay}, {"k": [[0.0, 1e3], [8.0, 2e3]]}, {"law": layer}]}
+    found = gapbeam.function({**scene, **ground, "supports": [], "hinges": []}, list(units), ["moment.max"]).units
+    assert {name: found[name] for name in units} == units

@@ -5,6 +5,7 @@ import random
 
 import gapbeam
 import pytest
+from scenes.units import in_units
 
 
 def law_of(rng, yields):
@@ -63,22 +64,6 @@ def test_beside_a_lever_and_beside_half_the_beam(seed):
             except (ValueError, gapbeam.GapbeamError):
                 continue  # not on this leg
             assert found.moment == pytest.approx(known.at(0.5, factor=factor, leg=leg).moment, abs=1e-13)
-
-
-def in_units(scene, force, length):
-    """A scene of this file whose forces and lengths are so many times as great; angles stay."""
-    powers = {"EI": force * length**2, "q": force / length, "stiffness": force / length, "law": force * length}
-    powers |= dict.fromkeys(("spans", "x", "gap", "to"), length)
-
-    def scaled(value, key):
-        if isinstance(value, dict):
-            return {of: scaled(one, of) for of, one in value.items()}
-        if isinstance(value, list):
-            return [value[0], powers[key] * value[1]] if key == "law" and not isinstance(value[0], list) else \
-                [scaled(one, key) for one in value]
-        return powers.get(key, 1.0) * value if isinstance(value, float) else value
-
-    return scaled(scene, "")
 
 
 @pytest.mark.parametrize(("force", "length"), [(2.0**80, 1.0), (1.0, 2.0**-30), (2.0**-40, 2.0**50)])

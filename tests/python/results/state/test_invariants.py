@@ -8,7 +8,8 @@ import gapbeam
 import numpy as np
 import oracle
 import pytest
-from scenes import INF, cut, mirrored, nodes_of, one_sided, place, random_scene, scaled, working_scheme
+from scenes import INF, cut, mirrored, nodes_of, one_sided, place, random_scene, working_scheme
+from scenes.units import in_units
 
 TOLERANCE = 2e-12
 NAMES = ("deflection", "rotation", "moment", "shear")
@@ -179,7 +180,7 @@ def test_mirror_image(solved):
 @pytest.mark.parametrize(("force", "length"), [(1e6, 1.0), (1e-6, 1.0), (1.0, 1e6), (1.0, 1e-6), (1e-6, 1e6)])
 def test_other_units(solved, force, length):
     made, result = solved
-    other = gapbeam.solve(scaled(made, force, length))
+    other = gapbeam.solve(in_units(made, force, length))
     same_answers(made, result, other, force=force, length=length)
 
 
