@@ -9,7 +9,7 @@ module gapbeam_full_load
     use gapbeam_solution, only: state_type
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_smooth_state, only: solve_on_laws
-    use gapbeam_history_record, only: history_type, runs_of, at_limit_stop, no_limit, cut_off
+    use gapbeam_history_record, only: history_type, runs_of, at_limit_stop, cut_off
     use gapbeam_smooth_path, only: follow_on_laws
     use gapbeam_path_states, only: solve_on_path
     implicit none
@@ -60,8 +60,7 @@ contains
                              trim(whole(history%number))//" stretches")
             return
         end if
-        number = 0
-        if (history%ending == no_limit) number = last_at_full_load(history)
+        number = last_at_full_load(history)
         solves = history%solves
         if (number == 0) then
             state%status = gapbeam_no_equilibrium

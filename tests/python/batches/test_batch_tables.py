@@ -100,6 +100,25 @@ def test_load_steps_at_which_a_restraint_begins_to_act_are_kept(tmp_path):
     assert list(done.read(["status"])["status"]) == [one.status for one in alone]
 
 
+def test_load_steps_at_which_a_restraint_cannot_hold_are_kept(tmp_path):
+    """A cantilever whose clamp yields at 1: its weight alone is too much for it, and what lifts it comes step by step.
+
+    Beside ground, here far above it, its states do not ask for a path.
+    """
+    scene = {
+        "beam": {"spans": [1.0], "EI": 1e3}, "foundation": [{"k": 1.0, "side": "above", "gap": 5.0}],
+        "supports": [{"node": 0, "rotation": {"law": [[0.01, 1.0], [1.0, 1.0]]}}],
+        "loads": [{"type": "force", "node": 1, "F": 2.0, "case": "dead"}, {"type": "force", "node": 1, "F": -1.5}],
+        "analysis": {"steps": 4},
+    }  # fmt: skip
+    weights, factors = [2.0, 1.2, 0.9], [1.0, 1.5, 2.0]
+    done = gapbeam.batch(scene, {"loads[0].F": weights, "factors.live": factors}, tmp_path, want=["moment"])
+    both = zip(weights, factors, strict=True)
+    alone = [put(put(scene, ("loads", 0, "F"), weight), ("loads", 1, "F"), -1.5 * by) for weight, by in both]
+    assert list(done.read(["status"])["status"]) == [gapbeam.solve(one).status for one in alone]
+    assert "solved" not in done.read(["status"])["status"][:1]
+
+
 def test_a_name_that_stands_twice_is_told(tmp_path):
     twice = put(PILE, ("axial_ground", 1, "name"), "sand")
     with pytest.raises(SceneError, match=r'there are 2 of the name "sand"; give the number of one, as axial_ground\[0\]'):

@@ -163,3 +163,19 @@ def test_the_order_of_loads_counts():
     other = gapbeam.prepare(live).solve([1.0, 1.0, 0.0]).extremes["axial_force"]["min"].value
     assert one < -5.0
     assert abs(other) < 1e-9
+
+
+def test_a_pile_that_is_pushed_in_is_told_among_others():
+    """What acts across it is the same in all cases, and found once; what acts along it is not."""
+    scene = {
+        "beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6}, "foundation": [{"k": 1e4}], "analysis": {"first_order": True},
+        "supports": [], "axial_ground": [{"stiffness": 2e4, "limit": 60.0}],
+        "loads": [{"type": "axial", "node": 0, "F": 1000.0}, {"type": "force", "node": 0, "F": 10.0}],
+    }  # fmt: skip
+    pushes = [1.0, 1.1, 1.19, 0.5, 0.6, 0.7, 0.8, 1.3, 0.9, 1.21]
+    prepared = gapbeam.prepare(scene)
+    for _ in range(2):
+        cases = prepared.solve([[push, 1.0 + push / 3.0] for push in pushes])
+        assert cases.status.tolist() == [int(push > 1.2) for push in pushes]
+    least = [np.nan if push > 1.2 else -1000.0 * push for push in pushes]
+    assert cases.extremes["axial_force"]["min"].value.tolist() == pytest.approx(least, nan_ok=True)
