@@ -144,8 +144,11 @@ def _ground_along(scene: Scene, step: Step) -> list[float]:
     if not step._beam.is_on_axial_ground:
         return []
     left, right = (step.values(*ends)[TENSION] for ends in ends_of_pieces(step._beam))
+    taken = left - right
+    # Beside what it takes both ways, rounding
+    taken[np.abs(taken) <= NONE * max((abs(one.friction) for one in step.slip_zones), default=0.0)] = 0.0
     loads = zip(scene.loads, resultants_of_loads(scene, step.factor), strict=True)
-    return [*(left - right).tolist(), *(-sums.axial for load, sums in loads if isinstance(load, AxialUniformLoad))]
+    return [*taken.tolist(), *(-sums.axial for load, sums in loads if isinstance(load, AxialUniformLoad))]
 
 
 class AxialRun(NamedTuple):
