@@ -62,7 +62,7 @@ KINDS = {
     "moving": lambda seed: _plain(moving.random_moving_scene(seed)),
     "tension": lambda seed: _plain(axial_force.random_scene(seed)),
     "compression": lambda seed: _plain(axial_force.random_scene(seed, compression=0.5)),
-    "tension on ground": lambda seed: _plain(axial_force.random_scene(seed, ground=True)),
+    "tension on ground": lambda seed: _plain(axial_force.random_scene(seed, ground=True, u=(1e-6, 1e2))),
     "tapers": lambda seed: _plain(axial_force.random_scene(seed, tapers=True, u=(1e-6, 1e2))),
     "joints": _joints,
     "rigid ground": lambda seed: _plain(rigid_ground.rigid_scene(seed)),
