@@ -9,7 +9,7 @@ module gapbeam_many_cases
     use gapbeam_search, only: rule_block
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
-    use gapbeam_full_load, only: takes_more_than_a_search
+    use gapbeam_full_load, only: is_solved_alone
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes
     use gapbeam_lane_spans, only: fits_spans
@@ -52,8 +52,7 @@ contains
         solutions%status(:) = gapbeam_no_memory
         if (.not. room%made) then
             if (.not. enough_memory(for_solving, size(assembled%beam%links), size(assembled%beam%supports), 0)) return
-            room%alone = allocated(assembled%layers)
-            if (.not. room%alone) room%alone = takes_more_than_a_search(assembled)
+            room%alone = is_solved_alone(assembled)
             room%is_long = fits_segments(assembled)
             room%fits = fits_lanes(assembled)
             room%fits_with_own_spans = room%fits .and. fits_spans(assembled, loads)

@@ -14,18 +14,20 @@ module gapbeam_full_load
     use gapbeam_path_states, only: solve_on_path
     implicit none
     private
-    public :: solve_full_load, takes_more_than_a_search
+    public :: solve_full_load, is_solved_alone
 
 contains
 
-    !> Is a state more than one search for the scheme: is it known on a path alone, or are supports on curves
-    function takes_more_than_a_search(assembled) result(it_does)
+    !> Is a state more than one search for the scheme of a beam whose loads add up, so that no case helps to solve another: is it
+    !> solved in stretches, known on a path alone, or are supports on curves
+    function is_solved_alone(assembled) result(it_is)
         type(assembled_type), intent(in) :: assembled
-        logical :: it_does
+        logical :: it_is
 
-        it_does = is_known_on_path(assembled)
-        if (.not. it_does) it_does = size(smooth_supports(assembled)) > 0
-    end function takes_more_than_a_search
+        it_is = allocated(assembled%layers)
+        if (.not. it_is) it_is = is_known_on_path(assembled)
+        if (.not. it_is) it_is = size(smooth_supports(assembled)) > 0
+    end function is_solved_alone
 
     !> Is a state known on a path alone. Where loads do no more than move supports, they have moved, on whatever path
     function is_known_on_path(assembled) result(it_is)
@@ -33,7 +35,7 @@ contains
         logical :: it_is
 
         it_is = assembled%depends_on_path
-        if (it_is) it_is = laws_depend_on_path(assembled)
+        if (it_is .and. allocated(assembled%given_settlement)) it_is = laws_depend_on_path(assembled)
     end function is_known_on_path
 
     !> Solve a beam under all its loads; by a path these are put on once, dead ones first

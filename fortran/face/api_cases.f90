@@ -14,7 +14,7 @@ module gapbeam_api_cases
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_solution, only: close_all
     use gapbeam_pieces, only: acting_type, acts_in, gapbeam_open, gapbeam_bilateral
-    use gapbeam_full_load, only: takes_more_than_a_search
+    use gapbeam_full_load, only: is_solved_alone
     use gapbeam_cases, only: split_loads
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_many_cases, only: solve_in_room => solve_cases
@@ -53,8 +53,7 @@ contains
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)
             if (allocated(error)) return
-            cases%alone = allocated(lowered%layers)
-            if (.not. cases%alone) cases%alone = takes_more_than_a_search(lowered)
+            cases%alone = is_solved_alone(lowered)
             cases%fingerprint = lowered%fingerprint
             cases%nodes = n
             cases%supports = m

@@ -52,7 +52,8 @@ def random_rack(draw):
     return beam, supports + list(links.values()), loads, history
 
 
-def random_pipe(rng):
+def on_quarters(rng):
+    """Spans, and what draws a place and a stretch along them, all on a mesh of quarters."""
     spans = [rng.choice((2.0, 3.5, 5.0, 8.0)) for _ in range(rng.randint(1, 3))]
     end = sum(spans)
 
@@ -63,19 +64,37 @@ def random_pipe(rng):
         a, b = sorted(rng.sample(range(int(4 * end) + 1), 2))
         return {"from": a / 4, "to": b / 4}
 
+    return spans, place, stretch
+
+
+def stiffer_sections(rng, stretch):
+    return [{**stretch(), "EA": rng.choice((50.0, 200.0, 1000.0))} for _ in range(rng.randint(0, 2))]
+
+
+def springs_along(rng, place):
+    """Stiffnesses of axial supports by their places."""
+    return {place(): rng.choice((5.0, 50.0, 500.0, float("inf"))) for _ in range(rng.choice((0, 0, 1, 2)))}
+
+
+def bar_on_ground(rng, spans, sections, springs, grounds, loads):
+    """A bar with a history, warmed where there is no load."""
+    supports = [{"x": x, "direction": "axial", "stiffness": k} for x, k in springs.items()]
+    history = [rng.uniform(-1.5, 1.5) for _ in range(rng.randint(1, 4))]
+    return {
+        "beam": {"spans": spans, "EI": 1e6, "EA": 100.0, "alpha": 1e-3, "depth": 1.0}, "sections": sections,
+        "supports": [{"x": 0.0}, {"x": sum(spans)}, *supports], "axial_ground": grounds, "loads": loads or [warm(30.0)],
+        "analysis": {"history": history, "follow": "events", "first_order": True},
+    }  # fmt: skip
+
+
+def random_pipe(rng):
+    """A pipe on rigid ground with limits."""
+    spans, place, stretch = on_quarters(rng)
     grounds = [{**stretch(), "limit": rng.choice((0.5, 1.0, 2.0, 3.0))} for _ in range(rng.randint(1, 3))]
     if rng.random() < 0.4:
         grounds = [{"limit": rng.choice((0.5, 1.0, 2.0))}]
     loads = [warm(rng.uniform(-60, 60), **stretch(), case=rng.choice(("live", "live", "dead"))) for _ in range(rng.randint(0, 3))]
     loads += [{"type": "axial", "F": rng.uniform(-6, 6), "x": place(), "case": rng.choice(("live", "live", "dead"))}
               for _ in range(rng.randint(0, 3))]  # fmt: skip
-    sections = [{**stretch(), "EA": rng.choice((50.0, 200.0, 1000.0))} for _ in range(rng.randint(0, 2))]
-    springs = {place(): rng.choice((5.0, 50.0, 500.0, float("inf"))) for _ in range(rng.choice((0, 0, 1, 2)))}
-    return {
-        "beam": {"spans": spans, "EI": 1e6, "EA": 100.0, "alpha": 1e-3, "depth": 1.0}, "sections": sections,
-        "supports": [{"x": 0.0}, {"x": end}, *({"x": x, "direction": "axial", "stiffness": k} for x, k in springs.items())],
-        "axial_ground": grounds, "loads": loads or [warm(30.0)],
-        "analysis": {
-            "history": [rng.uniform(-1.5, 1.5) for _ in range(rng.randint(1, 4))], "follow": "events", "first_order": True,
-        },
-    }  # fmt: skip
+    sections = stiffer_sections(rng, stretch)
+    return bar_on_ground(rng, spans, sections, springs_along(rng, place), grounds, loads)

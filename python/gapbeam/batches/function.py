@@ -15,7 +15,7 @@ from ..base.errors import SceneError
 from ..results.formatting import unit
 from ..results.state.arguments import numbers, whole
 from ..scene.key_units import key_unit
-from ..scene.reading import as_written, read_beam
+from ..scene.reading import read_written
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .job import Job
@@ -234,8 +234,7 @@ def function(
     >>> f([0.0, -1e400]), str(f.evaluate([0.0, -1e400]).status)
     (array([nan, nan, nan]), 'refused')
     """
-    checked, beam = read_beam(scene)
-    written = as_written(scene)
+    written, checked, beam = read_written(scene)
     names = {"inputs": inputs, "outputs": outputs}
     for key, given in names.items():
         names[key] = (given,) if isinstance(given, str) else tuple(map(str, given))

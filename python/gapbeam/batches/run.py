@@ -17,7 +17,7 @@ from ..base.errors import SceneError
 from ..base.progress import shown_progress
 from ..engine.quantities import BENDING
 from ..results.state.arguments import whole
-from ..scene.reading import as_written, read_beam
+from ..scene.reading import read_written
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .batch import Batch
@@ -170,11 +170,11 @@ def _plan(scene: Any, table: Any, want: tuple[str, ...] | None) -> tuple[Table, 
         return rows, job, "", SCENES_A_FILE
     if table is None:
         raise SceneError("table", "give a table, or a folder of scenes in place of the scene")
-    checked, beam = read_beam(scene)
+    written, checked, beam = read_written(scene)
     rows = take_table(table)
     if not rows.cases:
         raise SceneError("table", "has no row; give a case at least")
-    job = job_of(as_written(scene), checked, beam, rows.names, want)
+    job = job_of(written, checked, beam, rows.names, want)
     digest = hashlib.sha256(msgspec.msgpack.encode(job.scene)).hexdigest()
     return rows, job, digest, cases_a_chunk(job, checked, beam)
 

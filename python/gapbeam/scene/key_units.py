@@ -59,7 +59,8 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
     head, *rest = parts
     table = TABLES.get(str(head), "")
     keys = [one for one in rest if isinstance(one, str)]
-    entry = getattr(scene, str(head))[rest[0]] if head in ("loads", *OF_LAWS) and rest[0] < len(getattr(scene, str(head))) else None
+    items = getattr(scene, str(head)) if head in ("loads", *OF_LAWS) else []
+    entry = items[rest[0]] if len(items) and rest[0] < len(items) else None
     if head == "loads":
         table = type(entry).__name__
     turning = head == "hinges" or (head == "supports" and entry is not None and turns(entry))

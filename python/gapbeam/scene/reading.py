@@ -101,6 +101,31 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
         raise
 
 
+def read_written(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Scene, Scene, Beam]:
+    """Read a scene as it is written, and checked, and make its beam; a file is opened once.
+
+    Parameters
+    ----------
+    source : Scene, mapping, str or path
+        As for `read_scene`.
+
+    Returns
+    -------
+    written : Scene
+        From `as_written`.
+    scene, beam
+        From `read_beam`.
+
+    Raises
+    ------
+    SceneError, EngineError
+        As for `read_beam`.
+    """
+    source = _opened(source)
+    scene, beam = read_beam(source)
+    return as_written(source), scene, beam
+
+
 def _opened(source: Any) -> Any:
     """Read a file where its name is given."""
     return read_file(Path(source)) if isinstance(source, str | os.PathLike) else source

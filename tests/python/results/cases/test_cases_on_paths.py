@@ -6,11 +6,11 @@ import random
 import gapbeam
 import numpy as np
 import pytest
+from attack.roads import KINDS as ROADS
 from gapbeam import GapbeamError
 from gapbeam.base.errors import Status
-from scenes.axial_springs import bedded_bar
 from scenes.law import law_scene
-from scenes.links_along import along, own_weight, random_pipe, random_rack, warm
+from scenes.links_along import along, own_weight, warm
 from scenes.plain import at, force
 
 CURVES = (
@@ -18,25 +18,6 @@ CURVES = (
     {"type": "hyperbolic", "stiffness": 20.0, "limit": 9.0},
     {"type": "cubic", "k1": 5.0, "k3": 30.0, "k2": -10.0},
 )
-FIRST = {"analysis": {"first_order": True}}
-
-
-def rack(seed):
-    beam, supports, loads, _ = random_rack(random.Random(seed))
-    return {"beam": {"EI": 1e3, **beam}, "supports": supports, "loads": loads}
-
-
-def pipe(seed):
-    return random_pipe(random.Random(seed)) | FIRST
-
-
-def pile(seed):
-    return bedded_bar(seed) | FIRST
-
-
-def pile_on_ground(seed):
-    return pile(seed) | {"foundation": [{"k": 1e4}]}
-
 
 def on_curves(seed):
     made, draw = law_scene(seed, "hardening") | {"analysis": {}}, random.Random(seed)
@@ -45,21 +26,14 @@ def on_curves(seed):
 
 
 def with_a_joint_that_yields(seed):
-    made = on_laws("plastic", seed)
+    made = ROADS["plastic"](seed)
     law = {"law": [[0.01, 1.0], [1.0, 1.5]], "unloading": "plastic"}
     made["supports"].append({"x": made["beam"]["spans"][0] / 2, "direction": "rotational", **law})
     return made
 
 
-def on_laws(family, seed):
-    return law_scene(seed, family) | {"analysis": {}}
-
-
-KINDS = {
-    "rack": rack, "pipe": pipe, "pile": pile, "pile on ground": pile_on_ground, "curves": on_curves,
-    "joint": with_a_joint_that_yields,
-    **{family: lambda seed, family=family: on_laws(family, seed) for family in ("softening", "plastic", "broken")},
-}  # fmt: skip
+KINDS = {kind: ROADS[kind] for kind in ("rack", "pipe", "pile", "pile on ground", "softening", "plastic", "broken")}
+KINDS |= {"curves": on_curves, "joint": with_a_joint_that_yields}
 
 
 def times(load, factor):
