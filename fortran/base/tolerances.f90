@@ -128,9 +128,9 @@ module gapbeam_tolerances
     !> Width of a bracket of a mode beside its value, below the rounding of a double. Read by contact/modes
     real(wp), parameter :: mode_width = epsilon(1.0d0)/32
     !> Part of a share of the axial forces to which is found when a beam buckles: rounding of states near there. Read by
-    !> precision/compressed
+    !> precision/compressed, precision/falling_way
     real(wp), parameter :: same_compression = 2.0_wp**(-44)
-    !> The least such share that is looked for to all digits; tuned. Read by precision/compressed
+    !> Least share looked for to all digits; tuned. Read by precision/compressed, precision/falling_ground, precision/falling_way
     real(wp), parameter :: least_share = 2.0_wp**(-30)
     !> Share of what a deflection bends, or a moment deflects, below which changes of the other are rounding; tuned. Read by
     !> precision/compressed
@@ -139,7 +139,7 @@ module gapbeam_tolerances
     !> tuned: shorter ones are cut into a few stretches. Read by precision/compressed
     real(wp), parameter :: long_compression = 4.0_wp
     !> Share by which more of the axial forces are tried there, and of the greatest reaction that is hardly any; tuned: the last
-    !> state is nearer. Read by precision/compressed
+    !> state is nearer. Read by precision/compressed, precision/falling_ground
     real(wp), parameter :: little_compression = 2.0_wp**(-14)
     !> Share of a value of a mode by which it is off in double precision, mostly: brackets widen where it is more; tuned. Read by
     !> contact/modes

@@ -5,7 +5,8 @@ module gapbeam_layers
         parameters_of_law
     implicit none
     private
-    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit
+    public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit, &
+              falls
 
     !> One foundation under one piece of the beam. It pushes back where side*(w - contact) > 0, by its modulus or by a law
     type :: layer_type
@@ -26,8 +27,8 @@ module gapbeam_layers
         logical :: rigid = .false.
     end type layer_type
 
-    !> A piece of a law: from a displacement past the contact and the force per length there, with a slope that is not below 0
-    !> over a way to the next point; all at the left and right end of the piece of the beam
+    !> A piece of a law: from a displacement past the contact and the force per length there, with a slope over a way to the next
+    !> point; all at the left and right end of the piece of the beam
     type :: law_piece_type
         !> Linear in between; the slope too where the way is the same at both ends, otherwise slope times way
         real(wp) :: displacement_a = 0.0_wp, displacement_b = 0.0_wp, force_a = 0.0_wp, force_b = 0.0_wp, slope_a = 0.0_wp, &
@@ -94,6 +95,18 @@ contains
             end associate
         end if
     end function has_limit
+
+    !> Does the force of a layer fall anywhere
+    pure function falls(layer, laws) result(it_does)
+        type(layer_type), intent(in) :: layer
+        !> Pieces of all laws
+        type(law_piece_type), intent(in) :: laws(:)
+        logical :: it_does
+
+        associate (own => laws(layer%law_first:layer%law_last))
+            it_does = any(min(own%slope_a, own%slope_b) < 0.0_wp)
+        end associate
+    end function falls
 
     !> A piece of the law of a layer; of a linear one the only piece, without its slope
     pure function law_piece(layer, laws, number) result(piece)

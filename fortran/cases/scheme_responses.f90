@@ -19,7 +19,7 @@ module gapbeam_scheme_responses
     use gapbeam_workspace_quad, only: fine_workspace_type => workspace_type, new_workspace, set_loads
     use gapbeam_system_quad, only: solve_scheme
     use gapbeam_law_margins_quad, only: find_margins
-    use gapbeam_compressed, only: is_unique
+    use gapbeam_uniqueness, only: is_unique
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_state, only: ground_of, detail_of
     use gapbeam_combinations, only: combination_type, combine

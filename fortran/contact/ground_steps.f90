@@ -6,7 +6,7 @@ module gapbeam_ground_steps
     use gapbeam_foundation_stretch, only: stretch_between
     use gapbeam_foundation, only: stretch_type, decay_lengths
     use gapbeam_laws, only: law_hardening
-    use gapbeam_layers, only: layer_type, law_piece_type, has_points
+    use gapbeam_layers, only: layer_type, law_piece_type, has_points, falls
     use gapbeam_ground_laws, only: between
     implicit none
     private
@@ -39,7 +39,7 @@ contains
                     varies = varies .or. greatest_modulus(layer, laws) > 0.0_wp
                 else if (layer%law_last >= layer%law_first) then
                     associate (own => laws(layer%law_first:layer%law_last))
-                        if (.not. (tapers .or. any(abs(own%slope_a - own%slope_b) > 0.0_wp))) cycle
+                        if (.not. (tapers .or. falls(layer, laws) .or. any(abs(own%slope_a - own%slope_b) > 0.0_wp))) cycle
                     end associate
                     varies = .true.
                 else
@@ -97,7 +97,8 @@ contains
         if (steps_of_taper(piece) > 1) place = piece%length*share_of_taper(piece, real(step, wp)/steps)
     end function border_of_step
 
-    !> Greatest modulus of a layer, wherever the beam is; of a law that stiffens without end the one at first
+    !> Greatest modulus of a layer, wherever the beam is, also where its force falls; of a law that stiffens without end the one at
+    !> first
     pure function greatest_modulus(layer, laws) result(modulus)
         type(layer_type), intent(in) :: layer
         !> Pieces of all laws
@@ -109,7 +110,7 @@ contains
             if (layer%law == law_hardening) modulus = max(modulus, layer%parameter_a(3), layer%parameter_b(3))
         else if (layer%law_last >= layer%law_first) then
             associate (own => laws(layer%law_first:layer%law_last))
-                modulus = max(maxval(own%slope_a), maxval(own%slope_b))
+                modulus = max(maxval(abs(own%slope_a)), maxval(abs(own%slope_b)))
             end associate
         else
             modulus = max(layer%modulus_a, layer%modulus_b)

@@ -1,10 +1,12 @@
-!> A beam on the ground at a load factor, which moves supports and ground and lets axial forces grow, and under a share of these.
+!> A beam on the ground at a load factor, which moves supports and ground and lets axial forces grow, and under shares of these and
+!> of its dead loads.
 module gapbeam_moved_ground
     use gapbeam_kinds, only: wp
+    use gapbeam_piece, only: combine_loads, no_load
     use gapbeam_ground, only: ground_type
     implicit none
     private
-    public :: move_ground, under_share
+    public :: move_ground, under_share, under_loads
 
 contains
 
@@ -59,5 +61,19 @@ contains
             changed%pieces%tension_change = share*ground%pieces%tension_change
         end associate
     end function under_share
+
+    !> The beam under a share of its dead loads and at a load factor
+    pure function under_loads(ground, dead, factor) result(changed)
+        type(ground_type), intent(in) :: ground
+        real(wp), intent(in) :: dead, factor
+        type(ground_type) :: changed
+
+        changed = ground
+        call move_ground(changed, factor)
+        if (dead >= 1.0_wp) return
+        changed%dead(:) = combine_loads(no_load, ground%dead, dead)
+        changed%beam%force(1, :) = dead*ground%beam%force(1, :)
+        changed%beam%couple(1, :) = dead*ground%beam%couple(1, :)
+    end function under_loads
 
 end module gapbeam_moved_ground

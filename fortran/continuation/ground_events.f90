@@ -56,6 +56,8 @@ module gapbeam_ground_events
         type(ground_start_type) :: start
         !> Where there is no equilibrium, how the beam moves: displacements of its nodes
         real(wp), allocatable :: motion(:)
+        !> Where the force of ground falls and no state was reached: the last parameter with one
+        real(wp) :: reached = 0.0_wp
     end type held_type
 
 contains

@@ -6,9 +6,10 @@ module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_buckles
     use gapbeam_kinematics, only: work_of_loads
-    use gapbeam_layers, only: has_limit, has_curves
-    use gapbeam_refined_ground, only: refine_ground
-    use gapbeam_ground_solver, only: limit_on_ground
+    use gapbeam_layers, only: has_limit, has_curves, falls
+    use gapbeam_refined_ground, only: refine_ground, refine_links
+    use gapbeam_ground_limit, only: find_limit
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: ground_of, detail_of
@@ -28,6 +29,8 @@ module gapbeam_ground_problem
     !> often that factor is computed
     real(wp), parameter :: next_to_limit = 2.0_wp**(-50), wider = 64.0_wp
     integer, parameter :: most_guesses = 8
+    !> Powers of 2, as shares of the factor at which falling ground gives way, by which states are looked for beside it
+    integer, parameter :: next_to_fall = -44, far_from_fall = -24
 
     !> With what it takes to end it
     type, extends(ground_states_type) :: ground_problem_type
@@ -62,11 +65,14 @@ contains
         problem%start(:) = state%closed
         do k = 1, size(assembled%layers)
             associate (layer => assembled%layers(k))
+                problem%falls = problem%falls .or. falls(layer, assembled%law_pieces)
                 if (.not. has_limit(layer, assembled%law_pieces)) cycle
                 problem%yields = .true.
                 problem%levels_off = problem%levels_off .or. has_curves(layer)
             end associate
         end do
+        problem%yields = problem%yields .or. problem%falls
+        problem%levels_off = problem%levels_off .and. .not. problem%falls
         if (problem%levels_off) problem%neighbours_at_end = near_on_curves
         call new_path(problem%path)
         problem%path%beyond = last
@@ -80,8 +86,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         ended = .false.
+        if (problem%falls) call go_to_fall(problem, below, above, ended, error)
         if (problem%levels_off) call go_to_limit(problem, below, above, ended, error)
-        if (allocated(error) .or. ended) return
+        if (allocated(error) .or. ended .or. problem%falls) return
         if (.not. above%stands) call approach_by_work(problem, below, above, error)
     end subroutine approach_end
 
@@ -94,13 +101,16 @@ contains
         logical, intent(inout) :: ended
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: point
+        type(fine_ground_type) :: fine
         real(wp) :: bears, beyond
         logical :: found
         integer :: k
 
         bears = below%at
         beyond = above%at
-        call limit_on_ground(problem%ground, detail_of(problem%assembled), bears, beyond, found)
+        call refine_ground(problem%ground, fine)
+        call refine_links(detail_of(problem%assembled), fine)
+        call find_limit(fine, bears, beyond, found)
         if (.not. found) return
         do k = 1, size(missing_powers)
             associate (last => bears*(1 - 2.0_wp**missing_powers(k)))
@@ -123,6 +133,52 @@ contains
         if (allocated(error)) return
         if (allocated(point%trouble)) call go_beyond(problem, beyond, point%trouble, error)
     end subroutine go_to_limit
+
+    !> Where the force of ground falls the search for a state says how far there is one: end the path there, or look next to it for
+    !> what changes before
+    subroutine go_to_fall(problem, below, above, ended, error)
+        !> As for approach_end
+        class(ground_problem_type), intent(inout) :: problem
+        class(point_type), allocatable, intent(inout) :: below, above
+        logical, intent(inout) :: ended
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: point
+        real(wp) :: reached
+        integer :: power
+
+        if (allocated(above%trouble)) return
+        reached = above%at
+        select type (above)
+        type is (held_type)
+            reached = above%reached
+        end select
+        ! Next to the end states have fewer digits
+        do power = next_to_fall, far_from_fall, 4
+            if (.not. reached*(1 - 2.0_wp**power) > below%at) exit
+            call problem%find(reached*(1 - 2.0_wp**power), point, error, below)
+            if (allocated(error)) return
+            if (.not. point%stands) cycle
+            if (.not. problem%alike(below, point)) then
+                call move_alloc(point, above)
+                return
+            end if
+            call move_alloc(point, below)
+            exit
+        end do
+        if (.not. below%at >= reached*(1 - 2.0_wp**far_from_fall)) return
+        problem%path%last = below%at
+        problem%path%at_limit = problem%path%last > 0.0_wp
+        ended = .true.
+        do power = next_to_fall, far_from_fall, 4
+            problem%path%beyond = min(above%at, reached*(1 + 2.0_wp**power))
+            call problem%find(problem%path%beyond, point, error, below)
+            if (allocated(error)) return
+            if (.not. point%stands .and. .not. allocated(point%trouble)) return
+        end do
+        problem%path%beyond = above%at
+        call problem%find(above%at, point, error, below)
+        if (.not. allocated(error) .and. allocated(point%trouble)) error = point%trouble
+    end subroutine go_to_fall
 
     !> Find a factor just above one at which there is no equilibrium for sure, and how the beam moves there
     subroutine go_beyond(problem, from, trouble, error)
@@ -208,6 +264,7 @@ contains
             path%at_limit = problem%yields .and. path%last > 0.0_wp
             if (.not. allocated(above%trouble)) then
                 call problem%find(above%at, point, error)
+                if (.not. allocated(error) .and. allocated(point%trouble)) error = point%trouble
                 ! Where it buckles there may be a state at the factor below
                 if (problem%levels_off .or. problem%state%status == gapbeam_buckles) path%beyond = above%at
                 return

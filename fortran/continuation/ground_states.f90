@@ -43,6 +43,8 @@ module gapbeam_ground_states
         logical, allocatable :: start(:)
         !> The state solved last
         type(state_type) :: state
+        !> Does the force of some ground fall, so that there may be other states not far away
+        logical :: falls = .false.
         type(ground_path_type) :: path
     contains
         procedure :: find
@@ -96,6 +98,7 @@ contains
         else
             allocate (held%motion(0:size(problem%state%motion) - 1))
             held%motion(:) = problem%state%motion
+            held%reached = problem%state%ground%axial_share*at
         end if
         call move_alloc(held, point)
     end subroutine find
@@ -124,7 +127,7 @@ contains
         type(workspace_type) :: work
         logical :: settled, solved
 
-        if (at < problem%last) then
+        if (at < problem%last .and. .not. problem%falls) then
             allocate (held)
             held%at = at
             call start_in(near, held%start)

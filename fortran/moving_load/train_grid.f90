@@ -16,7 +16,8 @@ module gapbeam_train_grid
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end
-    use gapbeam_compressed, only: is_unique
+    use gapbeam_filled_ground, only: any_falls
+    use gapbeam_uniqueness, only: is_unique
     use gapbeam_state, only: ground_of
     implicit none
     private
@@ -75,12 +76,15 @@ contains
                              "in this version; give its axles as forces at places")
             return
         end if
-        if (any(assembled%pieces%compression > 0.0_wp) .or. assembled%model%axial_loads_bend) then
-            if (.not. is_unique(ground_of(assembled, 1.0_wp))) then
+        if (.not. is_unique(ground_of(assembled, 1.0_wp))) then
+            if (any_falls(ground_of(assembled, 1.0_wp))) then
+                call fatal_error(error, gapbeam_bad_input, "goes over ground whose force falls, where states depend on the way "// &
+                                 "to them, which is not available in this version; give its axles as forces at places")
+            else
                 call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports "// &
                                  "(N below 0), which is not available in this version; give its axles as forces at places")
-                return
             end if
+            return
         end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)

@@ -14,13 +14,14 @@ module gapbeam_compressed
     use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, gapbeam_no_memory, &
         gapbeam_stopped, gapbeam_bad_input
-    use gapbeam_law, only: always_closed, both
-    use gapbeam_law_energy, only: is_convex
-    use gapbeam_piece, only: piece_type, is_compressed
+    use gapbeam_law, only: both
+    use gapbeam_piece, only: is_compressed
+    use gapbeam_filled_ground, only: any_falls
+    use gapbeam_uniqueness, only: is_unique, compression_lengths
     use gapbeam_ground_steps, only: greatest_modulus
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_moved_ground, only: under_share
-    use gapbeam_layers, only: layer_type, has_curves
+    use gapbeam_layers, only: layer_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, mode_shape_type, count_modes, find_mode_shape
     use gapbeam_contact_state, only: outcome_type
@@ -28,17 +29,18 @@ module gapbeam_compressed
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_falling_ground, only: solve_on_falling_ground
     implicit none
     private
-    public :: solve_with_axial_force, is_unique
+    public :: solve_stable
 
     !> Change of a state, beside it, for which its axial forces need not grow in steps
     real(wp), parameter :: next_to_nothing = 1.0_wp/least_compressions**2
 
 contains
 
-    !> Solve at a load factor
-    subroutine solve_with_axial_force(ground, detail, factor, rule, closed, solution, outcome, error, near)
+    !> Solve at a load factor: the stable state to which loads, or axial forces, lead where there may be others
+    subroutine solve_stable(ground, detail, factor, rule, closed, solution, outcome, error, near)
         !> As for solve_on_ground
         type(ground_type), intent(in) :: ground
         type(detail_type), intent(in) :: detail
@@ -54,6 +56,10 @@ contains
         logical :: first(size(closed))
         real(wp) :: share
 
+        if (any_falls(ground)) then
+            call solve_on_falling_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+            return
+        end if
         if (.not. any(is_compressed(ground%pieces))) then
             call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
             return
@@ -86,7 +92,7 @@ contains
         else
             call follow_compression(ground, share, detail, factor, rule, closed, solution, outcome, error, near)
         end if
-    end subroutine solve_with_axial_force
+    end subroutine solve_stable
 
     !> Compression that would cut the beam into stretches without end is refused
     subroutine check_compression(ground, error)
@@ -160,42 +166,9 @@ contains
                                          -(changed%pieces%tension + changed%pieces%tension_change))
     end function cut_for_share
 
-    !> Length of a piece beside the one by which the phase of a wave under its compression grows by 1
-    elemental function compression_lengths(piece) result(number)
-        type(piece_type), intent(in) :: piece
-        real(wp) :: number
-
-        number = piece%length*sqrt(piece%compression)*sqrt(piece%flexibility)
-    end function compression_lengths
-
-    !> Is there one state for sure: without compression, or where the beam is stable on what holds it both ways alone
-    function is_unique(ground) result(unique)
-        !> The beam and its ground
-        type(ground_type), intent(in) :: ground
-        logical :: unique
-        type(zones_type) :: zones
-        type(grounded_type) :: grounded
-        type(workspace_type) :: work
-        integer :: i, k, number
-
-        unique = .not. any(is_compressed(ground%pieces))
-        if (unique .or. sum(compression_lengths(ground%pieces)) > most_mode_stretches) return
-        if (.not. is_convex(ground%beam%supports) .or. any(has_curves(ground%layers))) return
-        call full_contact(ground, zones)
-        do i = 1, size(zones%piece)
-            associate (first => ground%first(zones%piece(i)))
-                do k = first, ground%first(zones%piece(i) + 1) - 1
-                    if (ground%layers(k)%side /= 0) zones%acts(k - first + 1, i) = 0
-                end do
-            end associate
-        end do
-        call count_modes(ground, zones, always_closed(ground%beam%supports), by_axial_force, 1.0_wp, number, work, grounded)
-        unique = number == 0
-    end function is_unique
-
     !> Let the axial forces grow, with all other loads in full
     subroutine follow_compression(ground, given, detail, factor, rule, closed, solution, outcome, error, near)
-        !> As for solve_with_axial_force, under all of the axial forces or a share of them, and that share
+        !> As for solve_stable, under all of the axial forces or a share of them, and that share
         type(ground_type), intent(in) :: ground
         real(wp), intent(in) :: given
         type(detail_type), intent(in) :: detail

@@ -217,7 +217,7 @@ contains
         associate (s => solution%stretches(i), ends => solution%ends(i), load => solution%loads(i), f => soft(1), g => soft(2))
             moment = max(abs(ends%moment_a), abs(ends%moment_b))
             q = max(abs(load%qa), abs(load%qb))
-            modulus = max(s%modulus_a, s%modulus_b)
+            modulus = max(abs(s%modulus_a), abs(s%modulus_b))
             ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
             square = s%length**2/8
             if (s%modulus_a > 0.0_wp .and. f > 0.0_wp) then
@@ -303,7 +303,7 @@ contains
         u = deflection + abs(layer%contact_a) + abs(layer%contact_b)
         if (has_points(layer)) then
             piece = law_piece(layer, laws, acts)
-            sizes = max(layer%modulus_a, layer%modulus_b, piece%slope_a, piece%slope_b) &
+            sizes = max(layer%modulus_a, layer%modulus_b, abs(piece%slope_a), abs(piece%slope_b)) &
                 *(u + max(abs(piece%displacement_a), abs(piece%displacement_b))) + max(abs(piece%force_a), abs(piece%force_b))
             return
         end if

@@ -57,7 +57,8 @@ module gapbeam_ground_solution
         real(wp) :: factor = 0.0_wp
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
-        !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears
+        !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears,
+        !> where the force of ground falls that of the load factor
         logical :: unique = .true.
         real(wp) :: axial_share = 1.0_wp
         !> How it gives way then: pieces of the beam, distances from their left ends, deflections, the largest 1
@@ -315,9 +316,10 @@ contains
                     offset = offset_of_layer(layer, law, zones%acts(k, i), [from, from + length], fine%pieces(j)%length)
                     forces(k) = layer%side*(offset(1) + offset(2))/2*length &
                         - length*(dot_product(slope, contact)/2 - (slope(2) - slope(1))*(contact(2) - contact(1))/6)
-                    if (.not. any(slope > 0.0_qp)) cycle
-                    ! Is its share of the modulus the same everywhere
-                    if (abs(slope(1)*modulus(2) - slope(2)*modulus(1)) <= same_ratio_of_slopes*slope(1)*modulus(2)) then
+                    if (.not. any(abs(slope) > 0.0_qp)) cycle
+                    ! Is its share of the modulus the same everywhere, and at most 1: where others fall they cancel
+                    if (abs(slope(1)*modulus(2) - slope(2)*modulus(1)) <= same_ratio_of_slopes*abs(slope(1)*modulus(2)) &
+                        .and. all(abs(slope) <= (1 + same_ratio_of_slopes)*abs(modulus))) then
                         forces(k) = forces(k) + by_springs*(sum(slope)/sum(modulus))
                     else
                         forces(k) = forces(k) + integral(slope)

@@ -23,6 +23,7 @@ module gapbeam_ground_solver
     use gapbeam_law_kinematics, only: is_blocked
     use gapbeam_model, only: last_place
     use gapbeam_turning, only: turn_with
+    use gapbeam_filled_ground, only: any_falls
     use gapbeam_refined, only: detail_type
     use gapbeam_refined_ground, only: refine_ground, refine_links, refine_zones
     use gapbeam_layers_quad, only: has_curves
@@ -36,15 +37,15 @@ module gapbeam_ground_solver
     use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_ties, only: stands_on_edge, may_move
-    use gapbeam_ground_limit, only: find_collapse, find_limit
+    use gapbeam_ground_limit, only: find_collapse
     implicit none
     private
-    public :: ground_solution_type, solve_on_ground, limit_on_ground
+    public :: ground_solution_type, solve_on_ground
 
 contains
 
     !> Solve at a load factor
-    subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+    subroutine solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near, only_near)
         !> The beam and its ground, moved to where they are at the load factor
         type(ground_type), intent(in) :: ground
         !> What its links are made of
@@ -60,8 +61,9 @@ contains
         type(outcome_type), intent(out) :: outcome
         !> Not settled, not finite, no memory
         type(error_type), allocatable, intent(out) :: error
-        !> Where to begin, if something is known of it
+        !> Where to begin, if something is known of it, and whether no other state is wanted: no equilibrium then is none near there
         type(ground_start_type), intent(in), optional :: near
+        logical, intent(in), optional :: only_near
         type(zones_type) :: zones
         type(grounded_type) :: grounded
         type(workspace_type) :: work
@@ -94,13 +96,18 @@ contains
             else if (ends) then
                 return
             end if
+            if (present(only_near)) then
+                outcome = outcome_type(status=gapbeam_no_equilibrium)
+                if (only_near) return
+            end if
             closed(:) = start
             edges = 0
         end if
         call full_contact(ground, zones)
         on_edge = .false.
         collapses = .false.
-        weighed = .false.
+        ! Limit analysis is for forces that never fall
+        weighed = any_falls(ground)
         stands = .false.
         first = merge(1, 0, any(has_curves(fine%layers)))
         last = last_try
@@ -260,21 +267,6 @@ contains
         end subroutine solve_on_mesh
 
     end subroutine solve_on_ground
-
-    !> The limit load between two load factors, by limit analysis
-    subroutine limit_on_ground(ground, detail, low, high, found)
-        !> As for solve_on_ground
-        type(ground_type), intent(in) :: ground
-        type(detail_type), intent(in) :: detail
-        !> As for find_limit
-        real(wp), intent(inout) :: low, high
-        logical, intent(out) :: found
-        type(fine_ground_type) :: fine
-
-        call refine_ground(ground, fine)
-        call refine_links(detail, fine)
-        call find_limit(fine, low, high, found)
-    end subroutine limit_on_ground
 
     !> Go on in quadruple precision, and round what is found
     subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, carries, error)

@@ -12,10 +12,11 @@ module gapbeam_ground_start
     private
     public :: ground_start_type, start_from, settle_nearby, polish_nearby, take_zones
 
-    !> Where the search for a solution may begin: zones and states of the supports at a load factor nearby
+    !> Where the search for a solution may begin: zones and states of the supports at a load factor nearby, and that
     type :: ground_start_type
         type(zones_type) :: zones
         logical, allocatable :: closed(:)
+        real(wp) :: factor = 0.0_wp
     end type ground_start_type
 
 contains
@@ -30,6 +31,7 @@ contains
 
         allocate (start%closed(size(closed)))
         start%closed(:) = closed
+        start%factor = solution%factor
         call new_zones(size(solution%piece), size(solution%acts, 1), solution%steps, start%zones)
         start%zones%piece(:) = solution%piece
         start%zones%from(:) = solution%from

@@ -85,7 +85,7 @@ contains
             rise = rise + slope*(line(2) - line(1))
         end do
         number = 0
-        if (modulus > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
+        if (abs(modulus) > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
     end subroutine peaks_of_pressure
 
     !> Is the pressure in a stretch more than multiples of the deflection beside lines

@@ -15,7 +15,7 @@ module gapbeam_state
     use gapbeam_ground, only: ground_type
     use gapbeam_moved_ground, only: move_ground
     use gapbeam_axial_tension, only: tensions_of_loads, changes_of_tension, check_tensions
-    use gapbeam_compressed, only: solve_with_axial_force
+    use gapbeam_compressed, only: solve_stable
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ledger, only: ledger_type
     use gapbeam_ground_audit, only: audit_ground
@@ -192,7 +192,7 @@ contains
         call copy_scheme(state, acting, error)
         if (allocated(error)) return
         allocate (state%ground)
-        call solve_with_axial_force(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), &
+        call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), &
                                     acting, state%ground, outcome, error, near)
         if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
             call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)

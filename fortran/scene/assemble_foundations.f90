@@ -353,7 +353,7 @@ contains
                 piece%slope_a = scale(slopes(1), per_length)
                 piece%slope_b = scale(slopes(2), per_length)
                 lost(i) = max(piece%displacement_a, piece%displacement_b, piece%force_a, piece%force_b) > huge(1.0_wp) &
-                    .or. any(slopes > 0.0_wp .and. is_lost([piece%slope_a, piece%slope_b]))
+                    .or. any(abs(slopes) > 0.0_wp .and. is_lost(abs([piece%slope_a, piece%slope_b])))
             end associate
         end do
         do i = 1, size(assembled%layers)

@@ -297,12 +297,13 @@ contains
                              "; give them in ascending order")
                 else if (f < 0.0_wp) then
                     call say(error, "the force is below zero at "//trim(pair(d, f))//"; ground that pushes cannot pull")
-                else if (f < before(2)) then
-                    call say(error, "the force falls at "//trim(pair(d, f))//"; softening ground is not available in this version")
-                else if (f > before(2) .and. .not. (f - before(2))/huge(f) < d - before(1)) then
+                else if (abs(f - before(2)) > 0.0_wp .and. .not. abs(f - before(2))/huge(f) < d - before(1)) then
                     call say(error, "ground has no vertical piece, as at "//trim(pair(d, f))//"; give a steep slope")
                 else if (.not. d > before(1)) then
                     call say(error, "the point "//trim(pair(d, f))//" stands there twice, or at the origin; leave it out")
+                else if (f < before(2) .and. is_last(i)) then
+                    call say(error, "it ends falling, so its force would become negative beyond "//trim(pair(d, f))// &
+                             "; add a point from which on it stays")
                 end if
                 if (allocated(error)) return
                 before(:) = [d, f]
@@ -314,6 +315,15 @@ contains
         call refuse_entry(error, here, "law", bad_law, "its force stays 0, so it never carries; remove the foundation")
 
     contains
+
+        !> Is a point the last one at its place
+        pure function is_last(number)
+            integer, intent(in) :: number
+            logical :: is_last
+
+            is_last = number == size(points)
+            if (.not. is_last) is_last = abs(points(number + 1)%x - points(number)%x) > 0.0_wp
+        end function is_last
 
         !> What is wrong with the point at hand
         pure subroutine say(found, problem)

@@ -16,7 +16,7 @@ from .py_curves import api_sand, matlock_clay, reese_clay, sand_coefficients, sa
 PARTS = 24
 """Into which a layer is divided between the depths where a formula changes."""
 NEEDS = {
-    "matlock_clay": (("to", "gamma", "cu", "eps50"), ("J",)),
+    "matlock_clay": (("to", "gamma", "cu", "eps50"), ("J", "cyclic")),
     "reese_clay": (("to", "gamma", "cu", "eps50"), ("J",)),
     "api_sand": (("to", "gamma", "phi"), ("k", "cyclic")),
 }
@@ -109,7 +109,7 @@ def _clay(layer: Mapping[str, Any], D: float, top: float, stress: float) -> list
     law = []
     for z in _depths(top, bottom, changes):
         weight = (stress + layer["gamma"] * (z - top)) / z if z else layer["gamma"]
-        more = {"average_cu": float(average(z - top))} if curve is reese_clay else {}
+        more = {"average_cu": float(average(z - top))} if curve is reese_clay else {"cyclic": layer.get("cyclic", False)}
         law.append({"x": z, "points": curve(z, D=D, cu=float(cu(z - top)), gamma=weight, eps50=layer["eps50"], J=J, **more)})
     return law
 

@@ -17,14 +17,17 @@ CLAY_ERROR = {"matlock_clay": 0.0042, "reese_clay": 0.006}
 """How far polylines are below their curves at most, as a share of the ultimate resistance."""
 
 
-def matlock_clay(z: float, *, D: float, cu: float, gamma: float, eps50: float, J: float = 0.5) -> list[tuple[float, float]]:
-    """Give Matlock's static curve of soft clay: p = 0.5 pu (y/y50)^(1/3) up to 8 y50, from there on pu.
+def matlock_clay(
+    z: float, *, D: float, cu: float, gamma: float, eps50: float, J: float = 0.5, cyclic: bool = False
+) -> list[tuple[float, float]]:
+    """Give Matlock's curve of soft clay: p = 0.5 pu (y/y50)^(1/3) up to 8 y50, from there on pu; cyclic falling beyond 3 y50.
 
     pu is the lesser of (3 + gamma z/cu + J z/D) cu D and 9 cu D, y50 = 2.5 eps50 D.
 
     Matlock (1970), OTC 1204, as quoted by OpenBrIM, Soft Clay (Matlock): "p = 0.5 pult (y/y50)^(1/3)", "pult = [3 + gamma'/cu z +
-    J/b z] cu b", "pult = 9 cu b", "y50 = 2.5 eps50 b", "the value of p remains constant beyond y = 8 y50". Cyclic loading lets the
-    resistance fall, which ground may not do; it is left out.
+    J/b z] cu b", "pult = 9 cu b", "y50 = 2.5 eps50 b", "the value of p remains constant beyond y = 8 y50". Under cyclic loading
+    "zr = 6 c b/(gamma' b + J c)", "for depths greater than or equal to zr, then p is equal to 0.72 pu for y > 3 y50", "for depths
+    less than zr, the value of p reduces from 0.72 pu at y = 3 y50" to "p = 0.72 pu z/zr" "at y = 15 y50" and "remains constant".
 
     Parameters
     ----------
@@ -40,6 +43,8 @@ def matlock_clay(z: float, *, D: float, cu: float, gamma: float, eps50: float, J
         Strain at half of the strength (no unit).
     J : float
         0.5 for soft clay, 0.25 for medium clay (no unit).
+    cyclic : bool
+        Cyclic loading, as of a storm; default static.
 
     Returns
     -------
@@ -51,9 +56,17 @@ def matlock_clay(z: float, *, D: float, cu: float, gamma: float, eps50: float, J
     >>> law = matlock_clay(3.0, D=0.6, cu=26.0, gamma=8.0, eps50=0.01)
     >>> [(round(y, 6), round(p, 2)) for y, p in law[-3:]]
     [(0.081472, 88.07), (0.12, 100.2), (0.24, 100.2)]
+    >>> law = matlock_clay(3.0, D=0.6, cu=26.0, gamma=8.0, eps50=0.01, cyclic=True)
+    >>> [(round(y, 6), round(p, 2)) for y, p in law[-3:]]
+    [(0.045, 72.14), (0.225, 41.1), (0.45, 41.1)]
     """
     _check_clay("matlock_clay", z, D=D, cu=cu, gamma=gamma, eps50=eps50, J=J)
-    return clay_points(ultimate_clay(z, D, cu, cu, gamma, J), 8.0 * 2.5 * eps50 * D, 3)
+    ultimate, y50 = ultimate_clay(z, D, cu, cu, gamma, J), 2.5 * eps50 * D
+    if not cyclic:
+        return clay_points(ultimate, 8.0 * y50, 3)
+    peak = 0.72 * ultimate
+    residual = peak * min(z * (gamma * D + J * cu) / (6.0 * cu * D), 1.0)
+    return [*clay_points(peak, 3.0 * y50, 3)[:-1], (15.0 * y50, residual), (30.0 * y50, residual)]
 
 
 def reese_clay(
@@ -91,7 +104,7 @@ def reese_clay(
     average_cu : float, optional
         ca: strength from the ground down to the depth, on average (force/length^2); default cu.
     free_water : bool
-        True is refused: with free water the resistance of stiff clay falls (Reese, Cox and Koop, 1975).
+        True is refused: this is another curve (Reese, Cox and Koop, 1975).
 
     Returns
     -------
@@ -109,8 +122,8 @@ def reese_clay(
     (0.24, 362.4)
     """
     if free_water:
-        problem = "with free water the resistance falls beyond a peak (Reese, Cox and Koop, 1975), which ground may not do"
-        raise SceneError("reese_clay: free_water", f"{problem}; give a polyline that stays at the residual resistance")
+        problem = "with free water the resistance falls beyond a peak (Reese, Cox and Koop, 1975), by a curve that is not here"
+        raise SceneError("reese_clay: free_water", f"{problem}; give its points as law")
     ca = cu if average_cu is None else average_cu
     _check_clay("reese_clay", z, D=D, cu=cu, average_cu=ca, gamma=gamma, eps50=eps50, J=J)
     return clay_points(ultimate_clay(z, D, cu, ca, gamma, J), 16.0 * 2.5 * eps50 * D, 4)

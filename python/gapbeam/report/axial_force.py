@@ -10,6 +10,7 @@ from ..results import formatting as fmt
 from ..results.answer import is_one_of_several
 from ..results.equilibrium import acting_axial_forces, axial_forces
 from ..results.stepping import solve
+from ..scene.ground_laws import any_falls
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -70,7 +71,8 @@ def write_modes_of_combinations(say: Writer, result: Result) -> None:
     """
     analysis = result.scene.analysis
     solved = [name for name, status in zip(result.names, result.statuses, strict=True) if status == "solved"]
-    if not solved or not (analysis.buckling or analysis.frequencies or result._beam.has_axial_force):
+    falling = any_falls(result.scene.foundation)
+    if not solved or not (analysis.buckling or analysis.frequencies or result._beam.has_axial_force or falling):
         return
     several = [name for name in solved[:MOST_ROWS] if is_one_of_several(result.combinations[name])]
     if analysis.buckling or analysis.frequencies:
@@ -82,7 +84,8 @@ def write_modes_of_combinations(say: Writer, result: Result) -> None:
         if len(solved) > MOST_ROWS:
             say.line(f"{len(solved) - MOST_ROWS:,} more are in the output of --json.", "dim")
     if several:
-        say.line(f"Under compression other stable states are not excluded in {', '.join(several)}.", "red")
+        where = "On ground whose force falls" if falling else "Under compression"
+        say.line(f"{where} other stable states are not excluded in {', '.join(several)}.", "red")
 
 
 def axial_forces_in_words(result: Result, step: Step | None) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.characters import visible
+from ..scene.ground_laws import any_falls
 from ..scene.rotations import which_turn
 from ..scene.structs import Scene
 from . import formatting as fmt
@@ -39,6 +40,9 @@ WIDTH = 56
 ONE_OF_SEVERAL = ("Under this compression other stable states are not excluded. This one is reached as the axial forces grow "
                   "from 0, with all other loads in full.")  # fmt: skip
 """Of a state that is not proved to be the only one."""
+ONE_ON_FALLING_GROUND = ("The force of the ground falls, so that other stable states are not excluded. This one is reached as the "
+                         "loads grow, the dead loads first.")  # fmt: skip
+"""The same where ground is why."""
 NOT_FOLLOWED = "the path has so many states that its largest values are looked for on request only"
 
 
@@ -196,7 +200,7 @@ def is_one_of_several(result: Result) -> bool:
     result : Result
         Of one load or of combinations; of these False.
     """
-    return bool(not result.combinations and result._beam.has_axial_force and result.steps and not result.steps[-1].unique)
+    return bool(not result.combinations and result._beam.in_stretches and result.steps and not result.steps[-1].unique)
 
 
 def outcome_in_words(result: Result) -> list[str]:
@@ -248,5 +252,5 @@ def answer(result: Result) -> list[str]:
     lines += values_in_words(result, envelope)
     lines += limits_in_words(result, find_utilisations(result, envelope))
     if result.stands and is_one_of_several(result):
-        lines.append(ONE_OF_SEVERAL)
+        lines.append(ONE_ON_FALLING_GROUND if any_falls(result.scene.foundation) else ONE_OF_SEVERAL)
     return lines + doubts_of_scene(result, envelope)

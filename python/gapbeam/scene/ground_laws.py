@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
+from itertools import pairwise
 from typing import Any, ClassVar
 
 import numpy as np
@@ -176,7 +178,7 @@ GroundLawTable = PlasticGround | HardeningGround | HyperbolicGround | TanhGround
 GroundLaw = list[tuple[float, float] | LawAt] | GroundLawTable
 
 NOT_FOR_GROUND = {
-    BrittleLaw: "a law whose force falls is not available for foundations in this version; give a polyline that never falls",
+    BrittleLaw: "ground has no force that drops at once; give a polyline that falls over a way",
 }
 """Laws of supports that are no laws of foundations, and why."""
 NO_POWER = (
@@ -220,6 +222,36 @@ def varies(law: GroundLaw | None) -> bool:
         Of a foundation.
     """
     return isinstance(law, list) and len(law) > 0 and isinstance(law[0], LawAt)
+
+
+def falls(law: GroundLaw | None) -> bool:
+    """Whether the force of a law falls anywhere.
+
+    Parameters
+    ----------
+    law : list, law table or None
+        Of a foundation.
+
+    Examples
+    --------
+    >>> falls([(0.01, 50.0), (0.03, 20.0), (0.1, 20.0)])
+    True
+    """
+    if not isinstance(law, list):
+        return False  # laws by name never fall
+    polylines = [place.points for place in law] if varies(law) else [law]
+    return any(after < before for points in polylines for (_, before), (_, after) in pairwise(points))
+
+
+def any_falls(foundations: Iterable[Any]) -> bool:
+    """Whether the force of any foundation falls.
+
+    Parameters
+    ----------
+    foundations : iterable of Foundation
+        Of a scene that has been read.
+    """
+    return any(falls(foundation.law) for foundation in foundations)
 
 
 def slopes_of_branch(law: list[LawAt], branch: int) -> list[tuple[float, float]]:

@@ -180,7 +180,8 @@ class Foundation(Stretch, kw_only=True, gc=False):
         columns.
     law : list of (float, float) or table, optional
         Instead of k: points of a curve, displacement past the gap and force per length (length, force/length), from (0, 0) on,
-        which is left out. The force never falls, and no displacement stands there twice. The last slope continues. With side both
+        which is left out. The force may fall, but not below 0, nor at last; no displacement stands there twice. The last slope
+        continues. With side both
         the curve is mirrored. Or tables with x and points, as many at every position, linear in between. Or a table with a type,
         the name of a curve, whose parameters are numbers per length, (at from, at to), or points (x, value), linear in
         between: curves are solved to all digits.

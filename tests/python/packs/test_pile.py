@@ -111,7 +111,10 @@ def test_a_pile_in_soft_clay_beside_springs_on_the_curve_itself(load):
         ([], "pile_ground: layers: has no layer; give the layers from the ground down"),
         ([{"law": "clay"}], "pile_ground: layers[0].law: expected matlock_clay, reese_clay, api_sand, got 'clay'"),
         ([{"law": "api_sand", "to": 2.0, "gamma": 9.0}], "pile_ground: layers[0]: has no phi; api_sand needs to, gamma, phi"),
-        ([LAYERS[0] | {"phi": 30.0}], "pile_ground: layers[0].phi: is no key of matlock_clay; it has to, gamma, cu, eps50, J"),
+        (
+            [LAYERS[0] | {"phi": 30.0}],
+            "pile_ground: layers[0].phi: is no key of matlock_clay; it has to, gamma, cu, eps50, J, cyclic",
+        ),
         ([LAYERS[0], LAYERS[1] | {"to": 5}], "pile_ground: layers[1].to: expected a depth below 6, where the layer begins, got 5"),
         ([LAYERS[2] | {"gamma": 0.0}], "pile_ground: layers[0]: gamma: expected a number above 0, got 0"),
         ([LAYERS[2] | {"phi": 60.0}], "api_sand: phi: expected 20 to 45, got 60"),

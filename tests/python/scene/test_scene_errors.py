@@ -431,11 +431,11 @@ law = [[0.01, 5.0], [0.005, 6.0]] ->
     foundation[1].law[1]: the displacements go back at [0.005, 6], after 0.01; give them in ascending order
 law = [[0.01, -5.0]] -> foundation[1].law[0]: the force is below zero at [0.01, -5]; ground that pushes cannot pull
 law = [[0.01, 5.0], [0.02, 4.0]] ->
-    foundation[1].law[1]: the force falls at [0.02, 4]; softening ground is not available in this version
+    foundation[1].law[1]: it ends falling, so its force would become negative beyond [0.02, 4]; add a point from which on
+    it stays
 law = [[0.01, 0.0]] -> foundation[1].law: its force stays 0, so it never carries; remove the foundation
 law = { type = "brittle", stiffness = 1.0, limit = 2.0 } ->
-    foundation[1].law: a law whose force falls is not available for foundations in this version; give a polyline
-    that never falls
+    foundation[1].law: ground has no force that drops at once; give a polyline that falls over a way
 law = { type = "power", d0 = 1.0, limit = 2.0, n = 0.5 } ->
     foundation[1].law.n: expected 1, 2 or 3, got 0.5: with n below 1 the ground is infinitely stiff at first, so that a pile
     would change its side infinitely often, with others no series holds where contact begins; give a polyline, as codes do

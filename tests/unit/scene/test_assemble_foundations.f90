@@ -334,7 +334,7 @@ contains
                     law=[ground_law_point_type(2, 0.0_wp, 0.0_wp)], point=1)
         call expect(foundation_type(), bad_law, "law", "displacements that go back", &
                     law=[ground_law_point_type(2, 1.0_wp, 1.0_wp), ground_law_point_type(2, 0.5_wp, 2.0_wp)], point=2)
-        call expect(foundation_type(), bad_law, "law", "softening ground", &
+        call expect(foundation_type(), bad_law, "law", "ground that falls at last", &
                     law=[ground_law_point_type(2, 1.0_wp, 2.0_wp), ground_law_point_type(2, 2.0_wp, 1.0_wp)], point=2)
         call expect(foundation_type(), bad_law, "law", "a law that never carries", law=[ground_law_point_type(2, 1.0_wp, 0.0_wp)])
         call expect(foundation_type(), bad_law, "law", "points apart from each other", &

@@ -14,7 +14,7 @@ from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.movements import refuse_movements
 from ...scene.structs import Scene
-from ..state.motion import buckling_of
+from ..state.motion import cause_of_fall
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
 from ..state.steps import LoadSteps, PathSteps
@@ -109,7 +109,7 @@ def _refuse_beyond_bounds(result: Result) -> None:
             if isinstance(found, Solution):
                 result.path = None
                 result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam), 0)
-                result._refuse(f"at load factor {last.stop:g}", found.motion, buckling_of(found))
+                result._refuse(f"at load factor {last.stop:g}", found.motion, cause_of_fall(found))
                 return
 
 

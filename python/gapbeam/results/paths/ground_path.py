@@ -11,8 +11,9 @@ import numpy as np
 from ...base.errors import Status
 from ...engine.beam import SOLVED, Beam
 from ...engine.paths import follow_ground
+from ...scene.ground_laws import any_falls
 from ..state.breakpoints import EVENTS
-from ..state.motion import buckling_of, describe_motion
+from ..state.motion import FallingGround, cause_of_fall, describe_motion
 from ..state.step import Step
 from .branches import Limit
 from .path import Segment
@@ -137,17 +138,21 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
         From 0 to 1, or to the factor above which there is no equilibrium; None if there is none from the beginning.
     """
     path = GroundPath(result._beam, rule, closed)
+    asks = path.buckles or (not path.stands and any_falls(result.scene.foundation))
+    cause = cause_of_fall(result._beam.solve(path.beyond, rule, closed)) if asks else None
     if path.limits:
         result.status = "limit-load"
         last, beyond = f"{path.limits[0].factor:.12g}", f"{max(path.limits[0].factor, path.beyond):.12g}"
         where = f"beyond load factor {last}" if beyond == last else f"between the load factors {last} and {beyond}"
         result.reason = f"limit load: nothing more resists the load {where}"
+        if isinstance(cause, FallingGround):
+            result.reason = f"limit load: the force of the ground falls, and the load cannot grow {where}"
         if path.motion is not None:
             result.motion = list(zip(result._beam.node_x.tolist(), path.motion.tolist(), strict=True))
-            result.reason += f"; {describe_motion(result._beam, path.motion)}"
+            if not isinstance(cause, FallingGround):
+                result.reason += f"; {describe_motion(result._beam, path.motion)}"
         return path
     if not path.stands:
         where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
-        fallen = result._beam.solve(path.beyond, rule, closed) if path.buckles else None
-        result._refuse(where, path.motion, None if fallen is None else buckling_of(fallen))
+        result._refuse(where, path.motion, cause)
     return path if path.segments else None

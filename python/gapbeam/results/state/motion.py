@@ -1,8 +1,9 @@
-"""Motions in words: free ones, and those with which a beam buckles."""
+"""Motions in words: free ones, those with which a beam buckles, and what ground whose force falls bears."""
 
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,18 @@ from ...engine.states import Solution
 
 SLIDES = "the beam slides along its axis, no axial support holds it"
 SLIDES_ON_GROUND = "the beam slides along its axis: the ground along it takes no more, and no axial support holds it"
+
+
+class FallingGround(NamedTuple):
+    """That a beam gives way because the force of the ground falls.
+
+    Attributes
+    ----------
+    share : float
+        Of the load factor, that the ground bears; 0 where it does not bear the dead loads.
+    """
+
+    share: float
 
 
 def describe_motion(beam: Beam, motion: np.ndarray) -> str:
@@ -41,17 +54,17 @@ def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     return "; ".join(shown) + "; the loads push it that way and no support resists"
 
 
-def buckling_of(solution: Solution) -> Buckling | None:
-    """Give how a beam buckles; None where it does not.
+def cause_of_fall(solution: Solution) -> Buckling | FallingGround | None:
+    """Give how a beam buckles, or what falling ground bears; None where it simply moves.
 
     Parameters
     ----------
     solution : Solution
         Of a beam that does not stand.
     """
-    if solution.status != Status.BUCKLES:
-        return None
-    return Buckling(solution.axial_share, *buckled_shape(solution.state))
+    if solution.status == Status.BUCKLES:
+        return Buckling(solution.axial_share, *buckled_shape(solution.state))
+    return FallingGround(solution.axial_share) if solution.axial_share < 1.0 else None
 
 
 def describe_buckling(found: Buckling) -> str:
@@ -71,7 +84,27 @@ def describe_buckling(found: Buckling) -> str:
     return f"with these loads the beam bears {found.share:.6g} times its axial forces, and gives way most at x = {found.x[k]:.6g}"
 
 
-def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: Buckling | None) -> tuple[str, str]:
+def describe_falling_ground(found: FallingGround) -> str:
+    """Say what falling ground bears.
+
+    Parameters
+    ----------
+    found : FallingGround
+        How much.
+
+    Returns
+    -------
+    str
+        For example "the force of the ground falls, and bears no more than 0.87 times that load factor".
+    """
+    if not found.share > 0.0:
+        return "the force of the ground falls under the dead loads alone"
+    return f"the force of the ground falls, and bears no more than {found.share:.12g} times that load factor"
+
+
+def describe_fall(
+    beam: Beam, where: str, motion: np.ndarray | None, cause: Buckling | FallingGround | None
+) -> tuple[str, str]:
     """Say that a beam does not stand, and why.
 
     Parameters
@@ -82,16 +115,18 @@ def describe_fall(beam: Beam, where: str, motion: np.ndarray | None, buckling: B
         At or above which load factor; empty where that is said elsewhere.
     motion : numpy.ndarray or None
         Displacements of the nodes in the free motion; None where it slides along its axis.
-    buckling : Buckling or None
-        How it buckles, if it does.
+    cause : Buckling, FallingGround or None
+        How it buckles, or what falling ground bears; None where it simply moves.
 
     Returns
     -------
     status, reason : str
     """
     at = f" {where}" if where else ""
-    if buckling is not None:
-        return "buckles", f"buckles{at}: {describe_buckling(buckling)}"
+    if isinstance(cause, Buckling):
+        return "buckles", f"buckles{at}: {describe_buckling(cause)}"
+    if cause is not None:
+        return "no-equilibrium", f"no equilibrium{at}: {describe_falling_ground(cause)}"
     return "no-equilibrium", f"no equilibrium{at}: {_sliding(beam) if motion is None else describe_motion(beam, motion)}"
 
 

@@ -27,7 +27,7 @@ from .arguments import finite, numbers, whole
 from .fields import Fields, find_places
 from .ground import with_ends_of_zones
 from .modes import WithModes
-from .motion import describe_fall, describe_motion
+from .motion import FallingGround, describe_fall, describe_motion
 from .schemes import starting_scheme
 from .slip_zones import with_ends_of_slip
 from .step import Step, solve_step
@@ -134,7 +134,7 @@ class States(Pickled, WithModes):
         """Time of these."""
         return self.steps.seconds if self.path is None else self.path.seconds
 
-    def _refuse(self, where: str, motion: np.ndarray | None, buckling: Buckling | None = None) -> None:
+    def _refuse(self, where: str, motion: np.ndarray | None, cause: Buckling | FallingGround | None = None) -> None:
         """Note that there is no equilibrium, or that the beam buckles.
 
         Parameters
@@ -143,12 +143,12 @@ class States(Pickled, WithModes):
             At or above which load factor.
         motion : numpy.ndarray or None
             Displacements of the nodes in the free motion; None where the beam slides along its axis.
-        buckling : Buckling, optional
-            How it buckles, if it does.
+        cause : Buckling or FallingGround, optional
+            How it buckles, or what falling ground bears.
         """
-        self.status, self.reason = self.steps.outcome = describe_fall(self._beam, where, motion, buckling)
+        self.status, self.reason = self.steps.outcome = describe_fall(self._beam, where, motion, cause)
         if motion is not None:
-            x, w = (self._beam.node_x, motion) if buckling is None else buckling[1:]
+            x, w = cause[1:] if isinstance(cause, Buckling) else (self._beam.node_x, motion)
             self.motion = list(zip(x.tolist(), w.tolist(), strict=True))
 
     def _refuse_answer(self, error: EngineError) -> None:

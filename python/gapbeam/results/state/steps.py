@@ -14,7 +14,7 @@ from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
 from ...engine.modes import Buckling
 from .arguments import whole
-from .motion import buckling_of
+from .motion import FallingGround, cause_of_fall
 from .step import Known, Step, name_states, solve_step
 
 if TYPE_CHECKING:
@@ -179,14 +179,14 @@ class LoadSteps(Steps):
         known = Known(self.closed(k), int(self._solves[k]), float(self._seconds[k]))
         return Step(self._beam, self.factor(k), self._rule, self._before(k), known)
 
-    def solve_all(self) -> tuple[float, np.ndarray | None, Buckling | None] | None:
+    def solve_all(self) -> tuple[float, np.ndarray | None, Buckling | FallingGround | None] | None:
         """Solve one step after the other, as long as they stand.
 
         Returns
         -------
-        None or (float, numpy.ndarray or None, Buckling or None)
+        None or (float, numpy.ndarray or None, Buckling, FallingGround or None)
             None if all stand; else the load factor at which there is no equilibrium, with the free motion of the nodes,
-            or None where the beam slides along its axis, and how it buckles if it does.
+            or None where the beam slides along its axis, and how it buckles, or what falling ground bears.
 
         Raises
         ------
@@ -199,7 +199,7 @@ class LoadSteps(Steps):
                 self._schemes, self._solves, self._seconds = (
                     part[:k].copy() for part in (self._schemes, self._solves, self._seconds)
                 )
-                return self.factor(k), None if step.slides else step.motion, buckling_of(step)
+                return self.factor(k), None if step.slides else step.motion, cause_of_fall(step)
             self._schemes[k] = np.packbits(step.closed)
             self._solves[k] = step.solves
             self._seconds[k] = step.seconds

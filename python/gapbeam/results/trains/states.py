@@ -12,7 +12,7 @@ from ...engine.beam import SOLVED, Beam
 from ...engine.quantities import FIELDS
 from ...engine.trains import NOT_UNIQUE
 from ...scene.columns import BY_X, DISTRIBUTED, FORCE
-from ..state.motion import buckling_of, describe_fall
+from ..state.motion import cause_of_fall, describe_fall
 from ..state.schemes import starting_scheme
 from ..state.step import Step
 from .traversals import NO_ANSWER
@@ -54,7 +54,7 @@ class Placed:
             return
         if solution.status in FALLEN:
             self.status = solution.status
-            _, self.reason = describe_fall(beam, "", None if solution.slides else solution.motion, buckling_of(solution))
+            _, self.reason = describe_fall(beam, "", None if solution.slides else solution.motion, cause_of_fall(solution))
         elif solution.indifferent:
             self.status, self.reason = NOT_UNIQUE, NO_ANSWER[NOT_UNIQUE]
 
