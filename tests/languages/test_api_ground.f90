@@ -22,6 +22,7 @@ program test_api_ground
     call other_loads()
     call it_sinks()
     call its_edge_lifts()
+    call its_force_falls()
     call extreme_units()
     call everything_refused()
     call finish(status)
@@ -399,6 +400,42 @@ contains
         call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
         call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_load") > 0, "no ground")
     end subroutine its_edge_lifts
+
+    !> A rigid bar turns about its left end on ground that rises with 7000 to 0.01, falls with 1000 to 0.03, and stays: it bears most
+    !> where its tip is at 0.01*(1 + 7000/1000)**(1/3) = 0.02, a force of 60 there
+    subroutine its_force_falls()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(ground_event_type), allocatable :: events(:)
+        type(error_type), allocatable :: error
+        real(wp) :: fields(6, 1)
+        real(wp), allocatable :: x(:), motion(:)
+
+        model%spans = [span_type(2.0_wp, EI=gapbeam_infinity)]
+        model%supports = [support_type(node=0)]
+        model%foundations = [foundation_type(side=gapbeam_below)]
+        model%ground_law = [ground_law_point_type(1, 0.01_wp, 70.0_wp), ground_law_point_type(1, 0.03_wp, 50.0_wp), &
+                            ground_law_point_type(1, 0.1_wp, 50.0_wp)]
+        model%loads = [point_force(100.0_wp, x=2.0_wp)]
+        call prepare_model(model, beam, error)
+        call follow_ground(beam, 1.0_wp, options_type(), events, result, error)
+        call check(.not. allocated(error) .and. result%status == gapbeam_no_equilibrium, "it gives way")
+        call check(abs(result%factor - 0.6_wp) < 1e-11_wp, "at the peak")
+        allocate (x(count_nodes(beam)), motion(count_nodes(beam)))
+        call get_motion(beam, result, x, motion, error)
+        call check(abs(motion(2) - 1.0_wp) < 1e-12_wp .and. abs(motion(1)) < 1e-12_wp, "it goes down")
+        call check(size(events) == 1, "the ground begins to fall under its tip")
+        call check_close(events(1)%factor, 7.0_wp/15, "there")
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(.not. allocated(error) .and. result%status == gapbeam_no_equilibrium, "all of the force")
+        model%loads(1)%value = 157.0_wp/2.7_wp
+        call replace_loads(beam, model%loads, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(.not. allocated(error) .and. result%status == gapbeam_solved, "a little less")
+        call get_fields(beam, result, [2.0_wp], fields, error)
+        call check(abs(fields(1, 1) - 0.015_wp) < 1e-14_wp, "where the tip is by hand")
+    end subroutine its_force_falls
 
     !> Everything that cannot be had
     subroutine everything_refused()
