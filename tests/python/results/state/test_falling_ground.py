@@ -46,6 +46,17 @@ def test_a_bar_by_hand():
     assert result.events[0].factor == pytest.approx(140.0 / 3.0 / 100.0, rel=1e-14)
 
 
+@pytest.mark.parametrize("way", [{}, {"follow": "events"}, {"steps": 3}])
+def test_a_stop_beyond_the_peak_is_not_jumped_to(way):
+    """Under all of F the tip could lie on the stop, where it would come to by a jump."""
+    made = bar(**way)
+    made["supports"].append({"x": 2.0, "side": "below", "gap": 0.05, "stiffness": 1.0e5})
+    result = gapbeam.solve(made)
+    assert result.status == ("limit-load" if way.get("follow") else "no-equilibrium")
+    share = result.limits[0].factor if way.get("follow") else float(result.reason.split("no more than ")[1].split()[0])
+    assert share * (2.0 / 3.0 if "steps" in way else 1.0) == pytest.approx(0.6, rel=1e-11)
+
+
 def test_a_beam_that_reaches_the_peak_everywhere_at_once():
     result = gapbeam.solve(block(follow="events"))
     assert result.limits[0].factor == pytest.approx(0.5, rel=1e-11)
