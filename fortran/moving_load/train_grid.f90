@@ -16,6 +16,7 @@ module gapbeam_train_grid
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: end_of_beam, distance_at_end
+    use gapbeam_ground, only: ground_type
     use gapbeam_filled_ground, only: any_falls
     use gapbeam_uniqueness, only: is_unique
     use gapbeam_state, only: ground_of
@@ -76,15 +77,9 @@ contains
                              "in this version; give its axles as forces at places")
             return
         end if
-        if (.not. is_unique(ground_of(assembled, 1.0_wp))) then
-            if (any_falls(ground_of(assembled, 1.0_wp))) then
-                call fatal_error(error, gapbeam_bad_input, "goes over ground whose force falls, where states depend on the way "// &
-                                 "to them, which is not available in this version; give its axles as forces at places")
-            else
-                call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports "// &
-                                 "(N below 0), which is not available in this version; give its axles as forces at places")
-            end if
-            return
+        if (allocated(assembled%layers)) then
+            call refuse_several_states(ground_of(assembled, 1.0_wp), error)
+            if (allocated(error)) return
         end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
@@ -101,6 +96,21 @@ contains
         end if
         parts(:) = max(least_parts, ceiling((borders(2:) - borders(:n))/step))
     end subroutine find_parts
+
+    !> A beam that may have several states is refused
+    subroutine refuse_several_states(ground, error)
+        type(ground_type), intent(in) :: ground
+        type(error_type), allocatable, intent(out) :: error
+
+        if (is_unique(ground)) return
+        if (any_falls(ground)) then
+            call fatal_error(error, gapbeam_bad_input, "goes over ground whose force falls, where states depend on the way to "// &
+                             "them, which is not available in this version; give its axles as forces at places")
+        else
+            call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports (N below "// &
+                             "0), which is not available in this version; give its axles as forces at places")
+        end if
+    end subroutine refuse_several_states
 
     !> Distance of the positions
     pure function grid_step(assembled, deflection) result(step)

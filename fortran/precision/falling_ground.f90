@@ -77,13 +77,15 @@ contains
             end if
             if (has_ended(error)) return
             if (allocated(error)) deallocate (error)
-            way%from%dead = 1.0_wp
-            way%from%factor = near%factor
             call solve_near(way, 1.0_wp, near%factor, near, closed, solution, outcome, error)
-            if (is_solved(outcome, error)) call stop_at(ground, solution, closed, way%from)
-        else
-            call begin_at_rest(way, closed, solution, outcome, error)
+            if (has_ended(error)) return
+            if (is_solved(outcome, error)) then
+                way%from%dead = 1.0_wp
+                way%from%factor = near%factor
+                call stop_at(ground, solution, closed, way%from)
+            end if
         end if
+        if (way%from%dead < 1.0_wp) call begin_at_rest(way, closed, solution, outcome, error)
         if (.not. is_solved(outcome, error)) return
         call follow_loads(way, closed, solution, outcome, error)
     end subroutine solve_on_falling_ground

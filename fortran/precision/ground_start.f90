@@ -74,6 +74,7 @@ contains
         solves = solves + work%solves
         solved = .not. allocated(error) .and. outcome%status == gapbeam_solved
         settled = settled .and. solved
+        start%factor = factor
         if (settled .or. .not. solved) return
         call polish_zones(ground, factor, rule, huge(1.0_wp), start%zones, start%closed, grounded, work, outcome, moving, error)
         solves = solves + work%solves
@@ -102,6 +103,7 @@ contains
         solved = settled .and. .not. allocated(error)
         if (solved) then
             start = polished
+            start%factor = factor
         else
             call settle_nearby(ground, factor, rule, start, grounded, work, solves, settled, solved)
         end if

@@ -12,6 +12,7 @@ from . import (
     doubled,
     enumeration,
     events,
+    falling,
     ground,
     hinges,
     laws,
@@ -25,7 +26,7 @@ from . import (
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, doubled, ground, trains, combinations, batches, roads, axial_force,
+    enumeration, events, signs, hinges, laws, doubled, ground, falling, trains, combinations, batches, roads, axial_force,
     mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}

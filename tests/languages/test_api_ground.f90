@@ -401,8 +401,8 @@ contains
         call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_load") > 0, "no ground")
     end subroutine its_edge_lifts
 
-    !> A rigid bar turns about its left end on ground that rises with 7000 to 0.01, falls with 1000 to 0.03, and stays: it bears most
-    !> where its tip is at 0.01*(1 + 7000/1000)**(1/3) = 0.02, a force of 60 there
+    !> A rigid bar turns about its left end on ground that rises with 7000 to 0.01, falls with 1000 to 0.03, and stays: it bears
+    !> most where its tip is at 0.01*(1 + 7000/1000)**(1/3) = 0.02, a force of 60 there
     subroutine its_force_falls()
         type(model_type) :: model
         type(prepared_type) :: beam

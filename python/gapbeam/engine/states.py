@@ -214,9 +214,9 @@ class Solution(Record):
     slides : bool
         Whether nothing holds the beam along its axis.
     unique : bool
-        Whether it is known to be the only one; under compression there may be others.
+        Whether it is known to be the only one; under compression, and on ground whose force falls, there may be others.
     axial_share : float
-        Share of the axial forces that the beam bears where it buckles; else 1.
+        Share of the axial forces that the beam bears where it buckles, of the load factor where the ground's force falls; else 1.
     state : State
         All the rest.
     chain : Chain, optional

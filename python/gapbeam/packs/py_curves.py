@@ -58,7 +58,7 @@ def matlock_clay(
     [(0.081472, 88.07), (0.12, 100.2), (0.24, 100.2)]
     >>> law = matlock_clay(3.0, D=0.6, cu=26.0, gamma=8.0, eps50=0.01, cyclic=True)
     >>> [(round(y, 6), round(p, 2)) for y, p in law[-3:]]
-    [(0.045, 72.14), (0.225, 41.1), (0.45, 41.1)]
+    [(0.045, 72.14), (0.225, 41.16), (0.45, 41.16)]
     """
     _check_clay("matlock_clay", z, D=D, cu=cu, gamma=gamma, eps50=eps50, J=J)
     ultimate, y50 = ultimate_clay(z, D, cu, cu, gamma, J), 2.5 * eps50 * D
