@@ -20,7 +20,7 @@ module gapbeam_limits
     public :: most_stiffness_unit, most_load_terms, least_segment_links, most_segment_solves
     public :: segment_non_monotone_solves, end_non_monotone_solves, few_in_segments, few_segment_solves, most_segment_rounds
     public :: most_rigid_rounds, first_rigid_parts, most_rigid_meshes, most_mode_stretches, most_halvings, most_asides
-    public :: least_compressions, most_compressions, most_fresh_starts, mode_parts
+    public :: least_compressions, most_compressions, most_states_of_load, most_fresh_starts, mode_parts
     public :: neighbourhood, kept_columns, most_lane_root_steps, case_batch, most_tangents, most_branch_points
     public :: most_schemes, most_scheme_changes, most_response_numbers, most_cancelled, most_stretchings
     public :: most_decays_in_tension
@@ -83,8 +83,11 @@ module gapbeam_limits
     !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. Read by
     !> precision/compressed
     integer, parameter :: least_compressions = 8
-    !> States after which they are given up. Read by precision/compressed, precision/falling_ground
+    !> States after which they are given up. Read by precision/compressed
     integer, parameter :: most_compressions = 400
+    !> The same as loads grow on ground whose force falls: steps are short where the beam is soft beside that. Read by
+    !> precision/falling_ground
+    integer, parameter :: most_states_of_load = 10000
     !> Looks for a first state under loads on ground whose force falls that begin on ground that never does; tuned. Read by
     !> precision/falling_ground
     integer, parameter :: most_fresh_starts = 8

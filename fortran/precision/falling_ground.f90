@@ -5,7 +5,7 @@
 !> nothing can be added any more the ground gives way; states farther away are not looked for.
 module gapbeam_falling_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: most_compressions, most_fresh_starts
+    use gapbeam_limits, only: most_states_of_load, most_fresh_starts
     use gapbeam_tolerances, only: least_share, little_compression
     use gapbeam_words, only: shown
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
@@ -143,7 +143,7 @@ contains
         way%earlier = way%from
         way%at = way%from%dead
         fresh_starts = 0
-        do number = 1, most_compressions
+        do number = 1, most_states_of_load
             next = place_on(way, way%at + way%step)
             call solve_near(way, next%dead, next%factor, way%last%state, closed, solution, outcome, error)
             if (has_ended(error)) return
@@ -171,7 +171,7 @@ contains
                 if (is_near_enough(way)) exit
             end if
         end do
-        if (is_at_end(way%ground, way%last)) then
+        if (number <= most_states_of_load .and. is_at_end(way%ground, way%last)) then
             call give_way(way, solution, outcome)
             return
         end if
