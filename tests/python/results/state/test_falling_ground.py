@@ -66,6 +66,20 @@ def test_a_beam_that_reaches_the_peak_everywhere_at_once():
     assert gapbeam.solve(lighter).at([0.0, 1.0, 3.0]).deflection == pytest.approx(0.01 * 69.0 / 70.0, rel=1e-13)
 
 
+def test_ground_that_rises_again_is_not_jumped_to():
+    made = block()
+    made["foundation"][0]["law"] = [[0.01, 70.0], [0.03, 50.0], [0.05, 200.0]]
+    assert gapbeam.solve(made).reason.endswith("bears no more than 0.5 times that load factor")
+
+
+@pytest.mark.parametrize("seed", [15, 37, 40, 246])
+def test_beams_that_only_touch_without_loads(seed):
+    """The least load brings them to quite other places."""
+    known = ("no-equilibrium", "limit-load", "solved")
+    for follow in ({}, {"follow": "events"}):
+        assert gapbeam.solve({**random_falling_scene(seed), "analysis": follow}).status in known
+
+
 def test_dead_loads_that_the_ground_does_not_bear():
     made = block()
     made["loads"] = [{"type": "uniform", "q": 71.0, "case": "dead"}, {"type": "uniform", "q": -30.0}]
