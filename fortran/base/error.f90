@@ -3,7 +3,7 @@
 module gapbeam_error
     implicit none
     private
-    public :: error_type, fatal_error, no_memory, out_of_range, status_text, status_codes, status_texts, unknown_status
+    public :: error_type, fatal_error, no_memory, out_of_range, has_ended, status_text, status_codes, status_texts, unknown_status
     public :: gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles
     public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, gapbeam_stopped
@@ -110,5 +110,14 @@ contains
         text = unknown_status
         if (i > 0) text = status_texts(i)
     end function status_text
+
+    !> Has a call been ended, for want of memory or by whoever watches it, so that nothing else is to be tried
+    pure function has_ended(error)
+        type(error_type), allocatable, intent(in) :: error
+        logical :: has_ended
+
+        has_ended = .false.
+        if (allocated(error)) has_ended = any(error%code == [gapbeam_no_memory, gapbeam_stopped])
+    end function has_ended
 
 end module gapbeam_error

@@ -6,7 +6,7 @@ module gapbeam_layers
     implicit none
     private
     public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit, &
-              falls
+              falls, falls_on
 
     !> One foundation under one piece of the beam. It pushes back where side*(w - contact) > 0, by its modulus or by a law
     type :: layer_type
@@ -103,10 +103,16 @@ contains
         type(law_piece_type), intent(in) :: laws(:)
         logical :: it_does
 
-        associate (own => laws(layer%law_first:layer%law_last))
-            it_does = any(min(own%slope_a, own%slope_b) < 0.0_wp)
-        end associate
+        it_does = any(falls_on(laws(layer%law_first:layer%law_last)))
     end function falls
+
+    !> Does the force of a law fall on one of its pieces
+    elemental function falls_on(piece) result(it_does)
+        type(law_piece_type), intent(in) :: piece
+        logical :: it_does
+
+        it_does = min(piece%slope_a, piece%slope_b) < 0.0_wp
+    end function falls_on
 
     !> A piece of the law of a layer; of a linear one the only piece, without its slope
     pure function law_piece(layer, laws, number) result(piece)

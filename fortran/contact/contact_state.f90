@@ -27,7 +27,7 @@ module gapbeam_contact_state
     use gapbeam_search, only: settle, refuse_scheme, rule_least_index
     implicit none
     private
-    public :: find_contact_state, outcome_type
+    public :: find_contact_state, outcome_type, is_solved
 
     !> How the search ended, apart from errors
     type :: outcome_type
@@ -45,6 +45,15 @@ module gapbeam_contact_state
     end type outcome_type
 
 contains
+
+    !> Was a state found
+    pure function is_solved(outcome, error)
+        type(outcome_type), intent(in) :: outcome
+        type(error_type), allocatable, intent(in) :: error
+        logical :: is_solved
+
+        is_solved = .not. allocated(error) .and. outcome%status == gapbeam_solved
+    end function is_solved
 
     !> Find the contact state and its solution
     subroutine find_contact_state(beam, factor, rule, closed, work, outcome, error)

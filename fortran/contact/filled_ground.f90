@@ -1,7 +1,7 @@
 !> Ground whose force falls, and the like whose force never does.
 module gapbeam_filled_ground
     use gapbeam_kinds, only: wp
-    use gapbeam_layers, only: falls, pieces_of_law, law_piece
+    use gapbeam_layers, only: falls, falls_on, pieces_of_law, law_piece
     use gapbeam_ground, only: ground_type
     implicit none
     private
@@ -31,9 +31,7 @@ contains
 
         associate (l => ground%layers(layer))
             do number = 1, pieces_of_law(l)
-                associate (piece => law_piece(l, ground%laws, number))
-                    if (min(piece%slope_a, piece%slope_b) < 0.0_wp) return
-                end associate
+                if (falls_on(law_piece(l, ground%laws, number))) return
             end do
         end associate
     end function peak_of

@@ -6,7 +6,8 @@ module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_buckles
     use gapbeam_kinematics, only: work_of_loads
-    use gapbeam_layers, only: has_limit, has_curves, falls
+    use gapbeam_layers, only: has_limit, has_curves
+    use gapbeam_filled_ground, only: any_falls
     use gapbeam_refined_ground, only: refine_ground, refine_links
     use gapbeam_ground_limit, only: find_limit
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
@@ -65,12 +66,12 @@ contains
         problem%start(:) = state%closed
         do k = 1, size(assembled%layers)
             associate (layer => assembled%layers(k))
-                problem%falls = problem%falls .or. falls(layer, assembled%law_pieces)
                 if (.not. has_limit(layer, assembled%law_pieces)) cycle
                 problem%yields = .true.
                 problem%levels_off = problem%levels_off .or. has_curves(layer)
             end associate
         end do
+        problem%falls = any_falls(problem%ground)
         problem%yields = problem%yields .or. problem%falls
         problem%levels_off = problem%levels_off .and. .not. problem%falls
         if (problem%levels_off) problem%neighbours_at_end = near_on_curves

@@ -12,8 +12,8 @@ module gapbeam_compressed
     use gapbeam_limits, only: least_compressions, most_compressions, mode_parts, most_mode_stretches
     use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression, no_jump
     use gapbeam_words, only: whole
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, gapbeam_no_memory, &
-        gapbeam_stopped, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, &
+        gapbeam_bad_input
     use gapbeam_law, only: both
     use gapbeam_piece, only: is_compressed
     use gapbeam_filled_ground, only: any_falls
@@ -24,7 +24,7 @@ module gapbeam_compressed
     use gapbeam_layers, only: layer_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, mode_shape_type, count_modes, find_mode_shape
-    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type, is_solved
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
@@ -190,7 +190,7 @@ contains
             ! A state close by tells which one it is
             call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
             solution%unique = .false.
-            if (is_found() .or. has_ended()) return
+            if (is_solved(outcome, error) .or. has_ended(error)) return
             closed(:) = first
         end if
         call solve_on_ground(under_share(ground, 0.0_wp), detail, factor, rule, closed, last, outcome, error)
@@ -207,8 +207,8 @@ contains
             call solve_on_ground(under_share(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, &
                                  error, start)
             solves = solves + solution%solves
-            if (has_ended()) return
-            if (is_found()) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
+            if (has_ended(error)) return
+            if (is_solved(outcome, error)) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
             if (reached .and. step >= 1.0_wp) reached = all(closed .eqv. last_closed)
             if (reached .and. share + step >= 1.0_wp) exit
             if (reached) then
@@ -227,23 +227,6 @@ contains
         if (reached) return
         if (allocated(error)) deallocate (error)
         call buckle(ground, given, last, last_closed, share, solution, outcome, error)
-
-    contains
-
-        !> Was a state found
-        pure function is_found() result(found)
-            logical :: found
-
-            found = .not. allocated(error) .and. outcome%status == gapbeam_solved
-        end function is_found
-
-        !> Has the call been ended
-        pure function has_ended() result(ended)
-            logical :: ended
-
-            ended = .false.
-            if (allocated(error)) ended = any(error%code == [gapbeam_no_memory, gapbeam_stopped])
-        end function has_ended
 
     end subroutine follow_compression
 

@@ -8,7 +8,7 @@ module gapbeam_falling_ground
     use gapbeam_limits, only: most_states_of_load, most_fresh_starts
     use gapbeam_tolerances, only: least_share, little_compression
     use gapbeam_words, only: shown
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
     use gapbeam_layers, only: pieces_of_law, has_curves
@@ -19,13 +19,13 @@ module gapbeam_falling_ground
     use gapbeam_uniqueness, only: is_unique, is_one_branch, weakest_piece
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, count_modes
-    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type, is_solved
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_ground_solver, only: solve_on_ground
     use gapbeam_falling_way, only: way_type, stop_type, stop_at, rests_at_zero, take_rest, place_on, begins, is_near_enough, &
-        solve_near, solve_afresh, solve_filled, is_solved, has_ended
+        solve_near, solve_afresh, solve_filled
     implicit none
     private
     public :: solve_on_falling_ground
@@ -235,7 +235,7 @@ contains
         do trial = 1, 2
             call count_modes(steeper, state%zones, state%closed, by_axial_force, 1.0_wp, number, work, grounded, &
                              factor=last%factor)
-            it_is = number /= 0
+            it_is = number > 0
             if (it_is) return
             where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
                 state%closed = .false.
@@ -248,7 +248,7 @@ contains
         type(stop_type), intent(in) :: last
         type(ground_start_type), intent(inout) :: state
         real(wp) :: level, length
-        integer :: i, k, beyond
+        integer :: i, k
 
         do i = 1, size(state%zones%piece)
             associate (j => state%zones%piece(i), z => state%zones)
@@ -258,8 +258,7 @@ contains
                         if (acts == 0 .or. acts >= pieces_of_law(layer)) cycle
                         level = line_of_breakpoint(ground%laws, layer, acts + 1, z%from(i), length)
                         if (abs(z%start(1, i) - level) > little_compression*maxval(abs(last%deflection))) cycle
-                        beyond = weakest_piece(layer, ground%laws, acts, acts + 1)
-                        acts = beyond
+                        acts = weakest_piece(layer, ground%laws, acts, acts + 1)
                     end associate
                 end do
             end associate

@@ -2,12 +2,12 @@
 module gapbeam_falling_way
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: same_compression, least_share
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_not_converged
     use gapbeam_law, only: both
     use gapbeam_ground, only: ground_type, full_contact
     use gapbeam_moved_ground, only: under_loads
     use gapbeam_filled_ground, only: fill_valleys
-    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type, is_solved
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
@@ -15,7 +15,7 @@ module gapbeam_falling_way
     implicit none
     private
     public :: way_type, stop_type, stop_at, rests_at_zero, take_rest, place_on, begins, is_near_enough
-    public :: solve_near, solve_afresh, solve_filled, is_solved, has_ended
+    public :: solve_near, solve_afresh, solve_filled
 
     !> A state on the way, and where it is: the share of the dead loads, and the load factor
     type :: stop_type
@@ -189,24 +189,5 @@ contains
         solution%solves = way%solves
         solution%unique = .false.
     end subroutine count_solves
-
-    !> Was a state found
-    pure function is_solved(outcome, error)
-        type(outcome_type), intent(in) :: outcome
-        type(error_type), allocatable, intent(in) :: error
-        logical :: is_solved
-
-        is_solved = .not. allocated(error)
-        if (is_solved) is_solved = outcome%status == gapbeam_solved
-    end function is_solved
-
-    !> Has a call been ended
-    pure function has_ended(error)
-        type(error_type), allocatable, intent(in) :: error
-        logical :: has_ended
-
-        has_ended = .false.
-        if (allocated(error)) has_ended = any(error%code == [gapbeam_no_memory, gapbeam_stopped])
-    end function has_ended
 
 end module gapbeam_falling_way

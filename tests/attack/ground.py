@@ -71,13 +71,18 @@ def judge(made, seed=0):
         return Verdict("refused", [str(error)])
     verdict = Verdict(result.status)
     if result.status == "solved":
-        for panels in PANELS:
-            if not (wrong := along(made, result, panels)):
-                break
-        verdict.wrong = [*wrong, *at_places(made, result), *supports(made, result), *proof_faults(made, seed)]
+        verdict.wrong = left_over(made, result, seed)
     elif result.status == "no-equilibrium" and not result.motion:
         verdict.wrong.append("no motion is given")
     return verdict
+
+
+def left_over(made, result, seed):
+    """What is wrong with a solved scene: its fields, its supports, its proof."""
+    for panels in PANELS:
+        if not (wrong := along(made, result, panels)):
+            break
+    return [*wrong, *at_places(made, result), *supports(made, result), *proof_faults(made, seed)]
 
 
 def stands_at_an_edge(made):

@@ -2,11 +2,9 @@
 
 import math
 import random
+from functools import partial
 
-
-def digits(value):
-    """A number with three digits."""
-    return float(f"{value:.3g}")
+from .foundation import digits, rounded
 
 
 def random_curved_scene(seed):
@@ -21,10 +19,7 @@ def random_curved_scene(seed):
     dict
     """
     rng = random.Random(seed)
-
-    def log(low, high):
-        return digits(math.exp(rng.uniform(math.log(low), math.log(high))))
-
+    log = partial(rounded, rng)
     def parameter(value, may_begin_at_0=True):
         choice = rng.random()
         if choice < 0.3:

@@ -1,9 +1,9 @@
 """Random beams on ground whose force falls, for comparison with `oracle/falling_ground.py`; nothing here solves anything."""
 
-import math
 import random
+from functools import partial
 
-from .curved import digits
+from .foundation import digits, rounded
 
 
 def random_falling_scene(seed):
@@ -18,10 +18,7 @@ def random_falling_scene(seed):
     dict
     """
     rng = random.Random(seed)
-
-    def log(low, high):
-        return digits(math.exp(rng.uniform(math.log(low), math.log(high))))
-
+    log = partial(rounded, rng)
     length, EI = rng.randint(16, 48) / 8, log(0.5, 500)
     beta = log(1, 10) / length
     k, size = 4 * EI * beta**4, log(0.5, 50)

@@ -80,6 +80,14 @@ def test_beams_that_only_touch_without_loads(seed):
         assert gapbeam.solve({**random_falling_scene(seed), "analysis": follow}).status in known
 
 
+@pytest.mark.parametrize("follow", [{}, {"follow": "events"}])
+def test_a_beam_that_hovers_without_loads_comes_down(follow):
+    made = block(**follow)
+    made["foundation"][0]["gap"] = 0.005
+    made["loads"] = [{"type": "uniform", "q": 49.0}]
+    assert gapbeam.solve(made).at([0.0, 1.0, 3.0]).deflection == pytest.approx(0.012, rel=1e-13)
+
+
 def test_dead_loads_that_the_ground_does_not_bear():
     made = block()
     made["loads"] = [{"type": "uniform", "q": 71.0, "case": "dead"}, {"type": "uniform", "q": -30.0}]
