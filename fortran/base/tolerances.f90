@@ -120,7 +120,7 @@ module gapbeam_tolerances
     !> A term of a Taylor series below this is the last: those that follow shrink. Read by beam/foundation_taylor
     real(wp), parameter :: taylor_tail = epsilon(1.0_wp)/16
     !> A step of Newton's method below this, in parts of the stretch, is the last: rounding of the place. Read by
-    !> beam/foundation_roots, cases/lane_roots
+    !> beam/foundation_zeros, cases/lane_roots
     real(wp), parameter :: root_place = 2*epsilon(1.0_wp)
 
     !> Share by which lengths of equal steps may differ: rounding of the places of their ends. Read by beam/foundation_stretch

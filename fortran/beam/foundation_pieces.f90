@@ -3,36 +3,26 @@ module gapbeam_foundation_pieces
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_taylor_terms
     use gapbeam_tolerances, only: ground_ulps
-    use gapbeam_foundation_stretch, only: is_of_one_stiffness, softest, softness_in, without_slip, tension_at, greatest_tension
-    use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, determinant_of, &
-        deflection_series
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_ends_type, decay_lengths
+    use gapbeam_foundation_stretch, only: is_of_one_stiffness, softest, softness_in, tension_at, greatest_tension
+    use gapbeam_foundation_taylor, only: expand, terms_of, is_sloped, stretched_shear, trace_of, deflection_series
+    use gapbeam_foundation, only: decay_lengths
     use gapbeam_foundation_fields, only: fields_at
-    use gapbeam_curved, only: curved_type, order, expand_curved, curved_fields
+    use gapbeam_curved, only: order
+    use gapbeam_foundation_question, only: question_type, over_line, slope_of_w, slope_of_psi, slope_of_moment, &
+        slope_of_transverse, slope_of_curvature, has_middle, curved_piece, evaluate
     implicit none
     private
-    public :: question_type, piece_type, over_line, slope_of_transverse, slope_of_curvature
-    public :: has_middle, is_string, fading, piece_between, middle_piece, string_piece, evaluate
+    public :: series_type, piece_type, fading, series_between, piece_of, middle_piece, string_piece
 
-    !> The functions whose zeros are sought, numbered as the fields whose slopes they are
-    integer, parameter :: over_line = 0, slope_of_w = 1, slope_of_psi = 2, slope_of_moment = 3, slope_of_shear = 4, &
-        slope_of_transverse = 5, slope_of_curvature = 6
-
-    !> What is asked, of which stretch
-    type :: question_type
-        type(stretch_type) :: stretch
-        type(stretch_load_type) :: load
-        type(stretch_ends_type) :: ends
-        integer :: what
-        !> The line at both ends, for slope_of_w its slope times the length
-        real(wp) :: line_a, line_b
-        !> Instead of w - line, stiffness side (w - line) - limit, both linear along the stretch
-        logical :: is_limit = .false.
-        integer :: side = 1
-        real(wp) :: stiffness_a = 1.0_wp, stiffness_b = 1.0_wp, limit_a = 0.0_wp, limit_b = 0.0_wp
-        !> The stretch where ground acts on it by curves
-        type(curved_type), allocatable :: curved
-    end type question_type
+    !> The fields around the middle of a piece, whatever is asked of them: polynomials in t, -1..1
+    type :: series_type
+        real(wp) :: middle, half
+        integer :: degree
+        !> Coefficients of v, psi, M, V, and of w where that is asked for
+        real(wp) :: c(4, 0:most_taylor_terms), axis(0:most_taylor_terms)
+        !> Sizes of what w, psi, M, V are sums of; that of the force of curves per length
+        real(wp) :: scale(4), pressed
+    end type series_type
 
     !> A function around the middle of a piece: polynomial in t, -1..1
     type :: piece_type
@@ -45,99 +35,98 @@ module gapbeam_foundation_pieces
 
 contains
 
-    !> Does everything that the ends do decay, with one rate
-    pure function has_middle(stretch) result(has)
-        type(stretch_type), intent(in) :: stretch
-        logical :: has
-
-        associate (s => stretch)
-            has = s%modulus_a > 0.0_wp .and. .not. is_sloped(s) .and. .not. s%tension < 0.0_wp &
-                .and. trace_of(s, s%modulus_a)**2 <= 4*determinant_of(s, s%modulus_a)
-        end associate
-    end function has_middle
-
-    !> Is a stretch a string but near its ends: in tension, off the ground
-    pure function is_string(stretch) result(it_is)
-        type(stretch_type), intent(in) :: stretch
-        logical :: it_is
-
-        associate (s => stretch)
-            it_is = s%tension > 0.0_wp .and. .not. max(abs(s%modulus_a), abs(s%modulus_b)) > 0.0_wp .and. .not. is_sloped(s)
-        end associate
-    end function is_string
-
-    !> The function on a piece, from the fields in its middle
-    pure subroutine piece_between(question, left, right, piece, in_middle)
+    !> The fields on a piece, from those in its middle
+    pure subroutine series_between(question, left, right, series, in_middle)
         type(question_type), intent(in) :: question
         !> Its ends, 0..1
         real(wp), intent(in) :: left, right
-        type(piece_type), intent(out) :: piece
+        type(series_type), intent(out) :: series
         !> v, psi, M, V in its middle, where they are known
         real(wp), intent(in), optional :: in_middle(:)
-        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, scale(4), tail, pressed, soft(2), pull(2), axis(0:most_taylor_terms)
-        integer :: n, j
+        real(wp) :: c(1, 4, 0:most_taylor_terms), y(1, 4), w, soft(2)
+        integer :: j
 
-        associate (s => question%stretch, p => question%load, e => question%ends, a => piece%a, &
-                   xi => piece%middle, f => soft(1), g => soft(2))
+        associate (s => question%stretch, p => question%load, xi => series%middle, half => series%half, n => series%degree, &
+                   scale => series%scale, g => soft(2))
             xi = left + (right - left)/2
-            piece%half = (right - left)/2
-            pressed = 0.0_wp
+            half = (right - left)/2
+            series%pressed = 0.0_wp
             soft(:) = softness_in(s, xi)
             if (allocated(question%curved)) then
-                call curved_piece(question%curved, xi, piece%half, c(1, :, :), pressed, in_middle)
+                call curved_piece(question%curved, xi, half, series%c, series%pressed, in_middle)
                 n = order
             else
-                call fields_at(s, p, e, xi, w, y(1, 2), y(1, 3), y(1, 4))
+                call fields_at(s, p, question%ends, xi, w, y(1, 2), y(1, 3), y(1, 4))
                 y(1, 1) = w - g*y(1, 3)
-                n = terms_of(s, piece%half)
-                call expand(s, [p], xi, y, piece%half, n, c)
+                n = terms_of(s, half)
+                call expand(s, [p], xi, y, half, n, c)
+                series%c(:, 0:n) = c(1, :, 0:n)
             end if
+            if (question%what <= slope_of_w) series%axis(0:n) = deflection_series(s, xi, half, series%c(:, 0:n))
             do j = 1, 4
-                scale(j) = sum(abs(c(1, j, 0:n)))
+                scale(j) = sum(abs(series%c(j, 0:n)))
             end do
             scale(1) = scale(1) + g*scale(3)
             scale(2) = scale(2) + g*scale(4)
-            scale = scale + scales(question, xi, piece%half, pressed)
+            scale = scale + scales(question, xi, half, series%pressed)
+        end associate
+    end subroutine series_between
+
+    !> The function on a piece
+    pure subroutine piece_of(question, series, piece)
+        type(question_type), intent(in) :: question
+        !> By series_between
+        type(series_type), intent(in) :: series
+        type(piece_type), intent(out) :: piece
+        real(wp) :: tail, soft(2), pull(2), slope(0:most_taylor_terms)
+        integer :: n
+
+        n = series%degree
+        piece%middle = series%middle
+        piece%half = series%half
+        associate (s => question%stretch, p => question%load, a => piece%a, xi => series%middle, c => series%c, &
+                   scale => series%scale, f => soft(1), g => soft(2))
+            soft(:) = softness_in(s, xi)
             select case (question%what)
             case (over_line)
-                a(0:n) = deflection_series(s, xi, piece%half, c(1, :, 0:n))
-                a(0) = a(0) - (question%line_a*(1 - xi) + question%line_b*xi)
-                a(1) = a(1) - (question%line_b - question%line_a)*piece%half
-                piece%noise = scale(1) + abs(question%line_a) + abs(question%line_b)
+                a(0:n) = series%axis(0:n)
+                a(0) = a(0) - (question%line(1)*(1 - xi) + question%line(2)*xi)
+                a(1) = a(1) - (question%line(2) - question%line(1))*piece%half
+                piece%noise = scale(1) + abs(question%line(1)) + abs(question%line(2))
                 if (question%is_limit) call take_limit(question, n, piece)
             case (slope_of_w)
                 if (is_of_one_stiffness(s)) then
-                    a(0:n) = c(1, 2, 0:n) + g*c(1, 4, 0:n)
+                    a(0:n) = c(2, 0:n) + g*c(4, 0:n)
                 else
-                    axis(0:n) = deflection_series(s, xi, piece%half, c(1, :, 0:n))
-                    call take_slope(axis, s%length*piece%half, a, n)
+                    call take_slope(series%axis, s%length*piece%half, a, n)
                 end if
-                a(0) = a(0) - question%line_a/s%length
-                piece%noise = scale(2) + abs(question%line_a)/s%length
+                a(0) = a(0) - question%line(1)/s%length
+                piece%noise = scale(2) + abs(question%line(1))/s%length
             case (slope_of_psi)
                 if (is_of_one_stiffness(s)) then
-                    a(0:n) = -f*c(1, 3, 0:n)
+                    a(0:n) = -f*c(3, 0:n)
                     a(0:1) = a(0:1) + [p%kappa + xi*p%rise, piece%half*p%rise]
                 else
-                    call take_slope(c(1, 2, :), s%length*piece%half, a, n)
+                    call take_slope(c(2, :), s%length*piece%half, a, n)
                 end if
                 piece%noise = f*scale(3) + abs(p%kappa) + abs(p%rise)
             case (slope_of_moment)
-                a(0:n) = c(1, 4, 0:n)
+                a(0:n) = c(4, 0:n)
                 piece%noise = scale(4)
             case (slope_of_curvature)
-                call take_slope(c(1, 2, :), s%length*piece%half, axis, n)
-                call take_slope(axis, s%length*piece%half, a, n)
+                call take_slope(c(2, :), s%length*piece%half, slope, n)
+                call take_slope(slope, s%length*piece%half, a, n)
                 piece%noise = f*(scale(4) + maxval(s%power*abs(s%taper))/s%length*scale(3))
             case default
-                call take_slope(c(1, 4, :), s%length*piece%half, a, n)
-                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) + pressed &
-                    + abs(greatest_tension(s))*(f*scale(3) + abs(p%kappa) + abs(p%rise)) + abs(s%tension_change)/s%length*scale(2)
+                call take_slope(c(4, :), s%length*piece%half, a, n)
+                piece%noise = max(abs(s%modulus_a), abs(s%modulus_b))*scale(1) + abs(p%qa) + abs(p%qb) + abs(p%qc) &
+                    + series%pressed + abs(greatest_tension(s))*(f*scale(3) + abs(p%kappa) + abs(p%rise)) &
+                    + abs(s%tension_change)/s%length*scale(2)
                 if (question%what == slope_of_transverse) then
                     ! s V' + (N psi)' = ground's pressure less the load
                     pull(:) = [tension_at(s, xi), s%tension_change*piece%half]
-                    a(0:n) = stretched_shear(s)*a(0:n) - pull(1)*f*c(1, 3, 0:n) + s%tension_change/s%length*c(1, 2, 0:n)
-                    if (abs(pull(2)) > 0.0_wp) a(1:n) = a(1:n) - pull(2)*f*c(1, 3, 0:n - 1)
+                    a(0:n) = stretched_shear(s)*a(0:n) - pull(1)*f*c(3, 0:n) + s%tension_change/s%length*c(2, 0:n)
+                    if (abs(pull(2)) > 0.0_wp) a(1:n) = a(1:n) - pull(2)*f*c(3, 0:n - 1)
                     a(0:1) = a(0:1) + pull*(p%kappa + xi*p%rise)
                     a(1:2) = a(1:2) + pull*(piece%half*p%rise)
                 end if
@@ -152,7 +141,7 @@ contains
             end do
             piece%degree = n
         end associate
-    end subroutine piece_between
+    end subroutine piece_of
 
     !> The slope of a field along the stretch from its series
     pure subroutine take_slope(series, unit, slope, degree)
@@ -191,29 +180,6 @@ contains
             piece%noise = max(q%stiffness_a, q%stiffness_b)*piece%noise + max(q%limit_a, q%limit_b)
         end associate
     end subroutine take_limit
-
-    !> The fields of a stretch on curves around a place
-    pure subroutine curved_piece(curved, xi, half, c, pressed, in_middle)
-        type(curved_type), intent(in) :: curved
-        !> Middle and half of the piece
-        real(wp), intent(in) :: xi, half
-        !> Coefficients of v, psi, M, V, shape (4, 0:most_terms)
-        real(wp), intent(out) :: c(:, 0:)
-        !> Size of the force of the curves per length
-        real(wp), intent(out) :: pressed
-        !> As for piece_between
-        real(wp), intent(in), optional :: in_middle(:)
-        real(wp) :: y(4), w, step, modulus(0:order), forces(0:order, size(curved%curves))
-
-        if (present(in_middle)) then
-            y = in_middle
-        else
-            call curved_fields(curved, xi, w, y(2), y(3), y(4))
-            y(1) = without_slip(curved%stretch, xi, w, y(3))
-        end if
-        call expand_curved(curved, xi, y, half, c, modulus, forces, step)
-        pressed = sum(abs(forces))
-    end subroutine curved_piece
 
     !> What the fields are made of beside what is left of them: deflection, rotation, moment, shear
     pure function scales(question, xi, half, pressed) result(scale)
@@ -286,13 +252,13 @@ contains
             select case (question%what)
             case (over_line)
                 a(0:2) = w
-                a(0) = a(0) - (question%line_a*eta + question%line_b*xi)
-                a(1) = a(1) - (question%line_b - question%line_a)*half
-                piece%noise = piece%noise + ground_ulps*epsilon(1.0_wp)*(abs(question%line_a) + abs(question%line_b))
+                a(0) = a(0) - (question%line(1)*eta + question%line(2)*xi)
+                a(1) = a(1) - (question%line(2) - question%line(1))*half
+                piece%noise = piece%noise + ground_ulps*epsilon(1.0_wp)*(abs(question%line(1)) + abs(question%line(2)))
             case (slope_of_w)
-                a(0) = (w(1)/half - question%line_a)/s%length
+                a(0) = (w(1)/half - question%line(1))/s%length
                 a(1) = 2*w(2)/(half*s%length)
-                piece%noise = (piece%noise + ground_ulps*epsilon(1.0_wp)*abs(question%line_a))/s%length
+                piece%noise = (piece%noise + ground_ulps*epsilon(1.0_wp)*abs(question%line(1)))/s%length
             case (slope_of_psi)
                 a(0) = -2*p%qc/(s%modulus_a*s%length**2)
             case (slope_of_moment)
@@ -311,12 +277,14 @@ contains
         real(wp), intent(in) :: left, right
         type(piece_type), intent(out) :: piece
         real(wp), parameter :: places(4) = [-1.0_wp, -0.5_wp, 0.5_wp, 1.0_wp]
+        type(series_type) :: series
         real(wp) :: f(4), slope, share, even(2), odd(2)
         integer :: k
 
         ! What its rounding is near the middle
         share = 1/(4*decay_lengths(question%stretch))
-        call piece_between(question, left + (right - left)/2 - share, left + (right - left)/2 + share, piece)
+        call series_between(question, left + (right - left)/2 - share, left + (right - left)/2 + share, series)
+        call piece_of(question, series, piece)
         piece%half = (right - left)/2
         do k = 1, 4
             call evaluate(question, piece%middle + places(k)*piece%half, f(k), slope)
@@ -333,67 +301,5 @@ contains
             piece%degree = piece%degree - 1
         end do
     end subroutine string_piece
-
-    !> The function and its slope in xi
-    pure subroutine evaluate(question, xi, f, slope)
-        type(question_type), intent(in) :: question
-        real(wp), intent(in) :: xi
-        real(wp), intent(out) :: f, slope
-        real(wp) :: w, psi, moment, shear, pressed, steeper, incline, bent, soft(2), softer(2), c(4, 0:order)
-
-        associate (s => question%stretch, p => question%load, l => question%stretch%length, eta => 1 - xi, f_of => soft(1), &
-                   g => soft(2))
-            soft(:) = softness_in(s, xi)
-            softer(:) = -s%power*s%taper/(1 + s%taper*xi)*soft
-            if (allocated(question%curved)) then
-                call curved_piece(question%curved, xi, 1.0_wp, c, steeper)
-                w = c(1, 0) + g*c(3, 0)
-                psi = c(2, 0)
-                moment = c(3, 0)
-                shear = c(4, 0)
-                pressed = c(4, 1)/l
-                steeper = 2*c(4, 2)/l
-            else
-                call fields_at(s, p, question%ends, xi, w, psi, moment, shear)
-                bent = f_of*moment - (p%kappa + xi*p%rise)
-                pressed = ((s%modulus_a*eta + s%modulus_b*xi)*w + tension_at(s, xi)*bent - s%tension_change/l*psi &
-                           - (p%qa*eta + p%qb*xi + p%qc*xi*eta))/stretched_shear(s)
-                steeper = ((s%modulus_b - s%modulus_a)*w + tension_at(s, xi)*(l*f_of*shear - p%rise) + 2*s%tension_change*bent &
-                           + l*(s%modulus_a*eta + s%modulus_b*xi)*(psi + g*shear) &
-                           - (p%qb - p%qa + p%qc*(eta - xi)))/stretched_shear(s)
-            end if
-            incline = psi + g*shear
-            select case (question%what)
-            case (over_line)
-                f = w - (question%line_a*eta + question%line_b*xi)
-                slope = l*incline - (question%line_b - question%line_a)
-                if (question%is_limit) then
-                    associate (q => question, k => question%stiffness_a*eta + question%stiffness_b*xi)
-                        slope = q%side*(k*slope + (q%stiffness_b - q%stiffness_a)*f) - (q%limit_b - q%limit_a)
-                        f = q%side*k*f - (q%limit_a*eta + q%limit_b*xi)
-                    end associate
-                end if
-            case (slope_of_w)
-                f = incline - question%line_a/l
-                slope = l*(p%kappa + xi*p%rise - f_of*moment + g*pressed) + softer(2)*shear
-            case (slope_of_psi)
-                f = p%kappa + xi*p%rise - f_of*moment
-                slope = p%rise - l*f_of*shear - softer(1)*moment
-            case (slope_of_curvature)
-                f = p%rise/l - f_of*shear - softer(1)*moment/l
-                slope = -l*f_of*pressed - 2*softer(1)*shear + (s%power(1) + 1)*s%taper(1)/(1 + s%taper(1)*xi)*softer(1)*moment/l
-            case (slope_of_moment)
-                f = shear
-                slope = l*pressed
-            case (slope_of_shear)
-                f = pressed
-                slope = steeper
-            case default
-                bent = f_of*moment - (p%kappa + xi*p%rise)
-                f = stretched_shear(s)*pressed - tension_at(s, xi)*bent + s%tension_change/l*psi
-                slope = stretched_shear(s)*steeper - tension_at(s, xi)*(l*f_of*shear - p%rise) - 2*s%tension_change*bent
-            end select
-        end associate
-    end subroutine evaluate
 
 end module gapbeam_foundation_pieces

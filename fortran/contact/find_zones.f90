@@ -133,9 +133,10 @@ contains
         subroutine cut_piece(piece)
             integer, intent(in) :: piece
             real(wp), allocatable :: xi(:)
+            real(wp) :: lines(2, sum(pieces_of_law(ground%layers(ground%first(piece):ground%first(piece + 1) - 1))))
             real(wp) :: length, limits(parameters_of_law, 2), near
             type(curved_type), allocatable :: curved
-            integer :: i, k, law, crossings
+            integer :: i, k, m, law, crossings
 
             length = ground%pieces(piece)%length
             near = merge(one_place_on_curves, one_crossing, curves)*length
@@ -151,26 +152,29 @@ contains
                 if (is_stopped(ground%beam%watch)) exit
                 call take_curved(ground, grounded, zones, factor, work, i, curved)
                 associate (from => zones%from(i), to => zones%to(i))
+                    m = 0
                     do k = ground%first(piece), ground%first(piece + 1) - 1
                         associate (layer => ground%layers(k))
                             if (layer%side == 0) cycle
                             do law = 1, pieces_of_law(layer)
-                                if (law > 1 .and. .not. has_points(layer)) then
-                                    limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
-                                                     shape(limits))
-                                    call find_limits(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
-                                                     contact_line(layer, [from, to], length), layer%side, limits(1, :), &
-                                                     limits(2, :), xi, crossings, curved)
-                                else
-                                    call find_crossings(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
-                                                        line_of_breakpoint(ground%laws, layer, law, from, length), &
-                                                        line_of_breakpoint(ground%laws, layer, law, to, length), xi, &
-                                                        crossings, curved)
+                                if (law == 1 .or. has_points(layer)) then
+                                    m = m + 1
+                                    lines(:, m) = [line_of_breakpoint(ground%laws, layer, law, from, length), &
+                                                   line_of_breakpoint(ground%laws, layer, law, to, length)]
+                                    cycle
                                 end if
-                                if (crossings > 0) cuts = [cuts, from + xi(:crossings)*(to - from)]
+                                limits = reshape([parameters_at(layer, from, length), parameters_at(layer, to, length)], &
+                                                 shape(limits))
+                                call find_limits(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
+                                                 contact_line(layer, [from, to], length), layer%side, limits(1, :), &
+                                                 limits(2, :), xi, crossings, curved)
+                                if (crossings > 0) cuts = [cuts, from + xi*(to - from)]
                             end do
                         end associate
                     end do
+                    call find_crossings(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), lines(:, :m), xi, &
+                                        crossings, curved)
+                    if (crossings > 0) cuts = [cuts, from + xi*(to - from)]
                 end associate
             end do
             call sort(cuts)

@@ -8,7 +8,7 @@ module gapbeam_ground_query
     use gapbeam_fields, only: bending_values
     use gapbeam_quantities, only: state_count, derived_count, bending_count, terms_of_derived
     use gapbeam_foundation, only: stretch_ends_type
-    use gapbeam_foundation_pieces, only: slope_of_curvature
+    use gapbeam_foundation_question, only: slope_of_curvature
     use gapbeam_foundation_roots, only: find_peaks
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: layer_type

@@ -2,7 +2,7 @@
 module gapbeam_transverse
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: same_extreme
-    use gapbeam_foundation_pieces, only: slope_of_transverse
+    use gapbeam_foundation_question, only: slope_of_transverse
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_laws, only: along
     use gapbeam_ground_fields, only: inside_type, prepare_inside, force_at_end, force_inside

@@ -95,9 +95,9 @@ contains
             call draw_all(seed, stretch, load, ends, line)
             do what = 0, 4
                 if (what == 0) then
-                    call find_crossings(stretch, load, ends, line(1), line(2), xi, number)
+                    call find_crossings(stretch, load, ends, reshape(line, [2, 1]), xi, number)
                     call crossings_quad(in_quad(stretch), load_in_quad(load), ends_in_quad(ends), &
-                                        real(line(1), qp), real(line(2), qp), exact, number_exact)
+                                        reshape(real(line, qp), [2, 1]), exact, number_exact)
                 else
                     call find_peaks(stretch, load, ends, what, xi, number)
                     call peaks_quad(in_quad(stretch), load_in_quad(load), ends_in_quad(ends), what, exact, number_exact)
@@ -198,7 +198,7 @@ contains
 
         stretch = stretch_type(length=200.0_wp, flexibility=1.0_wp, modulus_a=4.0_wp, modulus_b=4.0_wp)
         call find_crossings(stretch, stretch_load_type(), stretch_ends_type(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp), &
-                            0.0_wp, 0.0_wp, xi, number)
+                            level_lines([0.0_wp]), xi, number)
         n = min(number, 10)
         call check(number >= 10, "waves fade, and cross zero")
         call check_close(200*xi(:n), [((i - 0.5_wp)*pi, i=1, n)], "where they do", 1e-14_wp)
@@ -215,7 +215,8 @@ contains
 
         stretch = stretch_type(length=10000.0_wp, flexibility=1.0_wp, modulus_a=4.0_wp, modulus_b=4.0_wp)
         load = stretch_load_type(qa=1.0_wp, qb=5.0_wp)
-        call find_crossings(stretch, load, stretch_ends_type(0.25_wp, 1.25_wp, 0.0_wp, 0.0_wp), 0.5_wp, 0.5_wp, xi, number)
+        call find_crossings(stretch, load, stretch_ends_type(0.25_wp, 1.25_wp, 0.0_wp, 0.0_wp), &
+                            level_lines([0.5_wp]), xi, number)
         call check(number == 1, "one crossing far from the ends")
         call check_close(xi, [0.25_wp], "where it is", 1e-15_wp)
         call find_peaks(stretch, stretch_load_type(qa=4.0_wp, qb=4.0_wp, qc=1.0_wp), &
@@ -237,7 +238,7 @@ contains
         beside = 0
         do k = 1, 2000
             call draw_all(seed, stretch, load, ends, line)
-            call find_crossings(stretch, load, ends, ends%w_a, ends%w_b, xi, number)
+            call find_crossings(stretch, load, ends, reshape([ends%w_a, ends%w_b], [2, 1]), xi, number)
             if (any(xi < 1e-13_wp .or. xi > 1 - 1e-13_wp)) beside = beside + 1
         end do
         call check(beside == 0, "no crossing beside an end that is one")
@@ -256,12 +257,15 @@ contains
         load = stretch_load_type(qa=1.0_wp, qb=1.0_wp)
         ends = stretch_ends_type()
         call fields_at(stretch, load, ends, 0.5_wp, top, psi, moment, shear)
-        call find_crossings(stretch, load, ends, top, top, xi, number)
+        call find_crossings(stretch, load, ends, level_lines([top]), xi, number)
         call check(number == 0, "touching is no crossing")
-        call find_crossings(stretch, load, ends, top*(1 - 1e-12_wp), top*(1 - 1e-12_wp), xi, number)
+        call find_crossings(stretch, load, ends, level_lines([top*(1 - 1e-12_wp)]), xi, number)
         call check(number == 2, "two crossings near to each other")
-        call find_crossings(stretch, load, ends, top*(1 + 1e-12_wp), top*(1 + 1e-12_wp), xi, number)
+        call find_crossings(stretch, load, ends, level_lines([top*(1 + 1e-12_wp)]), xi, number)
         call check(number == 0, "a line just beyond")
+        call find_crossings(stretch, load, ends, level_lines(top*[1 - 1e-12_wp, 1 + 1e-12_wp, 1 - 1e-12_wp]), xi, number)
+        call check(number == 4, "crossings of several lines")
+        call check_close(xi(3:), xi(:2), "line after line", 0.0_wp)
     end subroutine touching
 
     !> Without ground: the cubic of a bar with end moments, w = xi (1 - xi)(1 - 2 xi), has its zero and its peaks in closed form
@@ -274,7 +278,7 @@ contains
         stretch = stretch_type(length=2.0_wp, flexibility=0.5_wp)
         ! w'' = (-6 + 12 xi)/L**2 = -M/EI
         ends = stretch_ends_type(0.0_wp, 0.0_wp, 3.0_wp, -3.0_wp)
-        call find_crossings(stretch, stretch_load_type(), ends, 0.0_wp, 0.0_wp, xi, number)
+        call find_crossings(stretch, stretch_load_type(), ends, level_lines([0.0_wp]), xi, number)
         call check_close(xi, [0.5_wp], "zero of a cubic", 1e-15_wp)
         call find_peaks(stretch, stretch_load_type(), ends, 1, xi, number)
         call check_close(xi, [0.5_wp - sqrt(1/12.0_wp), 0.5_wp + sqrt(1/12.0_wp)], "peaks of a cubic", 1e-15_wp)
@@ -283,5 +287,14 @@ contains
         call find_peaks(stretch, stretch_load_type(), ends, 2, xi, number)
         call check_close(xi, [0.5_wp], "peak of a parabola", 1e-15_wp)
     end subroutine cubic
+
+    !> Lines along the stretch at some levels
+    pure function level_lines(levels) result(lines)
+        real(wp), intent(in) :: levels(:)
+        real(wp) :: lines(2, size(levels))
+
+        lines(1, :) = levels
+        lines(2, :) = levels
+    end function level_lines
 
 end program test_foundation_roots
