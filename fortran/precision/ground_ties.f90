@@ -45,7 +45,7 @@ contains
         do i = 1, size(zones%piece)
             if (zones%to(i) - zones%from(i) > min_tied_zone*length .or. .not. any(zones%acts(:, i) > 0)) cycle
             carries = carries .or. force_on(grounded, factor, work, i, length) > least_tied_share*force
-            stands = stands .or. carries .or. depth_in(ground, zones, work, i) > least_tied_share*way
+            stands = stands .or. carries .or. depth_in(ground, zones, work, i, min_tied_zone*length) > least_tied_share*way
         end do
     end subroutine stands_on_edge
 
@@ -63,12 +63,14 @@ contains
         force = max(abs(shear(2) - shear(1)), abs(work%answers(i)%moment_left - work%answers(i - 1)%moment_right)/length)
     end function force_on
 
-    !> How deep the beam is pressed into the ground at the ends of a stretch, in the layers that act one way
-    pure function depth_in(ground, zones, work, i) result(depth)
+    !> How deep the beam is pressed into the ground at the ends of a stretch, in the layers that act one way, and on it alone
+    pure function depth_in(ground, zones, work, i, short) result(depth)
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         type(workspace_type), intent(in) :: work
         integer, intent(in) :: i
+        !> Length up to which stretches count as none
+        real(qp), intent(in) :: short
         real(qp) :: depth
         integer :: k
 
@@ -77,6 +79,7 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
+                    if (goes_on(ground, zones, i, layer%side, short)) cycle
                     depth = max(depth, &
                                 layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), length)), &
                                 layer%side*(b%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%to(i), length)))
@@ -84,6 +87,30 @@ contains
             end do
         end associate
     end function depth_in
+
+    !> Does ground on one side act beside a stretch as well, on more than another short one
+    pure function goes_on(ground, zones, i, side, short) result(it_does)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        !> The stretch, the side, and as for depth_in
+        integer, intent(in) :: i, side
+        real(qp), intent(in) :: short
+        logical :: it_does
+        integer :: j, step
+
+        it_does = .false.
+        do step = -1, 1, 2
+            j = i + step
+            do while (j >= 1 .and. j <= size(zones%piece))
+                associate (first => ground%first(zones%piece(j)), next => ground%first(zones%piece(j) + 1))
+                    if (.not. any(zones%acts(:next - first, j) > 0 .and. ground%layers(first:next - 1)%side == side)) exit
+                end associate
+                it_does = zones%to(j) - zones%from(j) > short
+                if (it_does) return
+                j = j + step
+            end do
+        end do
+    end function goes_on
 
     !> Sum of the sizes of all loads as forces, imposed curvatures by what would straighten the beam; and how far loads and gaps
     !> may move it
