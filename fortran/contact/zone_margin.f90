@@ -5,7 +5,7 @@
 !> its slope, where a support holds the beam. As functions of the load factor all these are continuous, with their slopes, whatever
 !> the zones are on either side.
 module gapbeam_zone_margin
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, dp
     use gapbeam_limits, only: parts_of_stretch, most_root_steps
     use gapbeam_tolerances, only: stationary_place
     use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
@@ -55,7 +55,7 @@ contains
         real(wp), intent(out) :: margin
         !> Distance from the left end of the beam at which that is decided
         real(wp), intent(out) :: place
-        real(wp) :: left, begin, right, rounding
+        real(wp) :: left, begin, right, rounding, near
         integer :: i, j, k
 
         place = change%from
@@ -68,13 +68,16 @@ contains
             return
         end if
         margin = merge(-huge(margin), huge(margin), change%greatest)
+        ! The places of a change are reckoned otherwise and in double precision: what is one place differs by rounding
+        near = epsilon(1.0_dp)*(2 + size(ground%pieces))*sum(ground%pieces%length)
         right = 0.0_wp
         do j = 1, size(ground%pieces)
             begin = right
             do i = grounded%node(j - 1) + 1, grounded%node(j)
                 left = right
                 right = left + grounded%stretches(i)%length
-                if (change%to < left .or. change%from > right) cycle
+                if (i == grounded%node(j)) right = begin + ground%pieces(j)%length
+                if (change%to < left - near .or. change%from > right + near) cycle
                 do k = ground%first(j), ground%first(j + 1) - 1
                     if (ground%layers(k)%foundation /= change%foundation .or. ground%layers(k)%side /= change%side) cycle
                     call search_stretch(ground, grounded, zones, factor, work, change, i, j, k, left, begin, margin, place)

@@ -72,3 +72,18 @@ def over_peaks(peaks, **keys):
     ground = [{"from": x - 0.125, "to": x + 0.125, "k": 50.0, "side": "below",
                "profile": [[x - 0.125, gap + 1.0], [x, gap], [x + 0.125, gap + 1.0]]} for x, gap in peaks]  # fmt: skip
     return on_ground([2.0], ground, [scenes.force(1.0, 24.0)], [scenes.at(0), scenes.at(1)], analysis={"follow": "events"}, **keys)
+
+
+def pile(load, turned=False):
+    """A pile in two layers with laws, one under the other, under a force at its head; `turned`: seen from its tip."""
+    length, border = 18.3, 6.1
+    law = [[1e-6, 0.5], [1e-5, 1.0], [1e-3, 4.0], [1e-2, 9.0], [0.1, 20.0]]
+    layers = [(0.0, border, 1.0, 3.0), (border, length, 2.0, 5.0)]
+    if turned:
+        layers = [(length - end, length - start, low, high) for start, end, high, low in layers[::-1]]
+    ground = [
+        {"from": start, "to": end, "law": [{"x": x, "points": [[d, share * p] for d, p in law]} for x, share in places]}
+        for start, end, first, last in layers
+        for places in [((start, first), (end, last))]
+    ]
+    return on_ground([length], ground, [scenes.force(length if turned else 0.0, load)], EI=1.2e5, analysis={"follow": "events"})

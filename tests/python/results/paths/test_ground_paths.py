@@ -8,7 +8,7 @@ import scenes
 from mpmath import mp, mpf
 from oracle.foundation import solve as reference
 from scenes.foundation import random_scene
-from scenes.ground import on_ground, over_peaks, rough_pipe
+from scenes.ground import on_ground, over_peaks, pile, rough_pipe
 
 ROUNDINGS = 4 * 2.0**-53
 LOOK = 4  # linear solves for a place of the grid
@@ -35,6 +35,24 @@ def test_what_a_rough_seabed_does_is_where_states_change(seed):
     for event in result.events:
         before, after = (result.state(event.factor * (1 + d)).contact for d in (-1e-8, 1e-8))
         assert len(after) - len(before) == more[event.event], event
+
+
+def test_ends_of_a_pile_take_as_few_solves_as_its_head():
+    """What changes at the right end of the beam is found where it changes, and not by halves."""
+    one, other = gapbeam.solve(pile(150.0)), gapbeam.solve(pile(150.0, turned=True))
+    assert [event.factor for event in one.events] == pytest.approx([event.factor for event in other.events], rel=1e-12)
+    assert one.path.solves == pytest.approx(other.path.solves, rel=0.1)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_states_where_layers_meet_at_a_kink_of_their_laws(turned):
+    """A zone that ends there has next to no length, but it is no edge: the same ground acts beside it."""
+    result = gapbeam.solve(pile(60.0, turned))
+    events = [event for event in result.events if event.x == (18.3 - 6.1 if turned else 6.1)]
+    assert len(events) > 10
+    for event in events[::3]:
+        w = [result.state(event.factor * (1 + share)).extremes["deflection"]["max"].value for share in (-1e-14, 0.0, 1e-14)]
+        assert w == pytest.approx([w[1]] * 3, rel=1e-13)
 
 
 @pytest.mark.parametrize("gap", [1.0, 1.0 + 2.0**-40, 1.0 - 2.0**-40, 0.3, 3.999, 1e-3])
