@@ -16,6 +16,7 @@ from . import (
     ground,
     hinges,
     laws,
+    layers,
     memory,
     models,
     mutants,
@@ -26,7 +27,7 @@ from . import (
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, doubled, ground, falling, trains, combinations, batches, roads, axial_force,
+    enumeration, events, signs, hinges, laws, doubled, ground, falling, layers, trains, combinations, batches, roads, axial_force,
     mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}

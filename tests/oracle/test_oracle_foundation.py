@@ -2,8 +2,8 @@
 
 import pytest
 from mpmath import cos, coth, e, exp, mp, mpf, pi, sin, sinh, sqrt
-from scenes import at, force, moment, nodes_of, scene, stretch, uniform
-from scenes.foundation import random_scene
+from scenes import at, force, moment, scene, stretch, uniform
+from scenes.foundation import mirrored, random_scene
 
 from .foundation import Search, check, solve, zones_of
 from .rigid import best
@@ -282,33 +282,6 @@ def test_wrong_states_are_found_out():
 # Random scenes
 
 
-def mirrored(made):
-    """The scene seen from behind."""
-    length = nodes_of(made)[-1]
-
-    def turned(item):
-        new = {k: v for k, v in item.items() if k not in ("from", "to", "x", "node")}
-        for name in ("k", "gap", "q"):
-            if isinstance(item.get(name), list):
-                new[name] = item[name][::-1]
-        if "from" in item or "to" in item:
-            new |= stretch(length - item.get("to", length), length - item.get("from", 0.0))
-        if "profile" in item:
-            new["profile"] = [[length - x, g] for x, g in item["profile"][::-1]]
-        if "M" in item:
-            new["M"] = -item["M"]
-        if "x" in item or "node" in item:
-            new["x"] = length - (item["x"] if "x" in item else nodes_of(made)[item["node"]])
-        return new
-
-    beam = dict(made["beam"], spans=made["beam"]["spans"][::-1])
-    beam["hinges"] = [length - x for x in beam.get("hinges", [])]
-    if isinstance(beam["EI"], list):
-        beam["EI"] = beam["EI"][::-1]
-    parts = {name: [turned(i) for i in made.get(name, [])] for name in ("sections", "supports", "loads", "foundation")}
-    return {"beam": beam, **parts}
-
-
 @pytest.mark.parametrize("seed", range(16))
 def test_mirrored_scenes_and_more_digits(seed):
     made = random_scene(seed)
@@ -338,5 +311,5 @@ def test_random_scenes_are_worth_solving():
 
 def extent(made):
     """Length of all foundations together."""
-    length = nodes_of(made)[-1]
+    length = sum(made["beam"]["spans"])
     return sum(f.get("to", length) - f.get("from", 0.0) for f in made["foundation"])
