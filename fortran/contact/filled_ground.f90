@@ -36,7 +36,8 @@ contains
         end associate
     end function peak_of
 
-    !> Ground whose force never falls, and is nowhere less: from point to point of its laws the greatest force so far
+    !> Ground whose force never falls, and is nowhere less: from point to point of its laws the greatest force so far, and beyond the
+    !> last one with the same slope
     pure subroutine fill_valleys(ground)
         !> The beam and its ground
         type(ground_type), intent(inout) :: ground
@@ -48,9 +49,13 @@ contains
             most(:) = 0.0_wp
             do i = ground%layers(k)%law_first, ground%layers(k)%law_last
                 associate (p => ground%laws(i))
-                    p%slope_a = max(0.0_wp, p%slope_a + (p%force_a - max(most(1), p%force_a))/p%way_a)
-                    p%slope_b = max(0.0_wp, p%slope_b + (p%force_b - max(most(2), p%force_b))/p%way_b)
                     most(:) = max(most, [p%force_a, p%force_b])
+                    if (i < ground%layers(k)%law_last) then
+                        p%slope_a = p%slope_a + (p%force_a - most(1))/p%way_a
+                        p%slope_b = p%slope_b + (p%force_b - most(2))/p%way_b
+                    end if
+                    p%slope_a = max(0.0_wp, p%slope_a)
+                    p%slope_b = max(0.0_wp, p%slope_b)
                     p%force_a = most(1)
                     p%force_b = most(2)
                 end associate

@@ -14,6 +14,9 @@ module gapbeam_ground_changes
 
     !> Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away
     real(wp), parameter :: min_zone_length = 2.0_wp**(-46)
+    !> So many times its length a zone, or what is between two, may have moved since it came about, at most half of the way to the
+    !> next ones
+    real(wp), parameter :: farthest_move = 16.0_wp
 
     !> A zone in which a layer of one-sided ground acts at least on some branch of its law; 1 is the zone of contact
     type :: zone_type
@@ -30,7 +33,7 @@ module gapbeam_ground_changes
         integer :: foundation, side, branch
         !> gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits; of an end gapbeam_reaches, gapbeam_leaves
         integer :: change
-        !> Its place, and between which places it comes about
+        !> Its place, and between which places it is to be looked for, as it may move on the way
         real(wp) :: x, from, to
     end type zone_change_type
 
@@ -238,28 +241,34 @@ contains
         type(zone_type), intent(in) :: before(:), after(:)
         type(zone_change_type), intent(inout) :: changes(:)
         integer, intent(inout) :: number
+        !> Are these the same zone, or parts of one
+        logical :: met(size(before), size(after))
         integer :: i, k, last, other
 
         do i = 1, size(after)
+            met(:, i) = meet(before, after(i))
+        end do
+        call meet_those_that_moved()
+        do i = 1, size(after)
             last = 0
             do k = 1, size(before)
-                if (.not. meet(before(k), after(i))) cycle
-                if (last > 0) call note(after(i), gapbeam_merges, before(last)%to, before(k)%from)
+                if (.not. met(k, i)) cycle
+                if (last > 0) call note(after(i), gapbeam_merges, before(last)%to, before(k)%from, before(last)%from, before(k)%to)
                 last = k
             end do
-            if (last == 0) call note(after(i), gapbeam_appears, after(i)%from, after(i)%to)
+            if (last == 0) call note_zone(after(i), gapbeam_appears)
         end do
         do i = 1, size(before)
             last = 0
             do k = 1, size(after)
-                if (.not. meet(after(k), before(i))) cycle
-                if (last > 0) call note(before(i), gapbeam_splits, after(last)%to, after(k)%from)
+                if (.not. met(i, k)) cycle
+                if (last > 0) call note(before(i), gapbeam_splits, after(last)%to, after(k)%from, after(last)%from, after(k)%to)
                 last = k
             end do
-            if (last == 0) call note(before(i), gapbeam_vanishes, before(i)%from, before(i)%to)
-            if (last == 0 .or. count(meet(after, before(i))) /= 1) cycle
+            if (last == 0) call note_zone(before(i), gapbeam_vanishes)
+            if (count(met(i, :)) /= 1) cycle
             other = last
-            if (count(meet(before, after(other))) /= 1) cycle
+            if (count(met(:, other)) /= 1) cycle
             associate (was => before(i), is => after(other))
                 if (was%at_left .neqv. is%at_left) then
                     call note_end(was, is%at_left, merge(is%from, was%from, is%at_left))
@@ -272,23 +281,54 @@ contains
 
     contains
 
+        !> Zones that meet no other, with nothing between the two, are one that has moved
+        subroutine meet_those_that_moved()
+            real(wp) :: from, to
+
+            do i = 1, size(after)
+                if (any(met(:, i))) cycle
+                do k = 1, size(before)
+                    if (any(met(k, :))) cycle
+                    from = min(before(k)%to, after(i)%to)
+                    to = max(before(k)%from, after(i)%from)
+                    if (any(before%from >= from .and. before%to <= to) .or. any(after%from >= from .and. after%to <= to)) cycle
+                    met(k, i) = .true.
+                    exit
+                end do
+            end do
+        end subroutine meet_those_that_moved
+
         !> An end comes to an end of the layer, or leaves it
         subroutine note_end(zone, reaches, x)
             type(zone_type), intent(in) :: zone
             logical, intent(in) :: reaches
             real(wp), intent(in) :: x
 
-            call note(zone, merge(gapbeam_reaches, gapbeam_leaves, reaches), x, x)
+            call note(zone, merge(gapbeam_reaches, gapbeam_leaves, reaches), x, x, x, x)
         end subroutine note_end
 
-        !> One change more
-        subroutine note(zone, change, from, to)
+        !> A zone is there on one side only
+        subroutine note_zone(zone, change)
             type(zone_type), intent(in) :: zone
             integer, intent(in) :: change
-            real(wp), intent(in) :: from, to
 
+            call note(zone, change, zone%from, zone%to, &
+                      max(maxval(before%to, before%to <= zone%from), maxval(after%to, after%to <= zone%from)), &
+                      min(minval(before%from, before%from >= zone%to), minval(after%from, after%from >= zone%to)))
+        end subroutine note_zone
+
+        !> One change more
+        subroutine note(zone, change, from, to, last, next)
+            type(zone_type), intent(in) :: zone
+            integer, intent(in) :: change
+            !> Between which places it is seen, and what it is surely not beyond
+            real(wp), intent(in) :: from, to, last, next
+            real(wp) :: move
+
+            move = farthest_move*(to - from)
             number = number + 1
-            changes(number) = zone_change_type(zone%foundation, zone%side, zone%branch, change, from + (to - from)/2, from, to)
+            changes(number) = zone_change_type(zone%foundation, zone%side, zone%branch, change, from + (to - from)/2, &
+                                               from - min(move, from/2 - last/2), to + min(move, next/2 - to/2))
         end subroutine note
 
     end subroutine compare_layer

@@ -63,6 +63,8 @@ contains
         type(field_type) :: left, right
         real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize, &
             push(2), pull, soft(2)
+        !> What rounding of the places of its ends makes of its deflection, in roundings
+        real(wp) :: displaced
         !> int V/GA over the length where GA changes
         real(wp) :: slid
         !> int N w' over the length where N changes
@@ -81,6 +83,7 @@ contains
                 push = [force_at_end(solution, i, 1), force_at_end(solution, i, 2)]
                 pull = s%tension*(right%deflection - left%deflection)
                 wsize = sizes%deflection
+                displaced = ground%pieces(j)%length*max(abs(left%rotation), abs(right%rotation))
                 msize = sizes%moment
                 call take_sizes()
                 curves = any(is_curve(layers, solution%acts(:n, i)))
@@ -318,7 +321,7 @@ contains
                         if (now%away(side) >= 0.0_wp .and. .not. (layer%rigid .and. side == 1)) cycle
                         call breakpoint_terms(layer, ground%laws, breakpoint, wsize, steepness, terms_of_it)
                         if (layer%rigid) terms_of_it = terms_of_it + least%deflection
-                        if (at_end) terms_of_it = terms_of_it + ground%pieces(j)%length*abs(change)
+                        terms_of_it = terms_of_it + merge(ground%pieces(j)%length*abs(change), displaced, at_end)
                         if (steepness > 0.0_wp) then
                             call note(ledger, of_contact, beyond, now%away(side)/steepness, terms_of_it/steepness, j, place)
                         else

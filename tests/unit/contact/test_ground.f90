@@ -1,6 +1,6 @@
 !> Beams on the ground: the chain, the zones, the mesh, the solution in quadruple precision, and what is asked of it
 program test_ground
-    use testing, only: check, finish
+    use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp
     use gapbeam_quantities, only: bending_count
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium
@@ -12,6 +12,7 @@ program test_ground
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_stretch, load_stretch
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
+    use gapbeam_filled_ground, only: any_falls, peak_of, fill_valleys
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, steps_of_piece
     use gapbeam_zones, only: settle_zones
     use gapbeam_ground_mesh, only: mesh_type, begin_mesh, refine_mesh
@@ -33,6 +34,7 @@ program test_ground
     call the_chain_solves_its_rows()
     call the_chain_finds_mechanisms()
     call layers_and_their_laws()
+    call valleys_of_laws_are_filled()
     call zones_converge_quadratically()
     call meshes_come_near()
     call a_force_on_a_long_beam()
@@ -167,6 +169,31 @@ contains
         call check(abs(second%displacement_a - 0.1_wp) <= 0.0_wp, "the second piece begins where the first ends")
         call check(.not. only_one%slope_a > 0.0_wp, "a linear layer has its moduli instead")
     end subroutine layers_and_their_laws
+
+    !> Up to a force of 4, down to 1, and up again: the ground that never falls stays at 4 from the peak to the last point at least
+    subroutine valleys_of_laws_are_filled()
+        type(ground_type) :: ground
+        type(law_piece_type) :: rises, falls, rises_again
+        real(wp) :: force(4)
+        integer :: i
+
+        rises = law_piece_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 2.0_wp, 1.0_wp, 2.0_wp, 2.0_wp)
+        falls = law_piece_type(2.0_wp, 2.0_wp, 4.0_wp, 2.0_wp, -1.0_wp, 0.5_wp, 3.0_wp, 3.0_wp)
+        rises_again = law_piece_type(5.0_wp, 5.0_wp, 1.0_wp, 3.5_wp, 1.5_wp, -0.25_wp, 2.0_wp, 2.0_wp)
+        ground%layers = [layer_type(side=1, law_first=1, law_last=3), layer_type(side=1, modulus_a=2.0_wp, modulus_b=2.0_wp)]
+        ground%laws = [rises, falls, rises_again]
+        call check(any_falls(ground) .and. peak_of(ground, 1) == 2 .and. peak_of(ground, 2) == 2, "where the force falls first")
+        call fill_valleys(ground)
+        call check(.not. any_falls(ground), "nor does it fall any more")
+        do i = 1, 4
+            associate (p => ground%laws(min(i, 3)), on => [1.0_wp, 3.5_wp, 6.0_wp, 20.0_wp])
+                force(i) = p%force_a + p%slope_a*(on(i) - p%displacement_a)
+            end associate
+        end do
+        call check_close(force, [2.0_wp, 4.0_wp, 5.5_wp, 26.5_wp], "at the left end", 1e-15_wp)
+        force(:) = [ground%laws%force_b, ground%laws(3)%slope_b]
+        call check_close(force, [0.0_wp, 2.0_wp, 3.5_wp, 0.0_wp], "at the right end", 1e-15_wp)
+    end subroutine valleys_of_laws_are_filled
 
     !> A free beam of two spans on ground that pushes up
     subroutine lower(loads, lowered, moduli, profile)
