@@ -36,10 +36,12 @@ module gapbeam_foundation_pieces
 contains
 
     !> The fields on a piece, from those in its middle
-    pure subroutine series_between(question, left, right, series, in_middle)
+    pure subroutine series_between(question, left, right, of_axis, series, in_middle)
         type(question_type), intent(in) :: question
         !> Its ends, 0..1
         real(wp), intent(in) :: left, right
+        !> Is that of w asked for
+        logical, intent(in) :: of_axis
         type(series_type), intent(out) :: series
         !> v, psi, M, V in its middle, where they are known
         real(wp), intent(in), optional :: in_middle(:)
@@ -62,7 +64,7 @@ contains
                 call expand(s, [p], xi, y, half, n, c)
                 series%c(:, 0:n) = c(1, :, 0:n)
             end if
-            if (question%what <= slope_of_w) series%axis(0:n) = deflection_series(s, xi, half, series%c(:, 0:n))
+            if (of_axis) series%axis(0:n) = deflection_series(s, xi, half, series%c(:, 0:n))
             do j = 1, 4
                 scale(j) = sum(abs(series%c(j, 0:n)))
             end do
@@ -283,7 +285,8 @@ contains
 
         ! What its rounding is near the middle
         share = 1/(4*decay_lengths(question%stretch))
-        call series_between(question, left + (right - left)/2 - share, left + (right - left)/2 + share, series)
+        call series_between(question, left + (right - left)/2 - share, left + (right - left)/2 + share, &
+                            question%what <= slope_of_w, series)
         call piece_of(question, series, piece)
         piece%half = (right - left)/2
         do k = 1, 4

@@ -36,8 +36,8 @@ contains
         end associate
     end function peak_of
 
-    !> Ground whose force never falls, and is nowhere less: from point to point of its laws the greatest force so far, and beyond the
-    !> last one with the same slope
+    !> Ground whose force never falls, and is nowhere less: from point to point of its laws the greatest force so far, and beyond
+    !> the last one with the same slope
     pure subroutine fill_valleys(ground)
         !> The beam and its ground
         type(ground_type), intent(inout) :: ground

@@ -68,7 +68,7 @@ contains
         real(wp), allocatable :: xi(:)
         type(stretch_ends_type) :: ends
         real(wp) :: deepest, depth, at, best, w, psi, moment, shear
-        integer :: k, p, number
+        integer :: k, p
 
         associate (z => rigid%zones, j => rigid%zones%piece(i), s => rigid%grounded%stretches(i), &
                    load => combined_load(rigid%grounded%dead(i), rigid%grounded%live(i), rigid%factor))
@@ -77,10 +77,10 @@ contains
                 associate (side => ground%layers(k)%side)
                     if (z%from(i) <= 0.0_wp) call stop_at_node(ground, rigid, j - 1, i - 1, side)
                     if (z%to(i) >= ground%pieces(j)%length) call stop_at_node(ground, rigid, j, i, side)
-                    call find_peaks(s, load, ends, 1, xi, number, slope_of(ground, j, k))
+                    call find_peaks(s, load, ends, [1], xi, slope_of(ground, j, k))
                     deepest = rigid%noise%deflection
                     best = -1.0_wp
-                    do p = 1, number
+                    do p = 1, size(xi)
                         at = xi(p)*s%length
                         if (at <= 3*rigid%way(i - 1) .or. s%length - at <= 3*rigid%way(i)) cycle
                         call fields_at(s, load, ends, xi(p), w, psi, moment, shear)

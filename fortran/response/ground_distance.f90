@@ -31,7 +31,8 @@ contains
         call curved_in(assembled, solution, i, curved)
         line(:) = contact_line(layer_in(assembled, solution, i, k), [solution%from(i), solution%to(i)], &
                                assembled%pieces(solution%piece(i))%length)
-        call peaks_in(solution, i, 1, (line(2) - line(1))/solution%stretches(i)%length, curved, xi, number)
+        call peaks_in(solution, i, [1], (line(2) - line(1))/solution%stretches(i)%length, curved, xi)
+        number = size(xi)
     end subroutine peaks_beside
 
     !> Largest distance of the beam from every layer under its stretches, and where it touches one without pressing it

@@ -85,7 +85,9 @@ contains
             rise = rise + slope*(line(2) - line(1))
         end do
         number = 0
-        if (abs(modulus) > 0.0_wp) call peaks_in(solution, i, 1, rise/modulus/solution%stretches(i)%length, none, xi, number)
+        if (.not. abs(modulus) > 0.0_wp) return
+        call peaks_in(solution, i, [1], rise/modulus/solution%stretches(i)%length, none, xi)
+        number = size(xi)
     end subroutine peaks_of_pressure
 
     !> Is the pressure in a stretch more than multiples of the deflection beside lines

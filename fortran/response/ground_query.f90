@@ -141,7 +141,7 @@ contains
         type(piece_load_type) :: load
         real(wp), allocatable :: xi(:)
         logical :: is_term(state_count, derived_count)
-        integer :: i, j, k, d, number
+        integer :: i, j, k, d, numbers(state_count)
 
         is_term(:, :) = terms_of_derived()
         values(1, :) = -huge(1.0_wp)
@@ -157,9 +157,9 @@ contains
                 end do
             end do
             call curved_in(assembled, solution, i, curved)
+            call peaks_in(solution, i, [(k, k=1, state_count)], 0.0_wp, curved, xi, numbers)
             do k = 1, state_count
-                call peaks_in(solution, i, k, 0.0_wp, curved, xi, number)
-                do j = 1, number
+                do j = sum(numbers(:k - 1)) + 1, sum(numbers(:k))
                     call values_in(assembled, solution, i, xi(j), field)
                     call consider(k, xi(j))
                     do d = 1, derived_count
@@ -169,8 +169,8 @@ contains
             end do
             if (.not. (is_tapered(assembled%pieces(solution%piece(i))) .or. abs(load%rise) > 0.0_wp)) cycle
             ! There the curvature is not a multiple of the moment
-            call peaks_in(solution, i, slope_of_curvature, 0.0_wp, curved, xi, number)
-            do j = 1, number
+            call peaks_in(solution, i, [slope_of_curvature], 0.0_wp, curved, xi)
+            do j = 1, size(xi)
                 call values_in(assembled, solution, i, xi(j), field)
                 do d = 1, derived_count
                     call consider(state_count + d, xi(j))
@@ -205,28 +205,28 @@ contains
 
     end subroutine ground_extremes
 
-    !> Where a field of a stretch is stationary, of the deflection that beside a line
-    pure subroutine peaks_in(solution, i, field, slope, curved, xi, number)
+    !> Where fields of a stretch are stationary, of the deflection that beside a line
+    pure subroutine peaks_in(solution, i, fields, slope, curved, xi, numbers)
         type(ground_solution_type), intent(in) :: solution
-        !> Stretch, and field as for find_peaks
-        integer, intent(in) :: i, field
+        !> Stretch, and fields as for find_peaks
+        integer, intent(in) :: i, fields(:)
         !> Of the line
         real(wp), intent(in) :: slope
         !> By curved_in
         type(curved_type), allocatable, intent(in) :: curved
+        !> Field after field, and how many of each
         real(wp), allocatable, intent(out) :: xi(:)
-        integer, intent(out) :: number
+        integer, intent(out), optional :: numbers(:)
 
         if (allocated(curved)) then
-            call find_peaks(solution%stretches(i), solution%loads(i), solution%ends(i), field, xi, number, &
-                            merge(slope, 0.0_wp, field == 1), curved)
-            return
+            call find_peaks(solution%stretches(i), solution%loads(i), solution%ends(i), fields, xi, slope, curved, numbers)
+        else
+            associate (ends => solution%ends(i))
+                call find_peaks(solution%stretches(i), solution%loads(i), &
+                                stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), fields, xi, &
+                                slope - solution%slope(i), numbers=numbers)
+            end associate
         end if
-        associate (ends => solution%ends(i))
-            call find_peaks(solution%stretches(i), solution%loads(i), &
-                            stretch_ends_type(0.0_wp, 0.0_wp, ends%moment_a, ends%moment_b), field, xi, number, &
-                            merge(slope - solution%slope(i), 0.0_wp, field == 1))
-        end associate
     end subroutine peaks_in
 
 end module gapbeam_ground_query

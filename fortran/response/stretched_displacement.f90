@@ -42,7 +42,7 @@ contains
         type(curved_type), allocatable :: curved
         real(wp), allocatable :: xi(:)
         real(wp) :: square, at, found
-        integer :: i, k, sign, number, unit
+        integer :: i, k, sign, unit
 
         unit = 2*assembled%units%deflection - assembled%units%length - assembled%axial%units%deflection
         do i = 1, size(solution%piece)
@@ -53,8 +53,8 @@ contains
                 if (.not. square > 0.0_wp) cycle
                 call curved_in(assembled, solution, i, curved)
                 do sign = -1, 1, 2
-                    call peaks_in(solution, i, 1, sign*sqrt(square), curved, xi, number)
-                    do k = 1, number
+                    call peaks_in(solution, i, [1], sign*sqrt(square), curved, xi)
+                    do k = 1, size(xi)
                         at = solution%from(i) + xi(k)*(solution%to(i) - solution%from(i))
                         found = displacement_in(assembled, solution, displacement, j, at)
                         at = point_x(assembled, j - 1) + scale(at, assembled%units%length)

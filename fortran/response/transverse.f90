@@ -65,7 +65,7 @@ contains
         real(wp), intent(out) :: distance(2)
         type(curved_type), allocatable :: curved
         real(wp), allocatable :: xi(:)
-        integer :: i, j, number
+        integer :: i, j
 
         value = [-huge(1.0_wp), huge(1.0_wp)]
         piece = 1
@@ -74,8 +74,8 @@ contains
             call consider(force_at_end(solution, i, 1), 0.0_wp)
             call consider(force_at_end(solution, i, 2), 1.0_wp)
             call curved_in(assembled, solution, i, curved)
-            call peaks_in(solution, i, slope_of_transverse, 0.0_wp, curved, xi, number)
-            do j = 1, number
+            call peaks_in(solution, i, [slope_of_transverse], 0.0_wp, curved, xi)
+            do j = 1, size(xi)
                 call consider(force_in(assembled, solution, i, xi(j)), xi(j))
             end do
         end do

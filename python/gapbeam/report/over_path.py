@@ -25,7 +25,7 @@ MOST_MISSING = 5
 """States that could not be solved that are named."""
 OVER = {
     "path": "Every load factor on the way counts, on both sides of jumps.",
-    "states": "Values are curved between events here: 23 states between each two count.",
+    "states": "Values are curved between events here: 3 to 23 states between each two count.",
     "steps": 'Only the load steps count; follow = "events" has what is between.',
 }
 TITLE = "Largest values over the loading history"

@@ -31,8 +31,9 @@ if TYPE_CHECKING:
 
 MOST_LIMITS = 5
 """Limits of the load, and supports that yield or break, that are named."""
-MOST_WORK = 2_000_000
-"""States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds."""
+MOST_WORK, ON_GROUND, ON_SLOPED = 2_000_000, 30, 500
+"""States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds; and for how
+many pieces a stretch on the ground counts, and one in which its modulus changes."""
 ALONG = {"axial_force": "Largest axial force", "axial_displacement": "Axial displacement"}
 """What is said of fields along the beam."""
 WIDTH = 56
@@ -57,7 +58,15 @@ def has_cheap_envelope(result: Result) -> bool:
     if not is_followed(result):
         return True
     ones = result.combinations.values() if result.combinations else [result]
-    return sum(count_states(one) for one in ones) * len(result._beam.places.pieces) <= MOST_WORK
+    return sum(count_states(one) * _size_of(one) for one in ones if is_followed(one)) <= MOST_WORK
+
+
+def _size_of(result: Result) -> int:
+    """Pieces of the beam, or what its stretches on the ground count for, at the end of the path."""
+    ground = result.steps[-1].solution.ground if result.scene.foundation and result.steps else None
+    if ground is None:
+        return len(result._beam.places.pieces)
+    return int(np.where(ground.values[4] == ground.values[5], ON_GROUND, ON_SLOPED).sum())
 
 
 def known_envelope(result: Result) -> Envelope | TrainEnvelope | None:

@@ -99,8 +99,10 @@ contains
                     call crossings_quad(in_quad(stretch), load_in_quad(load), ends_in_quad(ends), &
                                         reshape(real(line, qp), [2, 1]), exact, number_exact)
                 else
-                    call find_peaks(stretch, load, ends, what, xi, number)
-                    call peaks_quad(in_quad(stretch), load_in_quad(load), ends_in_quad(ends), what, exact, number_exact)
+                    call find_peaks(stretch, load, ends, [what], xi)
+                    number = size(xi)
+                    call peaks_quad(in_quad(stretch), load_in_quad(load), ends_in_quad(ends), [what], exact)
+                    number_exact = size(exact)
                 end if
                 zeros = zeros + number
                 if (number > 1) then
@@ -202,7 +204,7 @@ contains
         n = min(number, 10)
         call check(number >= 10, "waves fade, and cross zero")
         call check_close(200*xi(:n), [((i - 0.5_wp)*pi, i=1, n)], "where they do", 1e-14_wp)
-        call find_peaks(stretch, stretch_load_type(), stretch_ends_type(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp), 1, xi, number)
+        call find_peaks(stretch, stretch_load_type(), stretch_ends_type(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp), [1], xi)
         call check_close(200*xi(:n), [((i - 0.25_wp)*pi, i=1, n)], "where they peak", 1e-14_wp)
     end subroutine fading_waves
 
@@ -220,7 +222,7 @@ contains
         call check(number == 1, "one crossing far from the ends")
         call check_close(xi, [0.25_wp], "where it is", 1e-15_wp)
         call find_peaks(stretch, stretch_load_type(qa=4.0_wp, qb=4.0_wp, qc=1.0_wp), &
-                        stretch_ends_type(1.0_wp, 1.0_wp, 0.5_wp/1e8_wp, 0.5_wp/1e8_wp), 1, xi, number)
+                        stretch_ends_type(1.0_wp, 1.0_wp, 0.5_wp/1e8_wp, 0.5_wp/1e8_wp), [1], xi)
         call check(count(abs(xi - 0.5_wp) < 1e-12_wp) == 1, "peak far from the ends")
     end subroutine long_middle
 
@@ -273,18 +275,21 @@ contains
         type(stretch_type) :: stretch
         type(stretch_ends_type) :: ends
         real(wp), allocatable :: xi(:)
-        integer :: number
+        integer :: number, numbers(3)
 
         stretch = stretch_type(length=2.0_wp, flexibility=0.5_wp)
         ! w'' = (-6 + 12 xi)/L**2 = -M/EI
         ends = stretch_ends_type(0.0_wp, 0.0_wp, 3.0_wp, -3.0_wp)
         call find_crossings(stretch, stretch_load_type(), ends, level_lines([0.0_wp]), xi, number)
         call check_close(xi, [0.5_wp], "zero of a cubic", 1e-15_wp)
-        call find_peaks(stretch, stretch_load_type(), ends, 1, xi, number)
+        call find_peaks(stretch, stretch_load_type(), ends, [1], xi)
         call check_close(xi, [0.5_wp - sqrt(1/12.0_wp), 0.5_wp + sqrt(1/12.0_wp)], "peaks of a cubic", 1e-15_wp)
-        call find_peaks(stretch, stretch_load_type(), ends, 3, xi, number)
-        call check(number == 0, "no peak of a straight moment")
-        call find_peaks(stretch, stretch_load_type(), ends, 2, xi, number)
+        call find_peaks(stretch, stretch_load_type(), ends, [3], xi)
+        call check(size(xi) == 0, "no peak of a straight moment")
+        call find_peaks(stretch, stretch_load_type(), ends, [1, 3, 2], xi, numbers=numbers)
+        call check(all(numbers == [2, 0, 1]), "peaks of several fields")
+        call check_close(xi(3), 0.5_wp, "field after field", 1e-15_wp)
+        call find_peaks(stretch, stretch_load_type(), ends, [2], xi)
         call check_close(xi, [0.5_wp], "peak of a parabola", 1e-15_wp)
     end subroutine cubic
 

@@ -6,6 +6,7 @@ of its ends, and the ends of all stretches have the extremes of the whole path, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -23,12 +24,12 @@ from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope
 from .full_load import fields_on_sides
 
 if TYPE_CHECKING:
-    from ..paths.path import Segment
     from ..result import Result
     from ..state.step import Step
 
-BETWEEN = 24
-"""Parts of a segment at whose ends states are looked at, where values are curved in the load factor."""
+PARTS, LEAST, MOST = 96, 4, 24
+"""Parts of the whole way, and least and most of one segment, at whose ends states are looked at, where values are curved in the
+load factor."""
 
 
 def is_followed(result: Result) -> bool:
@@ -65,7 +66,7 @@ def count_states(result: Result) -> int:
     """
     if result.path is None:
         return len(result.steps)
-    return len(result.segments) * (2 if is_exact(result) else BETWEEN + 1) + len(result.steps) + 2 * len(result.limits)
+    return sum(parts + 1 for parts in _parts(result)) + len(result.steps) + 2 * len(result.limits)
 
 
 def is_exact(result: Result) -> bool:
@@ -94,22 +95,26 @@ def _states(result: Result) -> Iterator[tuple[Source, Step]]:
     jumps = curved or isinstance(path, BranchPath) or any(event.event == "turns" for event in result.events)
     if isinstance(path, BranchPath):
         yield from ((Source(None, step.factor, -1), step) for step in path.at_dead_limits())
-    for k, segment in enumerate(result.segments):
+    for k, (segment, parts) in enumerate(zip(result.segments, _parts(result), strict=True)):
         leg = getattr(segment, "leg", 0)
         if isinstance(path, BranchPath):
             found = path.along(segment)
         else:
-            found = [path.step(segment, factor) for factor in _factors(segment, curved)[0 if jumps or k == 0 else -1 :]]
+            factors = np.linspace(segment.start, segment.stop, parts + 1).tolist()
+            found = [path.step(segment, factor) for factor in factors[0 if jumps or k == 0 else -1 :]]
         yield from ((Source(None, step.factor, leg), step) for step in found)
     if curved and result.scene.analysis.follow == "steps":
         for k, step in enumerate(result.steps):
             yield Source(None, step.factor, getattr(result.steps.segment(k), "leg", 0)), step
 
 
-def _factors(segment: Segment, curved: bool) -> list[float]:
-    """Load factors on a segment at which states are looked at."""
-    start, stop = segment.start, segment.stop
-    return [start, *(np.linspace(start, stop, BETWEEN + 1)[1:-1].tolist() if curved else []), stop]
+def _parts(result: Result) -> list[int]:
+    """Parts of each segment between which states are looked at: one where values are linear."""
+    ways = [abs(segment.stop - segment.start) for segment in result.segments]
+    if is_exact(result):
+        return [1 for _ in ways]
+    whole = sum(ways) or 1.0
+    return [min(max(math.ceil(PARTS * way / whole), LEAST), MOST) for way in ways]
 
 
 class PathEnvelope(Envelope):
@@ -130,7 +135,7 @@ class PathEnvelope(Envelope):
     ----------
     over : str
         ``path``: exact, of every load factor that is passed; ``states``: on foundations and with smooth laws, whose values are
-        curved between events, of the events and of 23 states between each two; ``steps``: of the load steps only.
+        curved between events, of the events and of 3 to 23 states between each two; ``steps``: of the load steps only.
     missing : list of (Source, str)
         States that could not be solved, and why; they do not count.
 

@@ -216,7 +216,7 @@ def test_ground_is_of_states_and_says_so(made):
         step = result.state(factor)
         size = max(abs(one.value) for one in found.extremes["moment"].values())
         assert step.solution.extremes()[0][0, 2] <= found.extremes["moment"]["max"].value + 0.01 * size
-    assert "23 states between" in report_text(result)
+    assert "3 to 23 states between" in report_text(result)
 
 
 def test_smooth_laws_that_snap_through():
