@@ -20,7 +20,7 @@ SAME = 1e-9
 SAME_FACTOR = 1e-10
 APART = 1e-7
 """Shares of the load factor: of events that are the same, and of those that states are looked at between."""
-MOST = 12
+MOST = 8
 """Events of a path whose states are looked at."""
 
 

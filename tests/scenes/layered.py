@@ -55,7 +55,7 @@ def random_layered_scene(seed):
 
 def _polyline(rng, d, p, log):
     """Points up to some times a displacement d and a force p, less and less steep; the first ones may be quite near to 0."""
-    share = rng.choice((0.1, 0.1, 1e-3, 1e-6))
+    share = rng.choice((0.1, 0.1, 1e-3, 1e-5))
     x, slope, points = d * share, p / d / rng.choice((1.0, share)), []
     y = slope * x
     for _ in range(rng.randint(1, 5)):

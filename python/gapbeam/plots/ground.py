@@ -203,7 +203,7 @@ def draw_ground(axes: Axes | Turned, lanes: GroundLanes, contact: tuple[Contact,
 def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
     """Make the entries of the legend for the zones of contact; what branches of laws are is said in words."""
     words: dict[tuple[str, bool], list[str]] = {}  # by colour, and whether it only touches
-    for state in sorted({zone.state for zone in contact}):
+    for state in sorted({zone.state for zone in contact}, key=lambda state: [word.zfill(9) for word in state.split()]):
         name = WORDS.get(state) or _branch(scene, {zone.foundation for zone in contact if zone.state == state}, state)
         words.setdefault((_shade("closed" if state == TOUCHING else state), state == TOUCHING), []).append(name)
     return [

@@ -169,6 +169,14 @@ def test_states_of_ground_have_shades_of_their_own():
     assert zones(axes, "contact bilateral") == [(0.0, 12.0)]
 
 
+def test_segments_of_a_law_are_in_order():
+    """Those that share a colour are named by the first of them, and 10 comes after 2."""
+    points = [[k * 1e-3, 10.0 * k - 0.4 * k * k] for k in range(1, 12)]
+    result = gapbeam.solve(on_ground([8.0], [{"law": points}], [scenes.force(0.0, 60.0)], EI=500.0))
+    words = [text.get_text() for text in figure(result).legends[0].get_texts()]
+    assert words == [*(f"segment {k} of the ground's law" for k in range(1, 6)), "segment 6 of the ground's law and beyond"]
+
+
 def test_many_points_of_a_profile_are_thinned():
     x = np.linspace(0.0, 1e3, 100_000)
     gap = np.where(np.arange(len(x)) == 51_234, 5.0, np.sin(x))
