@@ -15,6 +15,7 @@ from ..scene.rotations import which_turn
 from ..scene.structs import Scene
 from . import formatting as fmt
 from .contact import contact_in_words, ground_in_words, source_in_words
+from .envelopes.full_load import envelope_of_one
 from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .event_words import limits_of_load_in_words
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 MOST_LIMITS = 5
 """Limits of the load, and supports that yield or break, that are named."""
-MOST_WORK, ON_GROUND, ON_SLOPED = 2_000_000, 30, 500
+MOST_WORK, ON_GROUND, ON_SLOPED = 2_000_000, 30, 300
 """States times pieces of the beam up to which values over the loading history are looked for unasked: some seconds; and for how
 many pieces a stretch on the ground counts, and one in which its modulus changes."""
 ALONG = {"axial_force": "Largest axial force", "axial_displacement": "Axial displacement"}
@@ -249,7 +250,10 @@ def answer(result: Result) -> list[str]:
     if not result.combinations and not result.scene.trains:
         lines += limits_of_load_in_words(result, envelope if is_followed(result) else None, MOST_LIMITS)
     if not cheap:
-        return [*lines, f"{NOT_FOLLOWED[0].upper()}{NOT_FOLLOWED[1:]}."]
+        lines.append(f"{NOT_FOLLOWED[0].upper()}{NOT_FOLLOWED[1:]}.")
+        if result.stands and not result.combinations:
+            lines += ["At full load:", *values_in_words(result, envelope_of_one(result, 1))]
+        return lines
     if envelope is None or not envelope.extremes:
         return lines + doubts_of_signs(result)
     if not result.has_envelope:

@@ -9,7 +9,9 @@ import pytest
 import scenes
 from gapbeam.cli import main
 from gapbeam.report import report_text, to_json
+from gapbeam.results import answer as answers
 from gapbeam.results.formatting import shown, shown_column
+from scenes.ground import pile, rail
 
 EXAMPLES = sorted((Path(__file__).resolve().parents[3] / "examples").glob("*.toml"))
 UNITS = {"force": "kN", "length": "m"}
@@ -184,3 +186,20 @@ def test_numbers_near_the_end_of_the_range_are_written():
     scene = gapbeam.read_scene(spans([scenes.uniform(2.0)]))
     assert shown(scene, "deflection", np.float64(1.25e307)) == "1.2500e+310"
     assert shown_column(scene, "opening", [0.0, 1.25e307]) == ("opening\nmm", ["0", "1.2500e+310"])
+
+
+def test_a_path_of_many_states_says_what_is_at_full_load(monkeypatch):
+    result = gapbeam.solve(pile(20.0))
+    monkeypatch.setattr(answers, "MOST_WORK", 0)
+    said = answers.answer(result)
+    assert "largest values are looked for on request only" in said[0]
+    largest = result.steps[-1].extremes["shear"]["max"]
+    assert said[1] == "At full load:"
+    assert any(line.startswith("Largest shear") and f"{largest.value:.4f}"[:5] in line for line in said)
+
+
+def test_states_on_ground_take_longer(monkeypatch):
+    """A pile and a rail with as many states: one has stretches in which the modulus changes, the other has not."""
+    monkeypatch.setattr(answers, "MOST_WORK", 300_000)
+    assert not answers.has_cheap_envelope(gapbeam.solve(pile(20.0)))
+    assert answers.has_cheap_envelope(gapbeam.solve(rail(follow="steps", steps=99)))
