@@ -18,7 +18,7 @@ from ...base.records import read_only
 from ...engine.beam import SOLVED
 from ...engine.quantities import FIELDS
 from ...scene.names import names_of
-from ..paths.branches import BranchPath
+from ..paths.branches import CURVE, BranchPath
 from ..views.extreme import Source
 from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope
 from .full_load import fields_on_sides
@@ -113,6 +113,8 @@ def _parts(result: Result) -> list[int]:
     ways = [abs(segment.stop - segment.start) for segment in result.segments]
     if is_exact(result):
         return [1 for _ in ways]
+    if isinstance(result.path, BranchPath):
+        return [CURVE - 1 for _ in ways]
     whole = sum(ways) or 1.0
     return [min(max(math.ceil(PARTS * way / whole), LEAST), MOST) for way in ways]
 
