@@ -50,7 +50,7 @@ def test_states_where_layers_meet_at_a_kink_of_their_laws(turned):
     result = gapbeam.solve(pile(60.0, turned))
     events = [event for event in result.events if event.x == (18.3 - 6.1 if turned else 6.1)]
     assert len(events) > 10
-    for event in events[::3]:
+    for event in events:
         w = [result.state(event.factor * (1 + share)).extremes["deflection"]["max"].value for share in (-1e-14, 0.0, 1e-14)]
         assert w == pytest.approx([w[1]] * 3, rel=1e-13)
 
