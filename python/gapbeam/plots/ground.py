@@ -203,7 +203,7 @@ def draw_ground(axes: Axes | Turned, lanes: GroundLanes, contact: tuple[Contact,
 def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
     """Make the entries of the legend for the zones of contact; what branches of laws are is said in words."""
     words: dict[tuple[str, bool], list[str]] = {}  # by colour, and whether it only touches
-    for state in sorted({zone.state for zone in contact}, key=lambda state: [word.zfill(9) for word in state.split()]):
+    for state in sorted({zone.state for zone in contact}, key=_by_number):
         name = WORDS.get(state) or _branch(scene, {zone.foundation for zone in contact if zone.state == state}, state)
         words.setdefault((_shade("closed" if state == TOUCHING else state), state == TOUCHING), []).append(name)
     return [
@@ -212,6 +212,11 @@ def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
                label=names[0] if len(names) == 1 else f"{names[0]} and beyond")
         for (colour, touches), names in words.items()
     ]  # fmt: skip
+
+
+def _by_number(state: str) -> list[str]:
+    """Give a key by which branch 10 comes after branch 2."""
+    return [word.zfill(9) if word.isdigit() else word for word in state.split()]
 
 
 def _branch(scene: Scene, foundations: set[int], state: str) -> str:
