@@ -24,6 +24,7 @@ PROMISE = (
     "spring at an end of the ground"
 )
 NEAR = 1e-8  # of the largest of a kind
+SAME = 1e-9  # of the largest deflection
 PANELS = (10, 100, 400)  # the more where the fewer find fault: where a modulus begins at 0 pressures are steep
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 
@@ -83,6 +84,18 @@ def left_over(made, result, seed):
         if not (wrong := along(made, result, panels)):
             break
     return [*wrong, *at_places(made, result), *supports(made, result), *proof_faults(made, seed)]
+
+
+def followed(made):
+    """A scene from event to event."""
+    return gapbeam.solve({**made, "analysis": {"follow": "events"}})
+
+
+def another_state(made, result, path):
+    """What is wrong if all loads at once lead elsewhere than from event to event."""
+    x = np.linspace(0.0, made["beam"]["spans"][0], 9)
+    one, other = result.at(x).deflection, path.at(x).deflection
+    return ["another state from event to event"] if np.abs(one - other).max() > SAME * np.abs(one).max() else []
 
 
 def stands_at_an_edge(made):

@@ -20,6 +20,7 @@ def random_curved_scene(seed):
     """
     rng = random.Random(seed)
     log = partial(rounded, rng)
+
     def parameter(value, may_begin_at_0=True):
         choice = rng.random()
         if choice < 0.3:

@@ -178,37 +178,3 @@ def load(rng, made, length, size, EI):
     if kind < 0.92:
         return linear(q, digits(q * rng.uniform(-1, 2)), **stretch(a, b))
     return curvature(digits(F * length / EI / 10), **stretch(a, b))
-
-
-def mirrored(made):
-    """The scene seen from behind."""
-    length = nodes_of(made)[-1]
-
-    def seen(value):
-        if not isinstance(value, list) or not value:
-            return value
-        return [[length - x, y] for x, y in value[::-1]] if isinstance(value[0], list) else value[::-1]
-
-    def turned(item):
-        new = {k: v for k, v in item.items() if k not in ("from", "to", "x", "node")}
-        for name in ("k", "gap", "q", "profile", "EI", "GA"):
-            if name in item:
-                new[name] = seen(item[name])
-        if isinstance(item.get("law"), dict):
-            new["law"] = {name: seen(value) for name, value in item["law"].items()}
-        elif isinstance(item.get("law", [[]])[0], dict):
-            new["law"] = [{**at, "x": length - at["x"]} for at in item["law"][::-1]]
-        if "from" in item or "to" in item:
-            new |= stretch(length - item.get("to", length), length - item.get("from", 0.0))
-        if "M" in item:
-            new["M"] = -item["M"]
-        if "x" in item or "node" in item:
-            new["x"] = length - (item["x"] if "x" in item else nodes_of(made)[item["node"]])
-        return new
-
-    beam = dict(made["beam"], spans=made["beam"]["spans"][::-1])
-    beam["hinges"] = [length - x for x in beam.get("hinges", [])]
-    if isinstance(beam["EI"], list):
-        beam["EI"] = beam["EI"][::-1]
-    parts = {name: [turned(i) for i in made.get(name, [])] for name in ("sections", "supports", "loads", "foundation")}
-    return {"beam": beam, **parts}

@@ -263,24 +263,34 @@ def mirrored(made):
     """The scene seen from behind: x becomes length - x."""
     new = copy.deepcopy(made)
     length, last = nodes_of(made)[-1], len(made["beam"]["spans"])
-    for key in ("spans", "EI", "GA", "EA"):
-        if isinstance(new["beam"].get(key), list):
-            new["beam"][key].reverse()
+
+    def turned(value):
+        if not isinstance(value, list) or not value:
+            return value
+        return [[length - x, y] for x, y in value[::-1]] if isinstance(value[0], list) else value[::-1]
+
+    new["beam"].update({key: turned(new["beam"][key]) for key in ("spans", "EI", "GA", "EA") if key in new["beam"]})
     if "hinges" in new["beam"]:
         new["beam"]["hinges"] = sorted(length - x for x in new["beam"]["hinges"])
-    for item in (*new["supports"], *new["loads"], *new.get("sections", ())):
+    for item in (item for part in ("supports", "loads", "sections", "foundation") for item in new.get(part, ())):
         if "node" in item:
             item["node"] = last - item["node"]
         elif "x" in item:
             item["x"] = length - item["x"]
-        if "from" in item:
-            item["from"], item["to"] = length - item["to"], length - item["from"]
-        if item.get("type") == "linear":
-            item["q"].reverse()
+        if "from" in item or "to" in item:
+            item["from"], item["to"] = length - item.get("to", length), length - item.get("from", 0.0)
         if item.get("type") == "moment":
             item["M"] = -item["M"]
         if item.get("type") == "axial":
             item["F"] = -item["F"]
+        along = ("q", "value", "EI", "GA", "k", "gap", "profile")
+        item.update({key: turned(item[key]) for key in along if key in item})
+    for item in new.get("foundation", ()):
+        law = item.get("law")
+        if isinstance(law, dict):
+            item["law"] = {key: turned(value) for key, value in law.items()}
+        elif law and isinstance(law[0], dict):
+            item["law"] = [{**at, "x": length - at["x"]} for at in law[::-1]]
     return new
 
 

@@ -215,27 +215,10 @@ def test_random_paths_change_where_the_oracle_does(seed):
             assert below != above, event
 
 
-def turned(made):
-    """A scene seen from behind, its ground too."""
-    new = mirrored(made)
-    length = sum(made["beam"]["spans"])
-    for item in new["foundation"]:
-        item["from"], item["to"] = length - item.get("to", length), length - item.get("from", 0.0)
-        for key in ("k", "gap"):
-            if isinstance(item.get(key), list):
-                item[key].reverse()
-        if "profile" in item:
-            item["profile"] = [[length - x, gap] for x, gap in reversed(item["profile"])]
-    for load in new["loads"]:
-        if isinstance(load.get("value"), list):
-            load["value"].reverse()
-    return new
-
-
 @pytest.mark.parametrize("seed", [7, 12, 16, 18, 21, 23])
 def test_mirrored_scenes(seed):
     made = random_moving_scene(seed)
-    one, other = (gapbeam.solve(each | {"analysis": EVENTS}) for each in (made, turned(made)))
+    one, other = (gapbeam.solve(each | {"analysis": EVENTS}) for each in (made, mirrored(made)))
     assert [event.factor for event in one.events] == pytest.approx([event.factor for event in other.events], rel=1e-11)
     x = np.linspace(0.0, sum(made["beam"]["spans"]), 33)
     w, back = one.at(x).deflection, other.at(x[::-1]).deflection
