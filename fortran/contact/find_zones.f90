@@ -6,11 +6,12 @@ module gapbeam_find_zones
     use gapbeam_watch, only: is_stopped
     use gapbeam_foundation, only: stretch_load_type
     use gapbeam_foundation_fields, only: fields_at
+    use gapbeam_ordered, only: sort
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
-    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, has_points
-    use gapbeam_ground_laws, only: contact_line, line_of_breakpoint, distance_to_breakpoint, &
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves
+    use gapbeam_ground_laws, only: contact_line, breaks_on_line, line_of_breakpoint, distance_to_breakpoint, &
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_foundation_stretch, only: without_slip
@@ -157,7 +158,7 @@ contains
                         associate (layer => ground%layers(k))
                             if (layer%side == 0) cycle
                             do law = 1, pieces_of_law(layer)
-                                if (law == 1 .or. has_points(layer)) then
+                                if (law == 1 .or. breaks_on_line(layer)) then
                                     m = m + 1
                                     lines(:, m) = [line_of_breakpoint(ground%laws, layer, law, from, length), &
                                                    line_of_breakpoint(ground%laws, layer, law, to, length)]
@@ -312,21 +313,5 @@ contains
         end function load_of
 
     end subroutine find_zones
-
-    !> Sort a few numbers that are nearly in order
-    pure subroutine sort(values)
-        real(wp), intent(inout) :: values(:)
-        real(wp) :: value
-        integer :: i, j
-
-        do i = 2, size(values)
-            value = values(i)
-            do j = i - 1, 1, -1
-                if (values(j) <= value) exit
-                values(j + 1) = values(j)
-            end do
-            values(j + 1) = value
-        end do
-    end subroutine sort
 
 end module gapbeam_find_zones

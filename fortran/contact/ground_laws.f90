@@ -2,12 +2,12 @@
 module gapbeam_ground_laws
     use gapbeam_kinds, only: wp
     use gapbeam_law_series, only: curve_type, parameters_of_curve
-    use gapbeam_laws, only: law_polyline, parameters_of_law, law_force, law_slope
+    use gapbeam_laws, only: law_hardening, law_polyline, parameters_of_law, law_force, law_slope
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece, is_curve, has_points
     implicit none
     private
-    public :: between, along, contact_line, line_of_breakpoint, distance_to_breakpoint, parameters_at, piece_of_deflection, &
-        slope_of_layer, offset_of_layer, push_of_layer, slope_at, take_curves
+    public :: between, along, contact_line, breaks_on_line, line_of_breakpoint, distance_to_breakpoint, parameters_at, &
+        piece_of_deflection, slope_of_layer, offset_of_layer, push_of_layer, slope_at, take_curves
 
 contains
 
@@ -45,7 +45,21 @@ contains
         level = along(layer%contact_a, layer%contact_b, distance, length)
     end function contact_line
 
-    !> Deflection at which a layer goes on to a piece of its law, the first one or one by points
+    !> Are the deflections at which a law goes on to another piece on straight lines: by points, or at the same displacement
+    !> everywhere, also where its parameters begin from nothing at an end. There stiffness times displacement less the limit is zero
+    !> whatever the beam does, and says nothing
+    elemental function breaks_on_line(layer) result(it_does)
+        type(layer_type), intent(in) :: layer
+        logical :: it_does
+
+        it_does = has_points(layer)
+        if (it_does) return
+        associate (a => layer%parameter_a(:2), b => layer%parameter_b(:2))
+            if (max(a(1), b(1)) > 0.0_wp) it_does = .not. (any(abs(a - b) > 0.0_wp) .and. any(a > 0.0_wp) .and. any(b > 0.0_wp))
+        end associate
+    end function breaks_on_line
+
+    !> Deflection at which a layer goes on to a piece of its law, the first one or one that begins on a line
     pure function line_of_breakpoint(laws, layer, number, distance, length) result(level)
         !> Pieces of all laws, and the layer
         type(law_piece_type), intent(in) :: laws(:)
@@ -56,13 +70,27 @@ contains
         real(wp) :: level
         type(law_piece_type) :: piece
 
-        piece = law_piece(layer, laws, number)
-        level = contact_line(layer, distance, length) &
-            + layer%side*along(piece%displacement_a, piece%displacement_b, distance, length)
+        level = contact_line(layer, distance, length)
+        if (has_points(layer)) then
+            piece = law_piece(layer, laws, number)
+            level = level + layer%side*along(piece%displacement_a, piece%displacement_b, distance, length)
+        else if (number > 1 .and. breaks_on_line(layer)) then
+            level = level + layer%side*limit_displacement(layer)
+        end if
     end function line_of_breakpoint
 
-    !> Is a deflection beyond a breakpoint of a law: positive if so, with its change along the beam. Of the limit of a law with
-    !> parameters stiffness times displacement less the limit, which has no pole
+    !> Displacement at which the force of a law with a limit, which breaks on a line, comes to it
+    elemental function limit_displacement(layer) result(displacement)
+        type(layer_type), intent(in) :: layer
+        real(wp) :: displacement
+
+        associate (a => layer%parameter_a, b => layer%parameter_b)
+            displacement = merge(a(2), b(2), a(1) > b(1))/max(a(1), b(1))
+        end associate
+    end function limit_displacement
+
+    !> Is a deflection beyond a breakpoint of a law: positive if so, with its change along the beam. Where these are on no line,
+    !> stiffness times displacement less the limit, which has no pole
     pure subroutine distance_to_breakpoint(laws, layer, number, w, incline, distance, length, past, change)
         !> Pieces of all laws, and the layer
         type(law_piece_type), intent(in) :: laws(:)
@@ -77,7 +105,7 @@ contains
         past = layer%side*(w - line_of_breakpoint(laws, layer, number, distance, length))
         change = layer%side*(incline - (line_of_breakpoint(laws, layer, number, length, length) &
                                         - line_of_breakpoint(laws, layer, number, 0.0_wp, length))/length)
-        if (number == 1 .or. has_points(layer)) return
+        if (number == 1 .or. breaks_on_line(layer)) return
         p = parameters_at(layer, distance, length)
         associate (a => layer%parameter_a, b => layer%parameter_b)
             change = p(1)*change + past*(b(1) - a(1))/length - (b(2) - a(2))/length
@@ -104,6 +132,11 @@ contains
         real(wp) :: p(parameters_of_curve)
 
         p = [parameters_at(layer, distance, length), 0.0_wp]
+        if (layer%law == law_hardening .and. breaks_on_line(layer)) then
+            ! What the law does beyond its limit needs their ratio, which rounding spoils near where they begin from nothing
+            p(1) = max(p(1), epsilon(1.0_wp)**4*max(layer%parameter_a(1), layer%parameter_b(1)))
+            p(2) = p(1)*limit_displacement(layer)
+        end if
         if (layer%law /= law_polyline) return
         associate (piece => law_piece(layer, laws, acts))
             p = along([piece%displacement_a, piece%force_a, piece%way_a, piece%slope_a*piece%way_a], &

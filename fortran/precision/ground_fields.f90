@@ -10,7 +10,7 @@ module gapbeam_ground_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, is_curve, has_points
     use gapbeam_curved, only: curved_type, curved_fields
-    use gapbeam_ground_laws, only: along, take_curves
+    use gapbeam_ground_laws, only: along, take_curves, breaks_on_line, line_of_breakpoint
     use gapbeam_ground_solution, only: ground_solution_type
     implicit none
     private
@@ -277,11 +277,15 @@ contains
         real(wp), intent(out) :: steepness, sizes
         type(law_piece_type) :: piece
 
-        piece = law_piece(layer, laws, breakpoint)
         steepness = 1.0_wp
-        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
-            + max(abs(piece%displacement_a), abs(piece%displacement_b))
-        if (breakpoint == 1 .or. has_points(layer)) return
+        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b)
+        if (has_points(layer)) then
+            piece = law_piece(layer, laws, breakpoint)
+            sizes = sizes + max(abs(piece%displacement_a), abs(piece%displacement_b))
+        else if (breakpoint > 1 .and. breaks_on_line(layer)) then
+            sizes = sizes + abs(line_of_breakpoint(laws, layer, breakpoint, 0.0_wp, 1.0_wp) - layer%contact_a)
+        end if
+        if (breakpoint == 1 .or. breaks_on_line(layer)) return
         steepness = max(layer%parameter_a(1), layer%parameter_b(1))
         sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))
     end subroutine breakpoint_terms

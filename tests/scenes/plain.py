@@ -259,32 +259,51 @@ def _random_load(rng, made):
 # Transformations
 
 
+TURNED = {"left": "right", "right": "left", "clockwise": "counterclockwise", "counterclockwise": "clockwise"}
+ALONG_BEAM = ("spans", "EI", "GA", "EA", "N", "mass", "alpha", "depth")
+ALONG_PART = ("q", "value", "EI", "GA", "EA", "N", "k", "gap", "profile", "limit", "stiffness", "kappa", "dT", "gradient")
+TURNS_OVER = {"moment": "M", "axial": "F", "axial_uniform": "q"}
+"""What acts along the beam or turns it, by type of load: it changes its sign seen from behind."""
+
+
 def mirrored(made):
-    """The scene seen from behind: x becomes length - x."""
+    """The scene seen from behind: x becomes length - x; it may have anything but trains."""
     new = copy.deepcopy(made)
     length, last = nodes_of(made)[-1], len(made["beam"]["spans"])
 
     def turned(value):
+        """By span, from one end to the other, or a table of places."""
+        if isinstance(value, dict):
+            return {**value, "from": value["to"], "to": value["from"]}
         if not isinstance(value, list) or not value:
             return value
         return [[length - x, y] for x, y in value[::-1]] if isinstance(value[0], list) else value[::-1]
 
-    new["beam"].update({key: turned(new["beam"][key]) for key in ("spans", "EI", "GA", "EA") if key in new["beam"]})
-    if "hinges" in new["beam"]:
-        new["beam"]["hinges"] = sorted(length - x for x in new["beam"]["hinges"])
-    for item in (item for part in ("supports", "loads", "sections", "foundation") for item in new.get(part, ())):
+    beam = new["beam"]
+    beam.update({key: turned(beam[key]) for key in ALONG_BEAM if key in beam})
+    beam.update({"hinges": sorted(length - x for x in beam["hinges"])} if "hinges" in beam else {})
+    parts = ("supports", "loads", "sections", "hinges", "foundation", "axial_ground", "masses")
+    for item in (item for part in parts for item in new.get(part, ())):
         if "node" in item:
             item["node"] = last - item["node"]
         elif "x" in item:
             item["x"] = length - item["x"]
         if "from" in item or "to" in item:
             item["from"], item["to"] = length - item.get("to", length), length - item.get("from", 0.0)
-        if item.get("type") == "moment":
-            item["M"] = -item["M"]
-        if item.get("type") == "axial":
-            item["F"] = -item["F"]
-        along = ("q", "value", "EI", "GA", "k", "gap", "profile")
-        item.update({key: turned(item[key]) for key in along if key in item})
+        item.update({key: turned(item[key]) for key in ALONG_PART if key in item})
+        item.update({key: TURNED.get(item[key], item[key]) for key in ("side", "at_hinge") if key in item})
+    for support in new.get("supports", ()):
+        rotation = support.get("rotation")
+        if isinstance(rotation, dict) and "side" in rotation:
+            rotation["side"] = TURNED.get(rotation["side"], rotation["side"])
+        if support.get("direction") == "axial" and "settlement" in support:
+            support["settlement"] *= -1.0
+    for load in new["loads"]:
+        key = TURNS_OVER.get(load["type"])
+        if load["type"] == "movement" and "support" in load:
+            axial = new["supports"][load["support"]].get("direction") == "axial"
+            key = "rotation" if "rotation" in load else "value" if axial else None
+        load.update({key: -load[key]} if key else {})
     for item in new.get("foundation", ()):
         law = item.get("law")
         if isinstance(law, dict):
@@ -299,10 +318,10 @@ def cut(made, span, share):
     new = copy.deepcopy(made)
     length = made["beam"]["spans"][span]
     new["beam"]["spans"][span : span + 1] = [length * share, length * (1.0 - share)]
-    for key in ("EI", "GA", "EA"):
+    for key in ALONG_BEAM[1:]:
         if isinstance(new["beam"].get(key), list):
             new["beam"][key].insert(span, new["beam"][key][span])
-    for item in (*new["supports"], *new["loads"]):
+    for item in (*new.get("supports", ()), *new["loads"]):
         if item.get("node", 0) > span:
             item["node"] += 1
     return new

@@ -145,47 +145,6 @@ def pressed_scene(seed):
     return scene
 
 
-def turned_round(scene):
-    """The same seen from behind: left and right change places.
-
-    Parameters
-    ----------
-    scene : dict
-        From `rigid_scene`.
-    """
-    length = sum(scene["beam"]["spans"])
-    beam = {key: scene["beam"][key][::-1] for key in ("spans", "EI", "N") if key in scene["beam"]}
-    if "hinges" in scene["beam"]:
-        beam["hinges"] = [length - x for x in scene["beam"]["hinges"]]
-    ground = []
-    for one in scene["foundation"]:
-        one = one | {"from": length - one["to"], "to": length - one["from"]}
-        if "profile" in one:
-            one["profile"] = [[length - x, gap] for x, gap in one["profile"][::-1]]
-        if isinstance(one.get("gap"), list):
-            one["gap"] = one["gap"][::-1]
-        ground.append(one)
-    loads = []
-    for load in scene["loads"]:
-        if load["type"] == "uniform":
-            loads.append(load)
-        elif load["type"] == "curvature":
-            loads.append(load | {"from": length - load["to"], "to": length - load["from"]})
-        elif load["type"] == "linear":
-            loads.append(load | {"from": length - load["to"], "to": length - load["from"], "q": load["q"][::-1]})
-        else:
-            loads.append(load | {"x": length - load["x"], **({"M": -load["M"]} if "M" in load else {})})
-    supports = [one | {"x": length - one["x"]} for one in scene["supports"]]
-    sections = [_seen_from_behind(one, length) for one in scene.get("sections", ())[::-1]]
-    return {"beam": beam, "supports": supports, "foundation": ground, "loads": loads, "sections": sections}
-
-
-def _seen_from_behind(section, length):
-    EI = section["EI"]
-    EI = EI[::-1] if isinstance(EI, list) else EI | {"from": EI["to"], "to": EI["from"]}
-    return {"from": length - section["to"], "to": length - section["from"], "EI": EI}
-
-
 def upside_down(scene):
     """The same with up and down changed.
 

@@ -9,6 +9,7 @@ from mpmath import mp, mpf
 from oracle.foundation import solve as reference
 from scenes.foundation import random_scene
 from scenes.ground import on_ground, over_peaks, pile, rough_pipe
+from scenes.plain import force, mirrored, uniform
 
 ROUNDINGS = 4 * 2.0**-53
 LOOK = 4  # linear solves for a place of the grid
@@ -53,6 +54,36 @@ def test_states_where_layers_meet_at_a_kink_of_their_laws(turned):
     for event in events:
         w = [result.state(event.factor * (1 + share)).extremes["deflection"]["max"].value for share in (-1e-14, 0.0, 1e-14)]
         assert w == pytest.approx([w[1]] * 3, rel=1e-13)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("law", [
+    {"type": "hardening", "stiffness": [0.0, 0.844], "limit": [0.0, 1.95], "slope": [0.0268, 0.0971]},
+    {"type": "plastic", "stiffness": [0.0, 0.844], "limit": [0.0, 1.95]},
+])  # fmt: skip
+def test_a_law_that_begins_from_nothing_yields_there(law, turned):
+    """Stiffness and limit are zero at an end, but at what displacement it yields there is known, to all digits."""
+    loads = [{"type": "uniform", "q": 0.497}, {"type": "uniform", "q": 0.0627, "case": "dead"}]
+    made = on_ground([4.5], [{"side": "below", "law": law}], loads, EI=0.665, analysis={"follow": "events"})
+    result = gapbeam.solve(mirrored(made) if turned else made)
+    event = result.events[0]
+    assert (event.event, event.x, event.branch) == ("zone appears", 4.5 if turned else 0.0, 2)
+    assert result.at(event.x, factor=event.factor).deflection == pytest.approx(1.95 / 0.844, rel=1e-14)
+    yielded = []
+    for more in (1e-10, 1e-9, 1e-8, 1e-7):
+        (zone,) = (zone for zone in result.state(event.factor * (1 + more)).contact if zone.state == "branch 2")
+        yielded.append((zone.to - zone.from_) / more)
+    assert yielded == pytest.approx([yielded[-1]] * 4, rel=1e-5)
+
+
+def test_a_beam_tips_after_few_solves():
+    """Next to the end next to nothing holds it, and rounding tells what: the end is known from the work of the loads."""
+    made = on_ground([4.125], [{"side": "below", "law": {"type": "cubic", "k1": [162.0, 481.0], "k3": 4.48e7}}],
+                     [force(0.0, -0.683), uniform(0.0453, case="dead")], EI=1.66, analysis={"follow": "events"})  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.status == "no-equilibrium"
+    assert result.path.segments[-1].stop == pytest.approx(0.0453 * 4.125 / 2 / 0.683, rel=1e-12)
+    assert result.path.solves < 600
 
 
 @pytest.mark.parametrize("gap", [1.0, 1.0 + 2.0**-40, 1.0 - 2.0**-40, 0.3, 3.999, 1e-3])
