@@ -4,7 +4,7 @@
 !> are curves, limit analysis knows it.
 module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_buckles
+    use gapbeam_error, only: error_type, gapbeam_buckles, gapbeam_no_equilibrium
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_filled_ground, only: any_falls
@@ -26,9 +26,9 @@ module gapbeam_ground_problem
     integer, parameter :: missing_powers(*) = [-20, -10]
     !> Next to the limit of laws that are curves states take long: there parameters as near as this are neighbours
     real(wp), parameter :: near_on_curves = 2.0_wp**(-20)
-    !> So near to the factor at which the loads begin to do work there is equilibrium, and none; that many times farther; and how
-    !> often that factor is computed
-    real(wp), parameter :: next_to_limit = 2.0_wp**(-50), wider = 64.0_wp
+    !> So near to the factor at which the loads begin to do work there is equilibrium, and none; at least so near to it that a path
+    !> ends; that many times farther; and how often that factor is computed
+    real(wp), parameter :: next_to_limit = 2.0_wp**(-50), near_limit = 2.0_wp**(-44), wider = 64.0_wp
     integer, parameter :: most_guesses = 8
     !> Powers of 2, as shares of the factor at which falling ground gives way, by which states are looked for beside it
     integer, parameter :: next_to_fall = -44, far_from_fall = -24
@@ -90,7 +90,7 @@ contains
         if (problem%falls) call go_to_fall(problem, below, above, ended, error)
         if (problem%levels_off) call go_to_limit(problem, below, above, ended, error)
         if (allocated(error) .or. ended .or. problem%falls) return
-        if (.not. above%stands) call approach_by_work(problem, below, above, error)
+        if (.not. above%stands) call approach_by_work(problem, below, above, ended, error)
     end subroutine approach_end
 
     !> Where laws are curves limit analysis knows the limit load: end the path there, or look next to it for what changes before
@@ -201,15 +201,17 @@ contains
         allocate (error, source=trouble)
     end subroutine go_beyond
 
-    !> Nearer to where the loads begin to do work along the motion at the upper of two factors
-    subroutine approach_by_work(problem, below, above, error)
+    !> Nearer to where the loads begin to do work along the motion at the upper of two factors; so near to it that the path ends
+    subroutine approach_by_work(problem, below, above, ended, error)
         !> As for approach_end
         class(ground_problem_type), intent(inout) :: problem
         class(point_type), allocatable, intent(inout) :: below, above
+        logical, intent(inout) :: ended
         type(error_type), allocatable, intent(out) :: error
-        class(point_type), allocatable :: between
+        class(point_type), allocatable :: between, unsettled
         real(wp) :: guess, reach
         integer :: guesses
+        logical :: goes_on
 
         reach = next_to_limit
         do guesses = 1, most_guesses
@@ -221,15 +223,28 @@ contains
             call problem%find(guess*(1 - reach), between, error, below)
             if (allocated(error)) return
             if (problem%alike(below, between)) exit
-            if (allocated(between%trouble)) return
+            if (allocated(between%trouble) .or. (between%stands .and. reach < near_limit)) then
+                ! Next to the end next to nothing may hold the beam, and rounding tells what: farther away it is settled
+                call move_alloc(between, unsettled)
+                reach = wider*reach
+                cycle
+            end if
             call move_alloc(between, above)
         end do
         if (.not. allocated(between)) return
         call move_alloc(between, below)
+        if (allocated(unsettled) .and. reach > near_limit) then
+            call move_alloc(unsettled, above)
+            return
+        end if
         if (guess*(1 + reach) >= above%at) return
         call problem%find(guess*(1 + reach), between, error)
         if (allocated(error) .or. between%stands) return
         call move_alloc(between, above)
+        if (allocated(above%trouble) .or. problem%state%status /= gapbeam_no_equilibrium) return
+        if (.not. allocated(unsettled) .or. reach > near_limit) return
+        call problem%take_end(below, above, goes_on, error)
+        ended = .true.
     end subroutine approach_by_work
 
     !> The load factor at which the loads do no work along the motion at a factor at which they do; below zero if there is none

@@ -19,19 +19,24 @@ from scenes import (
     tapered,
 )
 from scenes.axial_springs import bedded_bar
+from scenes.plain import cut, mirrored
 from scenes.units import in_units, powers
 
 from .family import Family, Verdict
 
 PROMISE = (
     "A scene of any kind has the same reactions, fields and extremes on every road. Roads are a combination and its envelope, a "
-    "prepared case alone and among others, a row of a function, load steps, events, other units, and a file that is read again"
+    "prepared case alone and among others, a row of a function, load steps, events, other units, a file that is read again, the "
+    "beam seen from behind or with one more node. Events are at the same factors there"
 )
 NEAR = 1e-9
+SAME_FACTOR, NEXT_TO_END = 1e-10, 1e-6
 PLACES = np.array([0.1337, 0.3141, 0.5, 0.6517, 0.8779])
 """Shares of the beam."""
 FORCE, LENGTH = -20, 7
 """Powers of two of other units."""
+BEHIND = {"rotation", "shear", "transverse", "axial_displacement"}
+"""What changes its sign seen from behind."""
 UNITS = {one.name: one.unit.format(force="F", length="L") for one in QUANTITIES}
 
 
@@ -99,7 +104,8 @@ class State:
         self.sizes, self.slack = {}, {}
         for name in self.step._beam.fields:
             self.sizes[name] = max(abs(self.extremes[name][way].value) for way in ("max", "min"))
-            self.slack[name] = NEAR * self.sizes[name] + 3 * (bounds.get(name) or 0.0) + (1e-12 if name == "pressure" else 0.0)
+            nothing = {"pressure": 1e-12, "axial_displacement": 1e-16}.get(name, 1e-20)
+            self.slack[name] = NEAR * self.sizes[name] + 3 * (bounds.get(name) or 0.0) + nothing
         self.force = max(np.abs(self.step.reaction).max(initial=0.0), self.sizes["shear"])
         self.slack["reaction"] = NEAR * self.force + 3 * (bounds["reaction"] or 0.0)
 
@@ -142,6 +148,18 @@ class State:
                 theirs = float(np.ldexp(found.extremes[name][way].value, -power))
                 self.compare(f"{road}, {way}", name, theirs, self.extremes[name][way].value)
 
+    def from_behind(self, road, found):
+        """The same beam seen from behind."""
+        along = [one.direction == "axial" for one in found.scene.supports]
+        self.reactions(road, np.where(along, -1.0, 1.0) * found.steps[-1].reaction)
+        there = found.at(float(found.scene.span_ends()[-1]) - self.x, side="left").columns()
+        for name in self.sizes:
+            sign, ends = (-1.0, ("min", "max")) if name in BEHIND else (1.0, ("max", "min"))
+            self.compare(road, name, sign * there[name], self.right[name])
+            for way, other in zip(("max", "min"), ends, strict=True):
+                theirs = sign * found.extremes[name][other].value
+                self.compare(f"{road}, {way}", name, theirs, self.extremes[name][way].value)
+
     def result(self, road, found):
         """Another result."""
         if said(found) != "solved":
@@ -171,7 +189,7 @@ def judge(made, seed=0):
     ----------
     made : dict
     seed : int
-        Not used: the roads are always the same.
+        Draws the span with one more node.
 
     Returns
     -------
@@ -198,11 +216,46 @@ def judge(made, seed=0):
     again = solved(tomllib.loads(gapbeam.read_scene(made).to_toml()))
     if reached("written to a file", said(again)):
         state.result("written to a file", again)
-    for road, asked in (("steps", {"steps": 3}), ("events", {"follow": "events"})):
-        found = solved({**made, "analysis": {**made.get("analysis", {}), **asked}})
+    by_steps, by_events = solved(asked(made, steps=3)), solved(asked(made, follow="events"))
+    for road, found in (("steps", by_steps), ("events", by_events)):
         if state is not None and said(found) == "solved":  # on its way a beam may come to where it does not stand
             state.result(road, found)
+    _as_another_beam(made, state, reached, by_events, random.Random(seed), verdict.wrong)
     return verdict
+
+
+def asked(made, **keys):
+    """The scene with other keys of its analysis."""
+    return {**made, "analysis": {**made.get("analysis", {}), **keys}}
+
+
+def _as_another_beam(made, state, reached, by_events, rng, wrong):
+    """Seen from behind, and with one more node: states, and factors of events."""
+    behind = mirrored(made)
+    there = solved(behind)
+    if reached("from behind", said(there)):
+        state.from_behind("from behind", there)
+    cut_there = cut(made, rng.randrange(len(made["beam"]["spans"])), rng.choice((0.25, 0.375, 0.5)))
+    there = solved(cut_there)
+    if reached("one more node", said(there)):
+        state.result("one more node", there)
+    for road, other in (("events from behind", behind), ("events, one more node", cut_there)):
+        found = solved(asked(other, follow="events"))
+        ways = {said(found), said(by_events)}
+        if len(ways) > 1 and ("solved" in ways or "EngineError" not in ways):  # where it does not stand either may not be settled
+            wrong.append(f"{road}: {said(found)}, {getattr(found, 'reason', found)}; else {said(by_events)}")
+        elif len(ways) == 1 and not isinstance(found, Exception):
+            factors, others = _factors_of(by_events), _factors_of(found)
+            if len(factors) != len(others) or np.abs(factors - others).max(initial=0.0) > SAME_FACTOR:
+                wrong.append(f"{road}: at factors {others.tolist()}, not {factors.tolist()}")
+
+
+def _factors_of(result):
+    """Of all events but those that rounding may tell next to where a beam does not stand any more, in order."""
+    factors = np.sort([event.factor for event in result.events])
+    if result.status == "solved" or result.path is None or not result.path.segments:
+        return factors
+    return factors[factors < result.path.segments[-1].stop * (1.0 - NEXT_TO_END)]
 
 
 def _as_combination(made, state, reached):
