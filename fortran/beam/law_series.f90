@@ -3,18 +3,20 @@
 !> The recurrences of power-series arithmetic (Moore 1966; Jorba and Zou 2005) give term by term what a series makes of another
 !> one; parameters are linear along the stretch.
 module gapbeam_law_series
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, dp
     use gapbeam_tolerances, only: same_parameters, tanh_is_one
     use gapbeam_laws, only: law_hardening, law_hyperbolic, law_tanh, law_cubic, law_polyline, parameters_of_law
     implicit none
     private
-    public :: curve_type, law_series_type, order, begin_series, next_term, force_scale, &
-        slope_scale, longest_step, parameters_of_curve
+    public :: curve_type, law_series_type, order, order_in_double, parameters_of_curve
+    public :: begin_series, next_term, force_scale, slope_scale, longest_step
 
     !> Those of laws, or of a piece of a polyline the displacement and force at which it begins, and how far both go from there
     integer, parameter :: parameters_of_curve = parameters_of_law + 1
     !> Degree of all series: with as many terms as digits need that shrink by e**2 each, the fewest operations for a length
     integer, parameter :: order = ceiling(digits(1.0_wp)*0.35_wp) + 3
+    !> The same with which double precision gives its own digits: terms of higher degree are below its rounding beside the whole
+    integer, parameter :: order_in_double = ceiling(digits(1.0_dp)*0.35_dp)
 
     !> A layer of ground under a stretch, on a piece of its law that is a curve
     type :: curve_type
@@ -40,6 +42,8 @@ module gapbeam_law_series
         real(wp) :: u(0:order) = 0.0_wp, r(0:order) = 0.0_wp, k(0:order) = 0.0_wp
         !> What they are made of
         real(wp) :: z(0:order) = 0.0_wp, a(0:order) = 0.0_wp, b(0:order) = 0.0_wp
+        !> Of z' times t
+        real(wp) :: dz(0:order) = 0.0_wp
     end type law_series_type
 
 contains
@@ -107,8 +111,9 @@ contains
                 ! As far as longest_step goes
                 if (abs(s%z(0)) > tanh_is_one + 1) s%b(0) = 0.0_wp
             else if (s%b(0) > 0.0_wp) then
-                s%a(n) = derivative_product(s%z, s%b, n)/n
-                s%b(n) = -product_term(s%a, s%a, n)
+                s%dz(n) = n*s%z(n)
+                s%a(n) = product_term(s%dz(1:), s%b, n - 1)/n
+                s%b(n) = -square_term(s%a, n)
             end if
             s%r(n) = linear_times(s%p(2, :), s%a, n)
             s%k(n) = linear_times(s%p(1, :), s%b, n)
@@ -125,7 +130,7 @@ contains
             s%r(n) = product_term(s%b, s%u, n)
             s%k(n) = quotient(s%b(n), s%k, s%a, n)
         case (law_cubic)
-            s%a(n) = product_term(s%u, s%u, n)
+            s%a(n) = square_term(s%u, n)
             s%b(n) = product_term(s%u, s%a, n)
             s%r(n) = linear_times(s%p(1, :), s%u, n) + s%way*linear_times(s%p(2, :), s%a, n) + linear_times(s%p(3, :), s%b, n)
             s%k(n) = linear_term(s%p(1, :), n) + 2*s%way*linear_times(s%p(2, :), s%u, n) + 3*linear_times(s%p(3, :), s%a, n)
@@ -230,27 +235,34 @@ contains
         if (abs(s%p(divisor, 1)) > 2*s%p(divisor, 0)) step = min(step, s%p(divisor, 0)/(2*abs(s%p(divisor, 1))))
     end function longest_step
 
-    !> Term of a product of two series
+    !> Term of a product of two series; of those that are below the rounding of double precision its digits are enough
     pure function product_term(a, b, n) result(term)
         real(wp), intent(in) :: a(0:), b(0:)
         integer, intent(in) :: n
         real(wp) :: term
 
-        term = dot_product(a(0:n), b(n:0:-1))
+        if (n <= order_in_double .or. wp == dp) then
+            term = dot_product(a(0:n), b(n:0:-1))
+        else
+            term = real(dot_product(real(a(0:n), dp), real(b(n:0:-1), dp)), wp)
+        end if
     end function product_term
 
-    !> Term n of a' b times t: the sum of i a_i b_(n - i)
-    pure function derivative_product(a, b, n) result(term)
-        real(wp), intent(in) :: a(0:), b(0:)
+    !> Term of the square of a series: what is there twice is reckoned once
+    pure function square_term(a, n) result(term)
+        real(wp), intent(in) :: a(0:)
         integer, intent(in) :: n
         real(wp) :: term
-        integer :: i
+        integer :: pairs
 
-        term = 0.0_wp
-        do i = 1, n
-            term = term + i*a(i)*b(n - i)
-        end do
-    end function derivative_product
+        pairs = (n + 1)/2
+        if (n > order_in_double .and. wp /= dp) then
+            term = product_term(a, a, n)
+        else
+            term = 2*dot_product(a(0:pairs - 1), a(n:n - pairs + 1:-1))
+            if (2*pairs == n) term = term + a(pairs)**2
+        end if
+    end function square_term
 
     !> Term of a quotient, the terms before known
     pure function quotient(numerator, terms, divisor, n) result(term)
@@ -259,7 +271,7 @@ contains
         integer, intent(in) :: n
         real(wp) :: term
 
-        term = (numerator - dot_product(divisor(1:n), terms(n - 1:0:-1)))/divisor(0)
+        term = (numerator - product_term(divisor(1:), terms, n - 1))/divisor(0)
     end function quotient
 
     !> Term of what is linear

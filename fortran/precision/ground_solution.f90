@@ -298,7 +298,9 @@ contains
         n = 0
         if (allocated(curved)) then
             allocate (by_curves(size(curved%curves)))
-            call advance_curved(curved, 0.0_qp, curved%left, 1.0_qp, y, lost, forces=by_curves)
+            ! What acts alone takes all
+            if (count(zones%acts(:, i) > 0) == 1) by_curves(:) = by_springs*curved%curves%side
+            if (count(zones%acts(:, i) > 0) > 1) call advance_curved(curved, 0.0_qp, curved%left, 1.0_qp, y, lost, forces=by_curves)
             by_springs = by_springs - dot_product(curved%curves%side, by_curves)
         end if
         associate (j => zones%piece(i), length => stretch%length)
