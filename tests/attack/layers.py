@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import gapbeam
 from scenes.layered import random_layered_scene
-from scenes.plain import mirrored
+from scenes.transformed import mirrored
 
 from .family import Family, Verdict
 from .ground import another_state, followed, left_over

@@ -19,7 +19,7 @@ from scenes import (
     tapered,
 )
 from scenes.axial_springs import bedded_bar
-from scenes.plain import cut, mirrored
+from scenes.transformed import cut, mirrored, upside_down
 from scenes.units import in_units, powers
 
 from .family import Family, Verdict
@@ -27,7 +27,7 @@ from .family import Family, Verdict
 PROMISE = (
     "A scene of any kind has the same reactions, fields and extremes on every road. Roads are a combination and its envelope, a "
     "prepared case alone and among others, a row of a function, load steps, events, other units, a file that is read again, the "
-    "beam seen from behind or with one more node. Events are at the same factors there"
+    "beam seen from behind, upside down or with one more node. Events are at the same factors there"
 )
 NEAR = 1e-9
 SAME_FACTOR, NEXT_TO_END = 1e-10, 1e-6
@@ -35,9 +35,11 @@ PLACES = np.array([0.1337, 0.3141, 0.5, 0.6517, 0.8779])
 """Shares of the beam."""
 FORCE, LENGTH = -20, 7
 """Powers of two of other units."""
+UNITS = {one.name: one.unit.format(force="F", length="L") for one in QUANTITIES}
 BEHIND = {"rotation", "shear", "transverse", "axial_displacement"}
 """What changes its sign seen from behind."""
-UNITS = {one.name: one.unit.format(force="F", length="L") for one in QUANTITIES}
+OVER = set(UNITS) - {"axial_force", "axial_displacement"}
+"""And upside down."""
 
 
 def _plain(made):
@@ -148,13 +150,14 @@ class State:
                 theirs = float(np.ldexp(found.extremes[name][way].value, -power))
                 self.compare(f"{road}, {way}", name, theirs, self.extremes[name][way].value)
 
-    def from_behind(self, road, found):
-        """The same beam seen from behind."""
-        along = [one.direction == "axial" for one in found.scene.supports]
-        self.reactions(road, np.where(along, -1.0, 1.0) * found.steps[-1].reaction)
-        there = found.at(float(found.scene.span_ends()[-1]) - self.x, side="left").columns()
+    def seen(self, road, found, turned, x=None, side="right"):
+        """The same beam seen from behind or upside down, where some quantities have another sign."""
+        signs = (-1.0, 1.0) if "axial_displacement" in turned else (1.0, -1.0)
+        signs = np.where([one.direction == "axial" for one in found.scene.supports], *signs)
+        self.reactions(road, signs * found.steps[-1].reaction)
+        there = found.at(self.x if x is None else x, side=side).columns()
         for name in self.sizes:
-            sign, ends = (-1.0, ("min", "max")) if name in BEHIND else (1.0, ("max", "min"))
+            sign, ends = (-1.0, ("min", "max")) if name in turned else (1.0, ("max", "min"))
             self.compare(road, name, sign * there[name], self.right[name])
             for way, other in zip(("max", "min"), ends, strict=True):
                 theirs = sign * found.extremes[name][other].value
@@ -230,16 +233,20 @@ def asked(made, **keys):
 
 
 def _as_another_beam(made, state, reached, by_events, rng, wrong):
-    """Seen from behind, and with one more node: states, and factors of events."""
+    """Seen from behind, upside down and with one more node: states, and factors of events."""
     behind = mirrored(made)
     there = solved(behind)
     if reached("from behind", said(there)):
-        state.from_behind("from behind", there)
+        state.seen("from behind", there, BEHIND, float(sum(made["beam"]["spans"])) - state.x, "left")
+    over = upside_down(made)
+    there = solved(over)
+    if reached("upside down", said(there)):
+        state.seen("upside down", there, OVER)
     cut_there = cut(made, rng.randrange(len(made["beam"]["spans"])), rng.choice((0.25, 0.375, 0.5)))
     there = solved(cut_there)
     if reached("one more node", said(there)):
         state.result("one more node", there)
-    for road, other in (("events from behind", behind), ("events, one more node", cut_there)):
+    for road, other in (("events from behind", behind), ("events upside down", over), ("events, one more node", cut_there)):
         found = solved(asked(other, follow="events"))
         ways = {said(found), said(by_events)}
         if len(ways) > 1 and ("solved" in ways or "EngineError" not in ways):  # where it does not stand either may not be settled

@@ -4,7 +4,7 @@ import pytest
 from mpmath import cos, coth, e, exp, mp, mpf, pi, sin, sinh, sqrt
 from scenes import at, force, moment, scene, stretch, uniform
 from scenes.foundation import random_scene
-from scenes.plain import mirrored
+from scenes.transformed import mirrored
 
 from .foundation import Search, check, solve, zones_of
 from .rigid import best

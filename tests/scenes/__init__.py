@@ -4,10 +4,8 @@ from .plain import (
     INF,
     at,
     curvature,
-    cut,
     force,
     linear,
-    mirrored,
     moment,
     nodes_of,
     one_sided,
@@ -16,8 +14,8 @@ from .plain import (
     scene,
     stretch,
     uniform,
-    working_scheme,
 )
+from .transformed import cut, mirrored, upside_down, working_scheme
 
 __all__ = [
     "INF",
@@ -35,5 +33,6 @@ __all__ = [
     "scene",
     "stretch",
     "uniform",
+    "upside_down",
     "working_scheme",
 ]

@@ -1,10 +1,9 @@
-"""Scenes for the tests: short builders, random scenes, and transformations with a known effect.
+"""Scenes for the tests: short builders, and random scenes.
 
 Nothing here solves anything: scenes are plain dicts with the names of the file format, and the random ones
 are drawn from a `random.Random`, seeded or driven by hypothesis.
 """
 
-import copy
 import math
 from fractions import Fraction
 from itertools import accumulate
@@ -254,88 +253,3 @@ def _random_load(rng, made):
     if kind == "linear":
         return linear(round(rng.uniform(-20.0, 30.0), 2), round(rng.uniform(-20.0, 30.0), 2), **case)
     return curvature(round(rng.uniform(-4e-3, 4e-3), 5), **case)
-
-
-# Transformations
-
-
-TURNED = {"left": "right", "right": "left", "clockwise": "counterclockwise", "counterclockwise": "clockwise"}
-ALONG_BEAM = ("spans", "EI", "GA", "EA", "N", "mass", "alpha", "depth")
-ALONG_PART = ("q", "value", "EI", "GA", "EA", "N", "k", "gap", "profile", "limit", "stiffness", "kappa", "dT", "gradient")
-TURNS_OVER = {"moment": "M", "axial": "F", "axial_uniform": "q"}
-"""What acts along the beam or turns it, by type of load: it changes its sign seen from behind."""
-
-
-def mirrored(made):
-    """The scene seen from behind: x becomes length - x; it may have anything but trains."""
-    new = copy.deepcopy(made)
-    length, last = nodes_of(made)[-1], len(made["beam"]["spans"])
-
-    def turned(value):
-        """By span, from one end to the other, or a table of places."""
-        if isinstance(value, dict):
-            return {**value, "from": value["to"], "to": value["from"]}
-        if not isinstance(value, list) or not value:
-            return value
-        return [[length - x, y] for x, y in value[::-1]] if isinstance(value[0], list) else value[::-1]
-
-    beam = new["beam"]
-    beam.update({key: turned(beam[key]) for key in ALONG_BEAM if key in beam})
-    beam.update({"hinges": sorted(length - x for x in beam["hinges"])} if "hinges" in beam else {})
-    parts = ("supports", "loads", "sections", "hinges", "foundation", "axial_ground", "masses")
-    for item in (item for part in parts for item in new.get(part, ())):
-        if "node" in item:
-            item["node"] = last - item["node"]
-        elif "x" in item:
-            item["x"] = length - item["x"]
-        if "from" in item or "to" in item:
-            item["from"], item["to"] = length - item.get("to", length), length - item.get("from", 0.0)
-        item.update({key: turned(item[key]) for key in ALONG_PART if key in item})
-        item.update({key: TURNED.get(item[key], item[key]) for key in ("side", "at_hinge") if key in item})
-    for support in new.get("supports", ()):
-        rotation = support.get("rotation")
-        if isinstance(rotation, dict) and "side" in rotation:
-            rotation["side"] = TURNED.get(rotation["side"], rotation["side"])
-        if support.get("direction") == "axial" and "settlement" in support:
-            support["settlement"] *= -1.0
-    for load in new["loads"]:
-        key = TURNS_OVER.get(load["type"])
-        if load["type"] == "movement" and "support" in load:
-            axial = new["supports"][load["support"]].get("direction") == "axial"
-            key = "rotation" if "rotation" in load else "value" if axial else None
-        load.update({key: -load[key]} if key else {})
-    for item in new.get("foundation", ()):
-        law = item.get("law")
-        if isinstance(law, dict):
-            item["law"] = {key: turned(value) for key, value in law.items()}
-        elif law and isinstance(law[0], dict):
-            item["law"] = [{**at, "x": length - at["x"]} for at in law[::-1]]
-    return new
-
-
-def cut(made, span, share):
-    """The same beam with one more node, at `share` of one span."""
-    new = copy.deepcopy(made)
-    length = made["beam"]["spans"][span]
-    new["beam"]["spans"][span : span + 1] = [length * share, length * (1.0 - share)]
-    for key in ALONG_BEAM[1:]:
-        if isinstance(new["beam"].get(key), list):
-            new["beam"][key].insert(span, new["beam"][key][span])
-    for item in (*new.get("supports", ()), *new["loads"]):
-        if item.get("node", 0) > span:
-            item["node"] += 1
-    return new
-
-
-def working_scheme(made, states):
-    """The bilateral structure of a contact state: closed supports hold, open ones are gone."""
-    new = copy.deepcopy(made)
-    new["supports"] = []
-    for support, state in zip(made["supports"], states, strict=True):
-        support = dict(support)
-        side, gap = support.pop("side", "both"), support.pop("gap", 0.0)
-        if state == "closed":
-            support["settlement"] = support.get("settlement", 0.0) + (gap if side == "below" else -gap)
-        if state != "open":
-            new["supports"].append(support)
-    return new

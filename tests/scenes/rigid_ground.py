@@ -143,25 +143,3 @@ def pressed_scene(seed):
     scene["supports"] += [{"x": x, "side": "both", "stiffness": rng.choice((1e3, 1e5))} for x in (0.0, length)]
     beam["N"] = [-rng.uniform(0.05, 0.95) * math.pi**2 * min(beam["EI"]) / length**2] * len(beam["spans"])
     return scene
-
-
-def upside_down(scene):
-    """The same with up and down changed.
-
-    Parameters
-    ----------
-    scene : dict
-        From `rigid_scene`.
-    """
-    other = {"below": "above", "above": "below", "both": "both"}
-    ground = [one | {"side": other[one["side"]]} for one in scene["foundation"]]
-    supports = [
-        one | {"side": other[one["side"]], **({"settlement": -one["settlement"]} if "settlement" in one else {})}
-        for one in scene["supports"]
-    ]
-    loads = []
-    for load in scene["loads"]:
-        key = {"force": "F", "moment": "M", "curvature": "kappa"}.get(load["type"], "q")
-        value = load[key]
-        loads.append(load | {key: [-one for one in value] if isinstance(value, list) else -value})
-    return scene | {"supports": supports, "foundation": ground, "loads": loads}

@@ -9,7 +9,8 @@ from mpmath import mp, mpf
 from oracle.foundation import solve as reference
 from scenes.foundation import random_scene
 from scenes.ground import on_ground, over_peaks, pile, rough_pipe
-from scenes.plain import force, mirrored, uniform
+from scenes.plain import force, uniform
+from scenes.transformed import mirrored
 
 ROUNDINGS = 4 * 2.0**-53
 LOOK = 4  # linear solves for a place of the grid

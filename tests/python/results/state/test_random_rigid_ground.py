@@ -4,8 +4,8 @@ import gapbeam
 import numpy as np
 import pytest
 from oracle.rigid_ground import excess
-from scenes.plain import mirrored
-from scenes.rigid_ground import pressed_scene, rigid_scene, tied_scene, upside_down
+from scenes.rigid_ground import pressed_scene, rigid_scene, tied_scene
+from scenes.transformed import mirrored, upside_down
 
 
 def drawn(kind, seed):
