@@ -268,7 +268,7 @@ contains
         where (abs(field) <= fine_rounding*spread(sizes, 1, 2)) field = 0.0_qp
     end subroutine drop_small
 
-    !> Force of every layer on a stretch: the gain of transverse force is the whole pressure less the load, shared out by the moduli
+    !> Force of every layer on a stretch: transverse force gains all pressure less the load; one layer takes it, several share it
     subroutine sum_layers(fine, zones, i, stretch, load, ends, field, curved, forces)
         type(fine_ground_type), intent(in) :: fine
         type(fine_zones_type), intent(in) :: zones
@@ -297,9 +297,7 @@ contains
             + stretch%length*((load%qa + load%qb)/2 + load%qc/6)
         n = 0
         if (allocated(curved)) then
-            allocate (by_curves(size(curved%curves)))
-            ! What acts alone takes all
-            if (count(zones%acts(:, i) > 0) == 1) by_curves(:) = by_springs*curved%curves%side
+            allocate (by_curves(size(curved%curves)), source=by_springs*curved%curves%side)
             if (count(zones%acts(:, i) > 0) > 1) call advance_curved(curved, 0.0_qp, curved%left, 1.0_qp, y, lost, forces=by_curves)
             by_springs = by_springs - dot_product(curved%curves%side, by_curves)
         end if

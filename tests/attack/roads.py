@@ -26,8 +26,8 @@ from .family import Family, Verdict
 
 PROMISE = (
     "A scene of any kind has the same reactions, fields and extremes on every road. Roads are a combination and its envelope, a "
-    "prepared case alone and among others, a row of a function, load steps, events, other units, a file that is read again, the "
-    "beam seen from behind, upside down or with one more node. Events are at the same factors there"
+    "prepared case alone and among others, a row of a function, load steps, events, other units, and a file that is read again. So "
+    "has the beam seen from behind, upside down, and with one more node. Events are at the same factors there"
 )
 NEAR = 1e-9
 SAME_FACTOR, NEXT_TO_END = 1e-10, 1e-6
