@@ -8,7 +8,7 @@ module gapbeam_path_tolerances
     public :: load_begin, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
-    public :: no_friction, no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
+    public :: no_friction, same_reaction, no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
     public :: nothing_left, shortest_part, slip_audited
     public :: no_slip, found_zone, steady_zone, before_all_slides, bedding_audited
     public :: arc_settled, arc_rounding, arc_noise, dependent_branches, nearest_beside, farthest_beside, no_zero
@@ -50,6 +50,8 @@ module gapbeam_path_tolerances
     !> Share of the greatest reaction below which that of a support that rubs is rounding, as where it opens: what it leaves of
     !> friction would be held by nothing. Read by continuation/axial_loads
     real(wp), parameter :: no_friction = 2.0_wp**(-46)
+    !> The same of differences of reactions: friction of supports that carry as much is the same. Read by continuation/axial_loads
+    real(wp), parameter :: same_reaction = 2.0_wp**(-46)
     !> Share of the loads below which what pushes a node over ground along the beam is rounding. Read by contact/ground_along_slip
     real(wp), parameter :: no_push = 2.0_wp**(-46)
     !> Share of the fastest node below which one that goes back does not. Read by contact/ground_along_slip,

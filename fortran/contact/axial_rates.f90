@@ -89,10 +89,12 @@ contains
                 chain%force_rate(:) = 0.0_qp
                 return
             end if
-            ! Nothing holds it and nothing pushes it: its middle stays where it is
+            ! Nothing holds it and nothing pushes it: its ends go to either side alike, wherever there are nodes between
             stiffness(0) = 1.0_qp
             call solve_between(chain, reach, force, stiffness, settlement, reaction, found, node)
-            chain%displacement_rate(:) = chain%displacement_rate - sum(chain%displacement_rate)/size(chain%displacement_rate)
+            associate (rate => chain%displacement_rate)
+                rate(:) = rate - (rate(0) + rate(ubound(rate, 1)))/2
+            end associate
         end if
         call share_reactions(chain, reach, slope, pieces, reaction)
 

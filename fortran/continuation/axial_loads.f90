@@ -2,7 +2,8 @@
 module gapbeam_axial_loads
     use gapbeam_kinds, only: wp, qp
     use gapbeam_error, only: error_type
-    use gapbeam_path_tolerances, only: no_friction
+    use gapbeam_path_tolerances, only: no_friction, same_reaction
+    use gapbeam_ordered, only: sort, last_not_above
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_polyline_quad, only: node_support_type
     use gapbeam_scene, only: gapbeam_elastic
@@ -138,8 +139,30 @@ contains
         associate (across => beam%beam%supports%node <= size(beam%beam%links))
             where (abs(reaction) <= no_friction*maxval(abs(state%reaction), across)) reaction = 0.0_wp
         end associate
+        call make_ties(reaction)
         reaction(:) = scale(reaction, beam%units%force - beam%axial%units%force)
     end subroutine find_reactions
+
+    !> Reactions that differ by no more than rounding are the same: it must not tell which of two supports slips, and how far
+    pure subroutine make_ties(reaction)
+        real(wp), intent(inout) :: reaction(:)
+        real(wp) :: sizes(0:size(reaction))
+        integer :: l, number, low
+
+        sizes(0) = 0.0_wp
+        sizes(1:) = abs(reaction)
+        call sort(sizes)
+        number = 0
+        do l = 1, size(reaction)
+            if (sizes(l) - sizes(number) <= same_reaction*sizes(size(reaction))) cycle
+            number = number + 1
+            sizes(number) = sizes(l)
+        end do
+        do l = 1, size(reaction)
+            low = last_not_above(sizes(:number), abs(reaction(l)))
+            reaction(l) = sign(sizes(low), reaction(l))
+        end do
+    end subroutine make_ties
 
     !> Load factors between two at which reactions change their sign, in their order
     pure function zeros_between(from, to, at_from, at_to) result(zeros)
