@@ -1,4 +1,4 @@
-"""Beams that rub and slide to both sides at once: where they go hangs neither on rounding nor on nodes, nor on how they are seen."""
+"""Beams that rub and slide to both sides at once: where they go hangs not on rounding, nor on nodes, nor on how they are seen."""
 
 import random
 
