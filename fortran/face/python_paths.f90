@@ -250,7 +250,7 @@ subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force,
     ! over the support, to the right; 1 where it slides to the right, -1 to the left
     double precision, intent(out) :: values(nm + 1, 4), force(nm), slip(nm)
     integer, intent(out) :: condit(nm), slides(nm)
-    ! 1 where the beam can move freely
+    ! 1 where the beam can move freely, 2 where it can along its axis only
     integer, intent(out) :: loose
     integer, intent(out) :: status
     character(len=240), intent(out) :: message
@@ -262,10 +262,11 @@ subroutine gbhaxi(beam, hist, state, stretch, factor, nm, values, condit, force,
     solved => behind(state)
     values = 0.0d0
     associate (lowered => handle%beam%lowered, s => solved%result%state)
+        loose = merge(1, 2, s%indifferent)
         call take_along(lowered, found%history%path, stretch, factor, s, error)
         call support_values(lowered, s, values(:nm, 1), values(:nm, 2), values(:nm, 3), values(:nm, 4), condit)
         call friction_values(lowered, s, force, slip, slides)
-        loose = merge(1, 0, s%indifferent)
+        if (.not. s%indifferent) loose = 0
     end associate
     call report(error, status, message)
 end subroutine gbhaxi

@@ -21,6 +21,8 @@ GROUND_ROWS = 19
 """Rows of `Ground.values` beside those of the layers, as GBGGET has them."""
 ON_DEMAND = ("deflection", "moment_left", "moment_right", "shear", "reaction", "motion", "displacement", "tension")
 """Arrays of a state that come out of the compiled layer where they are asked for, in the order of GBSGET."""
+ALONG_ONLY = 2
+"""Of `Chain.loose`: free to move along the axis, held across it."""
 ALL = np.array(list(NUMBERS.values()), dtype=np.int32)
 """Numbers of all quantities along the beam."""
 
@@ -46,7 +48,7 @@ class Chain(NamedTuple):
     slides : numpy.ndarray of int
         1 where the beam slides over the support to the right, -1 to the left, 0 where it sticks.
     loose : int
-        1 where the beam can move freely.
+        1 where the beam can move freely, 2 where it can along its axis only.
     """
 
     conditions: np.ndarray

@@ -20,7 +20,6 @@ from .envelopes.lifted import NONE, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .event_words import limits_of_load_in_words
 from .plausibility import doubts_of_scene, doubts_of_signs
-from .state.states import MOVING
 from .utilisation import Utilisation, find_utilisations
 from .views.extreme import KINDS
 
@@ -199,7 +198,7 @@ def headline(result: Result) -> str:
         Of one load or of combinations.
     """
     title = fmt.title(result.scene)
-    return f"{title}: {MOVING}" if result._is_neutral else title
+    return f"{title}: {result._neutral_words}" if result._neutral_words else title
 
 
 def is_one_of_several(result: Result) -> bool:

@@ -16,7 +16,7 @@ from ...base.memory import refuse_beyond
 from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.modes import Buckling
-from ...engine.states import Solution
+from ...engine.states import ALONG_ONLY, Solution
 from ...scene.held import hold
 from ...scene.movements import moves_with_load
 from ...scene.names import label
@@ -41,7 +41,8 @@ if TYPE_CHECKING:
     from ..paths.path import Event, Path, Segment
 
 MOVING = "solved, but free to move: its position is not unique"
-"""Of a beam in neutral equilibrium."""
+SLIDING = "solved, but free to slide along its axis"
+"""Of a beam in neutral equilibrium, across its axis or along it only."""
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
 
@@ -73,18 +74,19 @@ class States(Pickled, WithModes):
     @property
     def reason(self) -> str | None:
         """Why there is no equilibrium or no unique answer, which limit there is, or that the beam is free to move."""
-        if self._reason is None and self.status == "solved" and self._is_neutral:
-            return MOVING
-        return self._reason
+        return self._neutral_words if self._reason is None and self.status == "solved" else self._reason
 
     @reason.setter
     def reason(self, words: str | None) -> None:
         self._reason = words
 
     @property
-    def _is_neutral(self) -> bool:
-        """Whether it stands at the end of the load, but can move freely without work of the loads."""
-        return len(self.steps) > 0 and self.steps[-1].indifferent
+    def _neutral_words(self) -> str | None:
+        """What is said where it stands at the end of the load, but can move freely without work of the loads."""
+        if not self.steps or not self.steps[-1].indifferent:
+            return None
+        chain = self.steps[-1].solution.chain
+        return SLIDING if chain is not None and chain.loose == ALONG_ONLY else MOVING
 
     def __eq__(self, other: object) -> bool:
         """Whether scene, outcome, events and all steps are equal."""

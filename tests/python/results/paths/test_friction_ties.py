@@ -5,6 +5,7 @@ import random
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.report import report_text
 from scenes import at, cut, force, mirrored
 from scenes.links_along import own_weight, warm
 
@@ -44,3 +45,14 @@ def test_symmetric_beams_move_symmetrically(analysis):
         x = np.linspace(0.0, sum(made["beam"]["spans"]), 9)
         u = result.at(x).axial_displacement
         assert u == pytest.approx(-u[::-1], abs=1e-9 * np.abs(u).max()), seed
+
+
+def test_it_says_that_it_slides():
+    """A heated beam on two supports that both rub slides over both; as it cools a little it sticks to both."""
+    made = {"beam": {"spans": [6.0], "EI": 2e4, "EA": 5e5, "alpha": 1.2e-5},
+            "supports": [at(0, side="below", friction=0.3), at(1, side="below", friction=0.3)],
+            "loads": [own_weight(8.0), warm(60.0)]}  # fmt: skip
+    words = "solved, but free to slide along its axis"
+    assert gapbeam.solve(made).reason == words
+    assert report_text(gapbeam.solve(made)).splitlines()[0].endswith(words)
+    assert gapbeam.solve(made | {"analysis": {"history": [1.0, 0.99], "follow": "events"}}).reason is None
