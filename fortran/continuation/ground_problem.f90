@@ -30,6 +30,8 @@ module gapbeam_ground_problem
     !> ends; that many times farther; and how often that factor is computed
     real(wp), parameter :: next_to_limit = 2.0_wp**(-50), near_limit = 2.0_wp**(-44), wider = 64.0_wp
     integer, parameter :: most_guesses = 8
+    !> So far below that factor a beam may stand on an edge, which nothing settles
+    real(wp), parameter :: edge_share = 2.0_wp**(-20)
     !> Powers of 2, as shares of the factor at which falling ground gives way, by which states are looked for beside it
     integer, parameter :: next_to_fall = -44, far_from_fall = -24
 
@@ -37,6 +39,8 @@ module gapbeam_ground_problem
     type, extends(ground_states_type) :: ground_problem_type
         !> Does some ground carry no more than so much, and does it come to that on a curve
         logical :: yields = .false., levels_off = .false.
+        !> The greatest load factor at which the loads begin to do work along a motion that was found
+        real(wp) :: by_work = 0.0_wp
     contains
         procedure :: approach_end
         procedure :: take_end
@@ -192,6 +196,12 @@ contains
         class(point_type), allocatable :: point
         integer :: power
 
+        if (limit_by_work(problem, from) > from) then
+            problem%path%beyond = limit_by_work(problem, from)
+            call problem%find(problem%path%beyond, point, error)
+            if (allocated(error)) return
+            if (.not. point%stands .and. .not. allocated(point%trouble)) return
+        end if
         do power = -50, -9, 4
             problem%path%beyond = from*(1 + 2.0_wp**power)
             call problem%find(problem%path%beyond, point, error)
@@ -217,6 +227,7 @@ contains
         do guesses = 1, most_guesses
             if (above%stands) return
             guess = factor_without_work(problem, above)
+            problem%by_work = max(problem%by_work, guess)
             ! States may end before, where they are told from others
             if (guess*(1 - reach) >= above%at .and. guess*(1 - wider*reach) < above%at) reach = wider*reach
             if (.not. (guess*(1 - reach) > below%at .and. guess*(1 - reach) < above%at)) return
@@ -265,6 +276,16 @@ contains
         end select
     end function factor_without_work
 
+    !> A load factor just above that at which loads begin to do work, if it is just above one that stands, or below zero
+    pure function limit_by_work(problem, last) result(limit)
+        type(ground_problem_type), intent(in) :: problem
+        real(wp), intent(in) :: last
+        real(wp) :: limit
+
+        limit = problem%by_work*(1 + next_to_limit)
+        if (limit > last*(1 + edge_share)) limit = -1.0_wp
+    end function limit_by_work
+
     !> End the path, and find how the beam moves just above
     subroutine take_end(problem, below, above, goes_on, error)
         class(ground_problem_type), intent(inout) :: problem
@@ -281,6 +302,8 @@ contains
             if (.not. allocated(above%trouble)) then
                 call problem%find(above%at, point, error)
                 if (.not. allocated(error) .and. allocated(point%trouble)) error = point%trouble
+                ! A beam that stands on an edge is told to tip before the loads do any work
+                path%beyond = max(path%beyond, limit_by_work(problem, path%last))
                 ! Where it buckles there may be a state at the factor below
                 if (problem%levels_off .or. problem%state%status == gapbeam_buckles) path%beyond = above%at
                 return

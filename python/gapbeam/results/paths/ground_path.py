@@ -21,6 +21,9 @@ from .path import Segment
 if TYPE_CHECKING:
     from ..result import Result
 
+SAME_FACTOR = 1e-12
+"""Load factors as near to each other as this share of themselves are one."""
+
 
 @dataclass(frozen=True, slots=True)
 class GroundEvent:
@@ -153,6 +156,14 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
                 result.reason += f"; {describe_motion(result._beam, path.motion)}"
         return path
     if not path.stands:
-        where = f"above load factor {path.segments[-1].stop:.16g}" if path.segments else "at load factor 0"
+        where = f"above {_last_factor(path)}" if path.segments else "at load factor 0"
         result._refuse(where, path.motion, cause)
     return path if path.segments else None
+
+
+def _last_factor(path: GroundPath) -> str:
+    """Word the load factor above which there is no equilibrium; next to it states may be settled no more."""
+    last = path.segments[-1].stop
+    if path.beyond - last <= SAME_FACTOR * last:
+        return f"load factor {last:.16g}"
+    return f"a load factor between {last:.12g} and {path.beyond:.12g}"

@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from oracle.foundation import solve as reference
 from scenes.foundation import random_scene
 from scenes.ground import on_ground, over_peaks, pile, rough_pipe
-from scenes.plain import force, uniform
+from scenes.plain import at, force, stretch, uniform
 from scenes.transformed import mirrored
 
 ROUNDINGS = 4 * 2.0**-53
@@ -85,6 +85,18 @@ def test_a_beam_tips_after_few_solves():
     assert result.status == "no-equilibrium"
     assert result.path.segments[-1].stop == pytest.approx(0.0453 * 4.125 / 2 / 0.683, rel=1e-12)
     assert result.path.solves < 600
+
+
+def test_where_a_beam_stands_on_an_edge_both_factors_are_said():
+    """Its zone is as short as what is missing of the last factor, so states end before. The work of the loads tells how far."""
+    stop = [at(0, side="below", gap=9.32e-6), at(0, side="above", gap=2e-6)]
+    loads = [uniform(-5.69, **stretch(0.125, 1.0)), uniform(1.9221, case="dead")]
+    keys = {"EI": 301.0, "hinges": [0.25], "analysis": {"follow": "events"}}
+    result = gapbeam.solve(on_ground([1.375], [{"side": "below", "k": 1.02e7, "gap": -5.09e-6}], loads, stop, **keys))
+    exact, last = 1.9221 * 0.6875 / (5.69 * 0.59375), result.path.segments[-1].stop
+    assert exact * (1 - 1e-6) < last < exact * (1 - 1e-12)
+    assert result.path.beyond == pytest.approx(exact, rel=1e-12)
+    assert f"above a load factor between {last:.12g} and {exact:.12g}: " in result.reason
 
 
 @pytest.mark.parametrize("gap", [1.0, 1.0 + 2.0**-40, 1.0 - 2.0**-40, 0.3, 3.999, 1e-3])
