@@ -40,8 +40,7 @@ if TYPE_CHECKING:
     from ..paths.ground_path import GroundEvent, GroundPath
     from ..paths.path import Event, Path, Segment
 
-MOVING = "solved, but free to move: its position is not unique"
-SLIDING = "solved, but free to slide along its axis"
+MOVING, SLIDING = "solved, but free to move: its position is not unique", "solved, but free to slide along its axis"
 """Of a beam in neutral equilibrium, across its axis or along it only."""
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
