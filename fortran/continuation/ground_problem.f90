@@ -194,16 +194,13 @@ contains
         !> As for find, or that
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: point
-        integer :: power
+        real(wp), allocatable :: factors(:)
+        integer :: k
 
-        if (limit_by_work(problem, from) > from) then
-            problem%path%beyond = limit_by_work(problem, from)
-            call problem%find(problem%path%beyond, point, error)
-            if (allocated(error)) return
-            if (.not. point%stands .and. .not. allocated(point%trouble)) return
-        end if
-        do power = -50, -9, 4
-            problem%path%beyond = from*(1 + 2.0_wp**power)
+        factors = [limit_by_work(problem, from), from*(1 + [(2.0_wp**k, k=-50, -9, 4)])]
+        do k = 1, size(factors)
+            if (.not. factors(k) > from) cycle
+            problem%path%beyond = factors(k)
             call problem%find(problem%path%beyond, point, error)
             if (allocated(error)) return
             if (.not. point%stands .and. .not. allocated(point%trouble)) return
@@ -300,8 +297,10 @@ contains
             path%beyond = below%at
             path%at_limit = problem%yields .and. path%last > 0.0_wp
             if (.not. allocated(above%trouble)) then
-                call problem%find(above%at, point, error)
-                if (.not. allocated(error) .and. allocated(point%trouble)) error = point%trouble
+                if (abs(problem%state%factor - above%at) > 0.0_wp) call problem%find(above%at, point, error)
+                if (allocated(point)) then
+                    if (allocated(point%trouble)) error = point%trouble
+                end if
                 ! A beam that stands on an edge is told to tip before the loads do any work
                 path%beyond = max(path%beyond, limit_by_work(problem, path%last))
                 ! Where it buckles there may be a state at the factor below

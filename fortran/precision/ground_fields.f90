@@ -275,16 +275,11 @@ contains
         !> Size of the deflection
         real(wp), intent(in) :: deflection
         real(wp), intent(out) :: steepness, sizes
-        type(law_piece_type) :: piece
 
         steepness = 1.0_wp
-        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b)
-        if (has_points(layer)) then
-            piece = law_piece(layer, laws, breakpoint)
-            sizes = sizes + max(abs(piece%displacement_a), abs(piece%displacement_b))
-        else if (breakpoint > 1 .and. breaks_on_line(layer)) then
-            sizes = sizes + abs(line_of_breakpoint(laws, layer, breakpoint, 0.0_wp, 1.0_wp) - layer%contact_a)
-        end if
+        sizes = deflection + abs(layer%contact_a) + abs(layer%contact_b) &
+            + max(abs(line_of_breakpoint(laws, layer, breakpoint, 0.0_wp, 1.0_wp) - layer%contact_a), &
+                  abs(line_of_breakpoint(laws, layer, breakpoint, 1.0_wp, 1.0_wp) - layer%contact_b))
         if (breakpoint == 1 .or. breaks_on_line(layer)) return
         steepness = max(layer%parameter_a(1), layer%parameter_b(1))
         sizes = steepness*sizes + max(layer%parameter_a(2), layer%parameter_b(2))

@@ -18,13 +18,12 @@ contains
 
     !> Where the distance between the beam and the line at which a layer begins to act is stationary inside a stretch: their
     !> difference is the deflection under the load less what the ground would take of it along the line
-    subroutine peaks_beside(assembled, solution, i, k, xi, number)
+    subroutine peaks_beside(assembled, solution, i, k, xi)
         type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch and layer
         integer, intent(in) :: i, k
         real(wp), allocatable, intent(out) :: xi(:)
-        integer, intent(out) :: number
         type(curved_type), allocatable :: curved
         real(wp) :: line(2)
 
@@ -32,7 +31,6 @@ contains
         line(:) = contact_line(layer_in(assembled, solution, i, k), [solution%from(i), solution%to(i)], &
                                assembled%pieces(solution%piece(i))%length)
         call peaks_in(solution, i, [1], (line(2) - line(1))/solution%stretches(i)%length, curved, xi)
-        number = size(xi)
     end subroutine peaks_beside
 
     !> Largest distance of the beam from every layer under its stretches, and where it touches one without pressing it
@@ -46,7 +44,7 @@ contains
         !> none: -1. Shape (2, most layers, stretches)
         real(wp), intent(out) :: touch(:, :, :)
         real(wp), allocatable :: xi(:)
-        integer :: i, j, k, number
+        integer :: i, j, k
 
         way(:, :) = 0.0_wp
         touch(:, :, :) = -1.0_wp
@@ -54,9 +52,9 @@ contains
             associate (first => assembled%layer_first(solution%piece(i)), last => assembled%layer_first(solution%piece(i) + 1) - 1)
                 do k = first, last
                     if (solution%acts(k - first + 1, i) > 0) cycle
-                    call peaks_beside(assembled, solution, i, k, xi, number)
+                    call peaks_beside(assembled, solution, i, k, xi)
                     call check_at(0.0_wp)
-                    do j = 1, number
+                    do j = 1, size(xi)
                         call check_at(xi(j))
                     end do
                     call check_at(1.0_wp)

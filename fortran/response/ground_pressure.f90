@@ -60,13 +60,12 @@ contains
 
     !> Where the pressure of all layers is stationary inside a stretch in which no modulus varies: it is the sum of the moduli by
     !> the distance of the deflection from the mean of the lines at which the layers begin to act, weighted by these
-    subroutine peaks_of_pressure(assembled, solution, i, xi, number)
+    subroutine peaks_of_pressure(assembled, solution, i, xi)
         type(assembled_type), intent(in) :: assembled
         type(ground_solution_type), intent(in) :: solution
         !> Stretch
         integer, intent(in) :: i
         real(wp), allocatable, intent(out) :: xi(:)
-        integer, intent(out) :: number
         type(curved_type), allocatable :: none
         type(layer_type) :: layers(assembled%layer_first(solution%piece(i) + 1) - assembled%layer_first(solution%piece(i)))
         real(wp) :: modulus, rise, slope, line(2)
@@ -84,10 +83,11 @@ contains
             modulus = modulus + slope
             rise = rise + slope*(line(2) - line(1))
         end do
-        number = 0
-        if (.not. abs(modulus) > 0.0_wp) return
-        call peaks_in(solution, i, [1], rise/modulus/solution%stretches(i)%length, none, xi)
-        number = size(xi)
+        if (abs(modulus) > 0.0_wp) then
+            call peaks_in(solution, i, [1], rise/modulus/solution%stretches(i)%length, none, xi)
+        else
+            allocate (xi(0))
+        end if
     end subroutine peaks_of_pressure
 
     !> Is the pressure in a stretch more than multiples of the deflection beside lines
@@ -127,7 +127,7 @@ contains
         integer, intent(out) :: piece(2)
         real(wp), allocatable :: xi(:)
         real(wp) :: pressure
-        integer :: i, j, number
+        integer :: i, j
 
         values = [-huge(1.0_wp), huge(1.0_wp)]
         piece = 1
@@ -140,8 +140,8 @@ contains
                 call consider(peak_where_it_varies(-1))
                 cycle
             end if
-            call peaks_of_pressure(assembled, solution, i, xi, number)
-            do j = 1, number
+            call peaks_of_pressure(assembled, solution, i, xi)
+            do j = 1, size(xi)
                 call consider(xi(j))
             end do
         end do

@@ -7,6 +7,7 @@ from .plain import nodes_of
 TURNED = {"left": "right", "right": "left", "clockwise": "counterclockwise", "counterclockwise": "clockwise"}
 OVER = {"below": "above", "above": "below", "sagging": "hogging", "hogging": "sagging",
         "clockwise": "counterclockwise", "counterclockwise": "clockwise"}  # fmt: skip
+PARTS = ("supports", "loads", "sections", "hinges", "foundation", "axial_ground", "masses")
 ALONG_BEAM = ("spans", "EI", "GA", "EA", "N", "mass", "alpha", "depth")
 ALONG_PART = ("q", "value", "EI", "GA", "EA", "N", "k", "gap", "profile", "limit", "stiffness", "kappa", "dT", "gradient")
 TURNS_OVER = {"moment": "M", "axial": "F", "axial_uniform": "q"}
@@ -32,8 +33,7 @@ def mirrored(made):
     beam = new["beam"]
     beam.update({key: turned(beam[key]) for key in ALONG_BEAM if key in beam})
     beam.update({"hinges": sorted(length - x for x in beam["hinges"])} if "hinges" in beam else {})
-    parts = ("supports", "loads", "sections", "hinges", "foundation", "axial_ground", "masses")
-    for item in (item for part in parts for item in new.get(part, ())):
+    for item in (item for part in PARTS for item in new.get(part, ())):
         if "node" in item:
             item["node"] = last - item["node"]
         elif "x" in item:
@@ -94,7 +94,7 @@ def cut(made, span, share):
     for key in ALONG_BEAM[1:]:
         if isinstance(new["beam"].get(key), list):
             new["beam"][key].insert(span, new["beam"][key][span])
-    for item in (*new.get("supports", ()), *new["loads"]):
+    for item in (item for part in PARTS for item in new.get(part, ())):
         if item.get("node", 0) > span:
             item["node"] += 1
     return new
