@@ -154,7 +154,7 @@ contains
     end function step_of
 
     !> Fields at one place from those at another
-    pure subroutine advance_curved(curved, xi, y, way, values, lost, transfer, forces)
+    pure subroutine advance_curved(curved, xi, y, way, values, lost, motion, transfer, forces)
         !> As for expand_curved, but way as far as to the other place
         type(curved_type), intent(in) :: curved
         real(wp), intent(in) :: xi, y(4), way
@@ -162,7 +162,9 @@ contains
         real(wp), intent(out) :: values(4)
         !> The fields run away: what was given was too far from a solution
         logical, intent(out) :: lost
-        !> How they change with those at the first place
+        !> The stretch as small changes of the fields feel it, maybe with another axial force and modulus, and how the fields change
+        !> with those at the first place: both or none
+        type(stretch_type), intent(in), optional :: motion
         real(wp), intent(out), optional :: transfer(4, 4)
         !> Force of every layer that acts by a curve in between, up where the layer pushes up
         real(wp), intent(out), optional :: forces(:)
@@ -185,7 +187,13 @@ contains
             call expand_curved(curved, at, values, left, c, modulus, r, step)
             lost = .not. step > shortest_step
             if (lost) return
-            if (present(transfer)) transfer = matmul(transfer_of(curved%stretch, at, left, modulus, step), transfer)
+            if (present(transfer)) then
+                associate (more_a => motion%modulus_a - curved%stretch%modulus_a, &
+                           more_b => motion%modulus_b - curved%stretch%modulus_b)
+                    modulus(0:1) = modulus(0:1) + [more_a*(1 - at) + more_b*at, (more_b - more_a)*left]
+                end associate
+                transfer = matmul(transfer_of(motion, at, left, modulus, step), transfer)
+            end if
             if (present(forces)) then
                 do i = 1, size(forces)
                     forces(i) = forces(i) + curved%stretch%length*left*integral(r(:, i), step)
@@ -202,9 +210,11 @@ contains
     end subroutine advance_curved
 
     !> The link of a stretch near fields that are given at its left end, with what they and the loads make at its ends
-    pure subroutine condense_curved(curved, link, turn_a, turn_b, shear_a, shear_b, lost)
+    pure subroutine condense_curved(curved, motion, link, turn_a, turn_b, shear_a, shear_b, lost)
         !> The stretch and the fields
         type(curved_type), intent(in) :: curved
+        !> The stretch as small changes of the fields feel it
+        type(stretch_type), intent(in) :: motion
         type(stretch_link_type), intent(out) :: link
         !> As for load_stretch (gapbeam_foundation)
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
@@ -218,9 +228,9 @@ contains
         turn_b = 0.0_wp
         shear_a = 0.0_wp
         shear_b = 0.0_wp
-        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, transfer)
+        call advance_curved(curved, 0.0_wp, curved%left, 1.0_wp, values, lost, motion, transfer)
         if (lost) return
-        transfer = transfer_of_forces(curved%stretch, transfer)
+        transfer = transfer_of_forces(motion, transfer)
         ! Seen from the other side x, psi and T change their signs
         soft(:) = softness_in(curved%stretch, 0.0_wp)
         soft_b(:) = softness_in(curved%stretch, 1.0_wp)

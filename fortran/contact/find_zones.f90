@@ -10,7 +10,7 @@ module gapbeam_find_zones
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
-    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, hold_both_ways
     use gapbeam_ground_laws, only: contact_line, breaks_on_line, line_of_breakpoint, distance_to_breakpoint, &
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
@@ -276,6 +276,11 @@ contains
                     if (.not. touches(layer, acts, deflection(look), place, length)) exit
                 end do
                 look = min(look, size(looks))
+                if (acts == 0 .and. holds_both_ways(k, zones%piece(i))) then
+                    ! A beam at rest is held once: by the one that pushes up
+                    if (layer%side > 0 .and. .not. abs(deflection(look) - contact_line(layer, place, length)) > 0.0_wp) acts = 1
+                    return
+                end if
                 before = zones%acts(k - ground%first(zones%piece(i)) + 1, i)
                 if (before <= acts) return
                 ! A beam that lies on it without any load stays as it is
@@ -287,6 +292,17 @@ contains
                 end do
             end associate
         end function piece_at
+
+        !> Is a layer one of two that hold both ways
+        pure function holds_both_ways(k, piece) result(it_does)
+            !> Layer, and the piece of the beam that it is under
+            integer, intent(in) :: k, piece
+            logical :: it_does
+
+            associate (first => ground%first(piece), last => ground%first(piece + 1) - 1)
+                it_does = hold_both_ways(ground%layers(first:k)) .or. hold_both_ways(ground%layers(k:min(k + 1, last)))
+            end associate
+        end function holds_both_ways
 
         !> Is a layer at a place on a line between pieces of its law but for rounding, so that it tells nothing of the places beside
         pure function touches(layer, acts, w, place, length)

@@ -21,7 +21,7 @@ module gapbeam_ground
     ! For gapbeam_ground_nodes
     public :: condense_both
     ! For gapbeam_modes
-    public :: stretch_on_layers
+    public :: stretch_on_layers, curved_stretch
 
     !> Where supports and ground begin to act at load factor 0 (1), and how far loads move that while it grows by 1 (2); and axial
     !> forces that bending feels, the same
@@ -185,13 +185,15 @@ contains
     end function steps_of_piece
 
     !> The beam as it is on its zones
-    pure subroutine place_stretches(ground, zones, factor, grounded)
+    pure subroutine place_stretches(ground, zones, factor, grounded, around)
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         !> Load factor: under it curves are taken for straight
         real(wp), intent(in) :: factor
         !> The beam, ready to be solved
         type(grounded_type), intent(out) :: grounded
+        !> In whose fields curves are taken for straight, where `ground` is how small motions feel it; default is that itself
+        type(ground_type), intent(in), optional :: around
         integer :: i, j, m, n
 
         m = size(zones%piece)
@@ -206,7 +208,7 @@ contains
             beam%couple(:, :) = 0.0_wp
             grounded%node(0) = 0
             do i = 1, m
-                call place_stretch(ground, zones, factor, i, grounded)
+                call place_stretch(ground, zones, factor, i, grounded, around)
                 if (grounded%lost) return
                 grounded%node(zones%piece(i)) = i
             end do
@@ -222,16 +224,16 @@ contains
     end subroutine place_stretches
 
     !> One stretch: its ground, its loads, its link
-    pure subroutine place_stretch(ground, zones, factor, i, grounded)
+    pure subroutine place_stretch(ground, zones, factor, i, grounded, around)
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         real(wp), intent(in) :: factor
         integer, intent(in) :: i
         type(grounded_type), intent(inout) :: grounded
+        type(ground_type), intent(in), optional :: around
         type(curved_type) :: curved
 
-        associate (j => zones%piece(i), s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), &
-                   link => grounded%beam%links(i), from => zones%from(i), to => zones%to(i), p => ground%pieces(zones%piece(i)))
+        associate (s => grounded%stretches(i), dead => grounded%dead(i), live => grounded%live(i), link => grounded%beam%links(i))
             call stretch_on_layers(ground, zones, i, s, dead, live)
             if (repeats()) then
                 link = grounded%beam%links(i - 1)
@@ -239,17 +241,17 @@ contains
                 return
             end if
             call condense_both(s, dead, live, link, grounded%beam%ground(i))
-            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), from, to, &
-                             p%length, curved%curves)
+            if (present(around)) then
+                call curved_stretch(around, zones, factor, i, curved)
+            else
+                call curved_stretch(ground, zones, factor, i, curved)
+            end if
             if (allocated(curved%curves)) then
-                curved%stretch = s
-                curved%load = combined_load(dead, live, factor)
-                curved%left = zones%start(:, i)
                 link%turn_a(2) = 0.0_wp
                 link%turn_b(2) = 0.0_wp
                 link%shear_a(2) = 0.0_wp
                 link%shear_b(2) = 0.0_wp
-                call condense_curved(curved, grounded%beam%ground(i), link%turn_a(1), link%turn_b(1), link%shear_a(1), &
+                call condense_curved(curved, s, grounded%beam%ground(i), link%turn_a(1), link%turn_b(1), link%shear_a(1), &
                                      link%shear_b(1), grounded%lost)
                 link%shear_b(1) = -link%shear_b(1)
             end if
@@ -281,6 +283,27 @@ contains
         end function on_curves
 
     end subroutine place_stretch
+
+    !> A stretch on which ground acts by curves, and the fields from which it starts
+    pure subroutine curved_stretch(ground, zones, factor, i, curved)
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        real(wp), intent(in) :: factor
+        !> Its number
+        integer, intent(in) :: i
+        !> Without curves, and nothing set, where none act
+        type(curved_type), intent(out) :: curved
+        type(stretch_load_type) :: dead, live
+
+        associate (j => zones%piece(i))
+            call take_curves(ground%layers(ground%first(j):ground%first(j + 1) - 1), ground%laws, zones%acts(:, i), &
+                             zones%from(i), zones%to(i), ground%pieces(j)%length, curved%curves)
+        end associate
+        if (.not. allocated(curved%curves)) return
+        call stretch_on_layers(ground, zones, i, curved%stretch, dead, live)
+        curved%load = combined_load(dead, live, factor)
+        curved%left = zones%start(:, i)
+    end subroutine curved_stretch
 
     !> What a stretch is made of on its layers, but those that act by curves
     pure subroutine stretch_on_layers(ground, zones, i, stretch, dead, live)

@@ -11,9 +11,11 @@ module gapbeam_modes
     use gapbeam_band, only: band_ok, count_unstable_pivots, node_type
     use gapbeam_piece, only: no_load, is_compressed
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
+    use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_ground_laws, only: between
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, place_stretches
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, stretch_on_layers, curved_stretch, &
+        place_stretches
     use gapbeam_moved_ground, only: under_share
     use gapbeam_model, only: last_place, of_node, left_of_hinge, right_of_hinge
     use gapbeam_turning, only: restrain
@@ -53,7 +55,7 @@ contains
         type(grounded_type), intent(out) :: grounded
         !> Stretches into which every piece is cut at least; default 1
         integer, intent(in), optional :: parts
-        !> Load factor, where laws are curves: their slopes are those in the fields from which the zones start, under its loads
+        !> Load factor at which the zones are, where laws are curves: their slopes are those in the fields of the zones
         real(wp), intent(in), optional :: factor
         type(ground_type) :: changed
         type(zones_type) :: cut
@@ -66,15 +68,14 @@ contains
             changed = ground
             changed%frequency_squared = value
         end if
-        if (.not. present(factor)) then
-            ! Modes know no loads, and equal steps are condensed once then
-            changed%dead = no_load
-            changed%live = no_load
-        end if
+        ! Modes know no loads, and equal steps are condensed once then
+        changed%dead = no_load
+        changed%live = no_load
         call cut_zones(changed, zones, cut, parts)
         if (size(cut%piece) == 0) return
         if (present(factor)) then
-            call place_stretches(changed, cut, factor, grounded)
+            call start_inside(ground, zones, factor, cut)
+            call place_stretches(changed, cut, factor, grounded, ground)
         else
             call place_stretches(changed, cut, 0.0_wp, grounded)
         end if
@@ -161,20 +162,49 @@ contains
                 cut%from(m) = between(zones%from(i), zones%to(i), k - 1, ceiling(steps(i)))
                 cut%to(m) = between(zones%from(i), zones%to(i), k, ceiling(steps(i)))
                 cut%acts(:, m) = zones%acts(:, i)
-                ! Near enough inside for the slopes of curves
-                associate (next => zones%start(:, min(i + 1, size(zones%piece))), share => real(k - 1, wp)/ceiling(steps(i)))
-                    cut%start(:, m) = zones%start(:, i) + share*(next - zones%start(:, i))
-                end associate
+                cut%start(:, m) = zones%start(:, i)
             end do
         end do
     end subroutine cut_zones
 
+    !> Fields at the left ends of the parts of zones on which ground acts by curves
+    pure subroutine start_inside(ground, zones, factor, cut)
+        !> The beam, its zones, and the load factor at which these are
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        real(wp), intent(in) :: factor
+        !> The same in parts, with the fields at the left ends of the zones in, those of the parts out
+        type(zones_type), intent(inout) :: cut
+        type(curved_type) :: curved
+        integer :: i, m
+        logical :: lost
+
+        i = 0
+        do m = 1, size(cut%piece)
+            ! The first part of a zone begins where that does
+            if (i < size(zones%piece)) then
+                associate (next => i + 1)
+                    if (cut%piece(m) == zones%piece(next) .and. .not. cut%from(m) < zones%from(next)) then
+                        i = next
+                        call curved_stretch(ground, zones, factor, i, curved)
+                        cycle
+                    end if
+                end associate
+            end if
+            if (.not. allocated(curved%curves)) cycle
+            associate (share => (cut%from(m) - zones%from(i))/(zones%to(i) - zones%from(i)))
+                call advance_curved(curved, 0.0_wp, zones%start(:, i), share, cut%start(:, m), lost)
+            end associate
+        end do
+    end subroutine start_inside
+
     !> The first values of modes, in rising order
-    subroutine find_mode_values(ground, zones, acting, what, first, values, found, lost, near)
+    subroutine find_mode_values(ground, zones, acting, factor, what, first, values, found, lost, near)
         !> As for count_modes
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         logical, intent(in) :: acting(:)
+        real(wp), intent(in) :: factor
         integer, intent(in) :: what
         !> With which step to begin to look, above 0
         real(wp), intent(in) :: first
@@ -256,7 +286,7 @@ contains
 
             do trial = 0, most_asides
                 call count_modes(ground, zones, acting, what, value*(1 + 8*(4.0_wp**trial - 1)*epsilon(value)), number, work, &
-                                 grounded)
+                                 grounded, factor=factor)
                 if (number >= 0) return
             end do
             stopped = .true.
@@ -288,11 +318,12 @@ contains
     end function greatest_value
 
     !> How the beam moves in a mode: what small forces near its value do (inverse iteration)
-    subroutine find_mode_shape(ground, zones, acting, what, value, parts, shape)
+    subroutine find_mode_shape(ground, zones, acting, factor, what, value, parts, shape)
         !> As for count_modes
         type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         logical, intent(in) :: acting(:)
+        real(wp), intent(in) :: factor
         integer, intent(in) :: what
         !> Value of the mode, to rounding
         real(wp), intent(in) :: value
@@ -304,8 +335,9 @@ contains
         integer :: number, i, n, round, largest, cut
 
         cut = max(1, min(parts, most_mode_stretches/(2*size(zones%piece))))
-        call count_modes(ground, zones, acting, what, value, number, work, grounded, cut)
-        if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, cut)
+        call count_modes(ground, zones, acting, what, value, number, work, grounded, cut, factor)
+        if (number < 0) call count_modes(ground, zones, acting, what, value*(1 + 64*epsilon(value)), number, work, grounded, cut, &
+                                         factor)
         n = -1
         if (number >= 0) n = size(grounded%stretches)
         allocate (shape%piece(n + 1), shape%distance(n + 1), shape%deflection(n + 1), shape%moment(2, n + 1))

@@ -4,7 +4,7 @@ module gapbeam_ground_runs
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
-    use gapbeam_layers, only: layer_type, branches_of_law
+    use gapbeam_layers, only: layer_type, branches_of_law, hold_both_ways
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_distance, only: largest_ways, is_shallow
@@ -105,7 +105,9 @@ contains
                         else
                             call lengthen(found(last_run(of_layer)), run)
                         end if
-                        if (run%acts == 0 .and. .not. bare) call add_touches(k, k - first + 1, of_layer)
+                        if (run%acts == 0 .and. .not. (bare .or. holds_the_other_way(i, k))) then
+                            call add_touches(k, k - first + 1, of_layer)
+                        end if
                         last_stretch(of_layer) = i
                         if (pushes(i, k)) call add_point(i, of_layer)
                     end associate
@@ -147,6 +149,20 @@ contains
                 end if
             end associate
         end function run_of
+
+        !> Does ground that holds both ways push on a stretch, but not by this layer
+        pure function holds_the_other_way(stretch, layer) result(it_does)
+            !> Number of the stretch; layer among all
+            integer, intent(in) :: stretch, layer
+            logical :: it_does
+
+            it_does = .false.
+            associate (first => assembled%layer_first(solution%piece(stretch)))
+                if (hold_both_ways(assembled%layers(first:layer))) it_does = solution%acts(layer - first, stretch) > 0
+                if (layer == size(assembled%layers)) return
+                if (hold_both_ways(assembled%layers(layer:layer + 1))) it_does = solution%acts(layer - first + 2, stretch) > 0
+            end associate
+        end function holds_the_other_way
 
         !> Is a stretch in a zone
         pure function is_in_zone(stretch) result(is_in)

@@ -259,7 +259,8 @@ contains
         solution%axial_share = given*share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
-        call find_mode_shape(ground, start%zones, start%closed, by_axial_force, share, mode_parts, shape)
+        call find_mode_shape(under_share(ground, share), start%zones, start%closed, last%factor, by_axial_force, 1.0_wp, &
+                             mode_parts, shape)
         call move_alloc(shape%piece, solution%mode_piece)
         call move_alloc(shape%distance, solution%mode_distance)
         call move_alloc(shape%deflection, solution%mode_deflection)
@@ -292,8 +293,8 @@ contains
 
         held(:) = start%closed
         do trial = 1, 2
-            call count_modes(ground, start%zones, held, by_axial_force, share*(1 + little_compression), number, work, grounded, &
-                             factor=last%factor)
+            call count_modes(under_share(ground, share), start%zones, held, by_axial_force, 1 + little_compression, number, work, &
+                             grounded, factor=last%factor)
             it_does = number /= 0
             if (it_does) return
             where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &

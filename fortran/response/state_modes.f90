@@ -6,7 +6,6 @@ module gapbeam_state_modes
     use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
-    use gapbeam_layers, only: has_curves
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_refined_ground, only: refine_ground, refine_zones
@@ -59,19 +58,19 @@ contains
         values(:) = 0.0_wp
         found = 0
         if (.not. has_any(assembled, what)) return
-        call check_state(assembled, state, error)
+        call check_state(state, error)
         if (allocated(error)) return
         ground = ground_of(assembled, state%factor, state%stretched)
         if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
-        call find_mode_values(ground, start%zones, start%closed, what, first, values, known, lost)
+        call find_mode_values(ground, start%zones, start%closed, start%factor, what, first, values, known, lost)
         if (.not. lost) then
             if (known == 0) return
             call refine_ground(ground, fine)
             call refine_zones(fine, start%zones, zones)
-            call find_fine_values(fine, zones, start%closed, what, real(first, qp), fine_values, found, lost, &
-                                  real(values(:known), qp))
+            call find_fine_values(fine, zones, start%closed, real(start%factor, qp), what, real(first, qp), fine_values, found, &
+                                  lost, real(values(:known), qp))
             known = found
         end if
         if (lost) then
@@ -105,7 +104,7 @@ contains
         real(qp) :: at
         integer :: stat
 
-        call check_state(assembled, state, error)
+        call check_state(state, error)
         if (.not. allocated(error) .and. .not. has_any(assembled, what)) then
             call fatal_error(error, gapbeam_bad_input, "modes: there are none, since the beam has no "// &
                              trim(merge("mass       ", "compression", what == by_vibration)))
@@ -117,7 +116,7 @@ contains
         call refine_zones(fine, start%zones, zones)
         at = value
         if (what == by_vibration) at = at**2
-        call find_fine_shape(fine, zones, start%closed, what, at, parts, found)
+        call find_fine_shape(fine, zones, start%closed, real(start%factor, qp), what, at, parts, found)
         if (size(found%piece) == 0) then
             call fatal_error(error, gapbeam_bad_input, "modes: the stiffnesses of the beam are too far apart to tell a shape")
             return
@@ -220,16 +219,12 @@ contains
     end function has_any
 
     !> Are there modes of a state in this version
-    subroutine check_state(assembled, state, error)
-        type(assembled_type), intent(in) :: assembled
+    subroutine check_state(state, error)
         type(state_type), intent(in) :: state
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. allocated(state%ground)) then
             call fatal_error(error, gapbeam_bad_input, "modes: the beam has neither mass nor an axial force that bending feels")
-        else if (any(has_curves(assembled%layers))) then
-            call fatal_error(error, gapbeam_bad_input, "modes: beside ground whose law is a curve they are not available in "// &
-                             "this version; give the points of the curve")
         end if
     end subroutine check_state
 
