@@ -32,6 +32,8 @@ module gapbeam_ground_problem
     integer, parameter :: most_guesses = 8
     !> So far below that factor a beam may stand on an edge, which nothing settles
     real(wp), parameter :: edge_share = 2.0_wp**(-20)
+    !> How far below the end of a path a state is looked for to which axial forces lead that are put on last
+    real(wp), parameter :: farthest_back = 2.0_wp**(-8)
     !> Powers of 2, as shares of the factor at which falling ground gives way, by which states are looked for beside it
     integer, parameter :: next_to_fall = -44, far_from_fall = -24
 
@@ -295,6 +297,10 @@ contains
         associate (path => problem%path)
             path%last = below%at
             path%beyond = below%at
+            if (allocated(problem%ground%moving)) then
+                if (allocated(problem%ground%moving%tension)) call step_back(problem, path%last, error)
+                if (allocated(error)) return
+            end if
             path%at_limit = problem%yields .and. path%last > 0.0_wp
             if (.not. allocated(above%trouble)) then
                 if (abs(problem%state%factor - above%at) > 0.0_wp) call problem%find(above%at, point, error)
@@ -310,5 +316,26 @@ contains
         end associate
         call go_beyond(problem, below%at, above%trouble, error)
     end subroutine take_end
+
+    !> Where axial forces are put on last, under all other loads, there may be no way to a state to which they grow with these: the
+    !> path ends where there is
+    subroutine step_back(problem, last, error)
+        class(ground_problem_type), intent(inout) :: problem
+        real(wp), intent(inout) :: last
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: point
+        real(wp) :: share
+
+        share = 0.0_wp
+        do while (share <= farthest_back)
+            call problem%find(last*(1 - share), point, error)
+            if (allocated(error)) return
+            if (point%stands) then
+                last = last*(1 - share)
+                return
+            end if
+            share = max(near_limit, 8*share)
+        end do
+    end subroutine step_back
 
 end module gapbeam_ground_problem

@@ -4,7 +4,8 @@ module gapbeam_python_handles
     use, intrinsic :: iso_fortran_env, only: int64
     use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_funloc, c_f_pointer, c_null_ptr
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_words, only: shown
     use gapbeam_watch, only: begin_watch
     use gapbeam_scene, only: model_type
     use gapbeam_polyline, only: node_support_type
@@ -161,7 +162,10 @@ contains
         if (.not. allocated(error)) then
             associate (lowered => beam%beam%lowered, solved => state%result%state)
                 allocate (handle%starts(merge(0, size(lowered%pieces), allocated(solved%ground))), stat=stat)
-                if (stat /= 0) then
+                if (solved%status /= gapbeam_solved) then
+                    call fatal_error(error, gapbeam_not_converged, "no state stands at load factor "//trim(shown(solved%factor))// &
+                                     ": it has no fields")
+                else if (stat /= 0) then
                     call no_memory(error)
                 else if (.not. allocated(solved%ground)) then
                     call find_starts(lowered, solved, handle%starts, error)

@@ -3,6 +3,7 @@ module gapbeam_assemble_axial
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_range, only: is_lost
+    use gapbeam_laws, only: is_smooth
     use gapbeam_taper, only: mean_softness
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_dead, &
         gapbeam_unchanged
@@ -114,6 +115,8 @@ contains
                     axial%force(j, i) = axial%force(j, i) + scale(load%value, -axial%units%force)
                 end associate
             end do
+            if (moves_along(assembled)) call check_curves(assembled, error)
+            if (allocated(error)) return
             if (has_links_along(model, assembled%with_law) .or. moves_along(assembled)) call assemble_links_along(assembled)
             if (allocated(axial%limit)) call lay_ground(assembled, error)
         end associate
@@ -174,7 +177,9 @@ contains
                 call say(" that is rigid beside such that has a stiffness,"//in_version//"; give all of it a stiffness")
                 return
             end if
-            if (allocated(axial%laws) .or. any(model%supports%direction == gapbeam_axial .and. &
+            if (any(is_smooth(model%supports%law))) then
+                call say(" beside a support whose law is a curve"//in_version//"; give the points of the curve")
+            else if (allocated(axial%laws) .or. any(model%supports%direction == gapbeam_axial .and. &
                                                abs(model%supports%settlement) > 0.0_wp)) then
                 call say(" beside friction of supports, or axial supports that push one way, have a law, a settlement or a "// &
                          "movement,"//in_version//"; leave one of them out")
@@ -234,6 +239,20 @@ contains
         end subroutine say
 
     end subroutine lay_ground
+
+    !> Refuse supports whose law is a curve where a load moves a support along the beam
+    subroutine check_curves(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        !> The support that moves
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (s => assembled%model%supports)
+            if (.not. any(is_smooth(s%law))) return
+            call refuse(error, of_supports, findloc(s%direction == gapbeam_axial .and. abs(assembled%growth) > 0.0_wp, .true., 1), &
+                        size(s), bad_law, "direction", "a load that moves an axial support beside a support whose law is a "// &
+                        "curve is not available in this version; give the points of the curve")
+        end associate
+    end subroutine check_curves
 
     !> Does a load move a support along the beam
     pure function moves_along(assembled) result(it_does)

@@ -55,7 +55,9 @@ contains
                 where = which
                 if (turns(s)) which = "that holds a rotation"
                 if (turns(s)) where = "over a rotation"
-                if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
+                if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. in_stretches(model)) then
+                    call say("law", "a curve beside "//trim(what_stretches(model))//in_version//"; give its points")
+                else if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
                     call say("friction", "expected a finite number, 0 or more, got "//trim(shown(s%friction)))
                 else if (s%direction == gapbeam_normal) then
                     if (s%friction > 0.0_wp) call check_rest("friction", "friction")

@@ -4,7 +4,7 @@ module gapbeam_check_rigid_ground
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_scene, only: gapbeam_normal, gapbeam_linear_curvature
+    use gapbeam_scene, only: gapbeam_normal, gapbeam_below, gapbeam_above, gapbeam_linear_curvature
     use gapbeam_assembled_model, only: assembled_type, is_alone, is_beside_point, turns, point_x, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, of_loads, bad_law, bad_load
@@ -85,15 +85,19 @@ contains
         type(error_type), allocatable, intent(out) :: error
         character(len=:), allocatable :: problem
         real(wp) :: ei, ei_to
+        integer, allocatable :: sides(:)
         integer :: power
 
         call stiffness_along(assembled, piece, in_bending, ei, ei_to, power)
+        sides = assembled%layers(assembled%layer_first(piece):assembled%layer_first(piece + 1) - 1)%side
         if (ei > huge(ei)) then
             problem = "the beam is rigid there, too"
         else if (stiffness_of(assembled, piece, in_shear) <= huge(ei)) then
             problem = "the beam has a finite GA there"
         else if (power > 0 .and. any(abs([assembled%dead(piece)%kappa, assembled%live(piece)%kappa]) > 0.0_wp)) then
             problem = "a curvature is imposed on a beam that tapers there"
+        else if (count(sides == gapbeam_below) > 1 .or. count(sides == gapbeam_above) > 1) then
+            problem = "one foundation lies over another one"
         end if
         if (.not. allocated(problem)) return
         call refuse_ground(assembled, assembled%layers(assembled%layer_first(piece))%foundation, "from x = "// &

@@ -12,6 +12,8 @@ Examples
 ([1.0, 4.0], [0.947986717, 3.949014468])
 """
 
+import itertools
+
 import numpy as np
 from numpy.polynomial import Polynomial, legendre
 from scenes import nodes_of
@@ -43,7 +45,7 @@ class Ritz:
         places = [nodes_of(scene)[one["node"]] if "node" in one else one["x"] for one in supports]
         ends = np.unique([*nodes_of(scene), *places, *marks])
         ends = ends[np.append(True, np.diff(ends) > 1e-9 * self.length)]
-        self.nodes = np.unique(np.concatenate([np.linspace(a, b, 5) for a, b in zip(ends[:-1], ends[1:], strict=True)]))
+        self.nodes = np.unique(np.concatenate([np.linspace(a, b, 5) for a, b in itertools.pairwise(ends)]))
         count = 2 * len(self.nodes) + DEGREE * (len(self.nodes) - 1)
         self.K, self.G, self.M = np.zeros((3, count, count))
         for e in range(len(self.nodes) - 1):
@@ -64,7 +66,8 @@ class Ritz:
         t, weight = legendre.leggauss(DEGREE + 14)
         weight = weight * half
         x = (a + b) / 2 + half * t
-        ends = [Polynomial(c) for c in ((0.5, -0.75, 0, 0.25), (0.25, -0.25, -0.25, 0.25), (0.5, 0.75, 0, -0.25), (-0.25, -0.25, 0.25, 0.25))]
+        hermite = (0.5, -0.75, 0, 0.25), (0.25, -0.25, -0.25, 0.25), (0.5, 0.75, 0, -0.25), (-0.25, -0.25, 0.25, 0.25)
+        ends = [Polynomial(one) for one in hermite]
         inside = [Polynomial((1, 0, -2, 0, 1)) * legendre.Legendre.basis(k).convert(kind=Polynomial) for k in range(DEGREE)]
         shapes = [ends[0], half * ends[1], ends[2], half * ends[3], *inside]
         w, turn, bend = (np.array([one.deriv(k)(t) if k else one(t) for one in shapes]) / half**k for k in range(3))
@@ -111,6 +114,5 @@ def slope_of_law(item, x, u, length):
     k, limit = law["stiffness"], law["limit"]
     if item["law"]["type"] in ("plastic", "hardening"):
         return np.where(k * u <= limit, k, law.get("slope", 0.0))
-    share = np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0)
-    share = np.minimum(share, 300.0)
+    share = np.minimum(np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0), 100.0)
     return k / (1.0 + share) ** 2 if item["law"]["type"] == "hyperbolic" else k / np.cosh(share) ** 2

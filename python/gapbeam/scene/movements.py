@@ -58,13 +58,15 @@ class Movements(NamedTuple):
                 moves[:, support] += factors[:, load] * value
 
 
-def take_movements(scene: Scene) -> tuple[Scene, Movements | None]:
+def take_movements(scene: Scene, only_dead: bool = False) -> tuple[Scene, Movements | None]:
     """Take what moves supports out of the loads.
 
     Parameters
     ----------
     scene : Scene
         The scene; left as it is.
+    only_dead : bool
+        Whether what moves them as the load grows stays.
 
     Returns
     -------
@@ -74,7 +76,7 @@ def take_movements(scene: Scene) -> tuple[Scene, Movements | None]:
         None where there are none.
     """
     loads = list(scene.loads)
-    which = [k for k, load in enumerate(loads) if moves_support(load)]
+    which = [k for k, load in enumerate(loads) if moves_support(load) and (load.case == DEAD or not only_dead)]
     if not which:
         return scene, None
     supports = [number_of_moved(scene, k, loads[k]) for k in which]

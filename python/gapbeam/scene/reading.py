@@ -91,7 +91,7 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
     source = _opened(source)
     try:
         scene = _structured(source)
-        beam = _prepared(scene)
+        beam = prepared_beam(scene)
         if isinstance(source, Written):
             _plan(scene)
         return scene, beam
@@ -135,7 +135,7 @@ def _checked(source: Scene | Mapping[str, Any]) -> Scene:
     """Check a scene completely."""
     scene = _structured(source)
     with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
-        _prepared(scene)
+        prepared_beam(scene)
     _plan(scene)
     return scene
 
@@ -168,7 +168,19 @@ def beam_of(scene: Scene) -> Beam:
     return Beam(taken, curves(scene, taken))
 
 
-def _prepared(scene: Scene) -> Beam:
+def prepared_beam(scene: Scene) -> Beam:
+    """Make the beam of a scene, whose refusals are told by its places.
+
+    Parameters
+    ----------
+    scene : Scene
+        As for `beam_of`.
+
+    Raises
+    ------
+    SceneError
+        It makes no sense.
+    """
     with names_in_errors(scene):
         try:
             return beam_of(scene)

@@ -23,7 +23,7 @@ from ...engine.cases import OneCase
 from ...engine.combinations import Varied
 from ...scene.movements import take_movements
 from ...scene.names import cases_of, find
-from ...scene.reading import beam_of, read_beam
+from ...scene.reading import prepared_beam, read_beam
 from ...scene.structs import Scene
 from ...scene.wording import choice, key_of, shown
 from ..formatting import count, title
@@ -336,9 +336,9 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
                          "which moves them")  # fmt: skip
     without, movements = take_movements(scene)
     if movements is not None:
-        unmoved = beam_of(without)
-        if unmoved.depends_on_path:  # supports move as the loads grow
-            movements = None
-        else:
-            scene, beam = without, unmoved
+        unmoved = prepared_beam(without)
+        if unmoved.depends_on_path:  # supports move as the loads grow, but with dead ones from the start
+            without, movements = take_movements(scene, only_dead=True)
+            unmoved = beam if movements is None else prepared_beam(without)
+        scene, beam = without, unmoved
     return solver_of(scene, beam, choose_rule(scene, rule), movements)

@@ -119,9 +119,8 @@ def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over what takes stretches"
     there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else rest
     if beam.beyond_one_search is not None:
-        what = {"path": "whose state depends on the loading history", "curve": "that are curves"}[beam.beyond_one_search]
-        problem = f"supports with laws {what} cannot be combined with {there} in this version; use non-decreasing polylines"
-        raise SceneError("supports", problem)
+        what = "supports with laws whose state depends on the loading history cannot be combined with"
+        raise SceneError("supports", f"{what} {there} in this version; use non-decreasing polylines")
     if scene.analysis.has_history:
         raise SceneError("analysis.history", f"a beam with {there} unloads along its path; leave it out")
 

@@ -153,3 +153,22 @@ def test_a_pile_that_is_pushed_in_is_told_among_others():
         assert cases.status.tolist() == [int(push > 1.2) for push in pushes]
     least = [np.nan if push > 1.2 else -1000.0 * push for push in pushes]
     assert cases.extremes["axial_force"]["min"].value.tolist() == pytest.approx(least, nan_ok=True)
+
+
+@pytest.mark.parametrize("law", [{"type": kind, "stiffness": 1e3, "limit": 40.0} for kind in ("brittle", "plastic")])
+def test_a_dead_movement_has_the_factor_of_its_case(law):
+    """It was there in full in every case."""
+    unloads = {"unloading": "plastic"} if law["type"] == "plastic" else {}
+
+    def scene(dead, live):
+        moves = [{"type": "movement", "support": 1, "value": 0.004 * dead, "case": "dead"},
+                 {"type": "movement", "support": 1, "value": 0.002 * live}]  # fmt: skip
+        return {"beam": {"spans": [2.0, 2.0], "EI": 100.0}, "loads": [{"type": "uniform", "q": 5.0}, *moves],
+                "supports": [{"node": 0}, {"node": 1, "side": "below", "law": law, **unloads}, {"node": 2}]}  # fmt: skip
+
+    prepared = gapbeam.prepare(scene(1.0, 1.0))
+    for dead, live in ((1.0, 1.0), (0.5, 1.0), (0.0, 0.5), (-1.0, 1.0)):
+        alone = gapbeam.solve(scene(dead, live)).steps[-1].reaction
+        for found in (prepared.solve([1.0, dead, live]), prepared.result([1.0, dead, live]).steps[-1]):
+            assert found.reaction.tolist() == pytest.approx(alone.tolist(), rel=1e-13)
+        assert prepared.solve([[1.0, dead, live]] * 9).reaction[7].tolist() == pytest.approx(alone.tolist(), rel=1e-13)

@@ -1,5 +1,6 @@
 """Prepared cases whose loads move supports."""
 
+import math
 import random
 
 import gapbeam
@@ -78,3 +79,14 @@ def test_cases_are_scenes_with_settlements(seed):
 def test_what_is_out_of_range_is_that_case():
     beam = gapbeam.prepare(scene([4.0, 4.0], [at(k, side="below") for k in range(3)], [uniform(1.0), movement(1, 1e300)], EI=1.0))
     assert beam.solve([[1.0, 1e300], [1.0, 0.0]]).status.tolist() == [Status.NOT_FINITE, Status.SOLVED]
+
+
+def test_what_cannot_stand_unmoved_is_refused_by_its_place():
+    """It ended in an error that is the program's own."""
+    scene = {
+        "beam": {"spans": [4.0], "EI": 100.0}, "supports": [{"node": 0}, {"node": 1, "side": "above"}],
+        "loads": [{"type": "uniform", "q": -1.0}, {"type": "movement", "support": 1, "value": -0.01, "case": "dead"}],
+        "foundation": [{"side": "below", "k": math.inf, "gap": -0.005, "from": 1.0}],
+    }  # fmt: skip
+    with pytest.raises(gapbeam.SceneError, match=r"supports\[1\]: this one holds the beam at a deflection of 0"):
+        gapbeam.prepare(scene)

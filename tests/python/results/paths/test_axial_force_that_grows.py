@@ -102,6 +102,23 @@ def test_a_beam_lifts_off_and_buckles():
     assert gapbeam.solve(ground_beam(-7.0, last * (1 + 1e-9))).status == "buckles"
 
 
+def test_a_path_ends_where_its_state_is_found_again():
+    """Axial forces that grow with the load help to hold it down beyond what it bears before they are put on: what is told there
+    has a state, and the words tell both load factors. Values at its end ended the process."""
+    scene = {
+        "beam": {"spans": [4.0], "EI": 1e4}, "analysis": {"follow": "events"},
+        "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 0, "direction": "axial"}],
+        "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "force", "x": 3.0, "F": -40.0},
+                  {"type": "axial", "x": 2.0, "F": -10.0}],
+    }  # fmt: skip
+    path = gapbeam.solve(scene)
+    assert path.status == "no-equilibrium"
+    assert "above a load factor between 0.13332" in path.reason
+    assert path.steps[-1].factor == pytest.approx(16.0 / 120.0, rel=1e-4)
+    assert path.steps[-1].reaction[2] == pytest.approx(10.0 * path.steps[-1].factor, rel=1e-13)
+    assert path.report()
+
+
 def test_factors_of_buckling_are_those_of_the_axial_force_there():
     half, whole = (gapbeam.solve(column(share, N_with="live", buckling=2)) for share in (0.4, 0.8))
     np.testing.assert_allclose(half.buckling, np.multiply(whole.buckling, 2.0), rtol=1e-15)

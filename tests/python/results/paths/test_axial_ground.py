@@ -237,6 +237,8 @@ def test_what_is_shown():
         ({"sections": [{"EA": [1.0, 2.0]}]}, r"axial_ground\[0\]\.limit: .* EA that changes"),
         ({"supports": [{"node": 0, "friction": 0.1}, {"node": 1}]}, r"axial_ground\[0\]\.limit: .* beside friction of supports"),
         ({"loads": [{"type": "axial_uniform", "q": 1.0}]}, r"axial_ground\[0\]\.limit: .* distributed along it"),
+        ({"supports": [{"node": 0, "law": {"type": "tanh", "stiffness": 3e3, "limit": 30.0}}, {"node": 1}]},
+         r"axial_ground\[0\]\.limit: .* whose law is a curve"),
     ],
 )
 def test_refusals(change, message):

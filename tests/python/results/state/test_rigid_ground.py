@@ -352,3 +352,10 @@ def test_rigid_ground_that_moves():
         assert [one.foundation for one in step.contact] == [one.foundation for one in expected]
         near([(one.from_, one.to, one.resultant) for one in step.contact],
              [(one.from_, one.to, one.resultant) for one in expected])  # fmt: skip
+
+
+def test_rigid_foundations_one_over_another_are_refused():
+    """They ended the process."""
+    ground = [{"side": "below", "from": 0.2, "to": 1.5, "k": math.inf}, {"side": "below", "k": math.inf}]
+    with pytest.raises(gapbeam.SceneError, match=r"foundation\[0\]\.k: from x = 0\.2 to x = 1\.5 one foundation lies over another"):
+        gapbeam.solve({"beam": {"spans": [2.0, 3.5], "EI": 1800.0}, "supports": [], "loads": [], "foundation": ground})
