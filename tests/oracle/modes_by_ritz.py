@@ -114,5 +114,5 @@ def slope_of_law(item, x, u, length):
     k, limit = law["stiffness"], law["limit"]
     if item["law"]["type"] in ("plastic", "hardening"):
         return np.where(k * u <= limit, k, law.get("slope", 0.0))
-    share = np.minimum(np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0), 100.0)
+    share = np.clip(np.divide(k * u, limit, out=np.zeros_like(u), where=limit > 0.0), 0.0, 100.0)
     return k / (1.0 + share) ** 2 if item["law"]["type"] == "hyperbolic" else k / np.cosh(share) ** 2

@@ -145,8 +145,8 @@ class Support(Point, kw_only=True, gc=False):
         both the curve is mirrored, and may have a gap. Or a table with a type, the name of a curve.
     unloading : {"elastic", "plastic", "broken"}
         Of a support with a curve: elastic (default) goes back along it. Plastic goes back parallel to its first segment and
-        leaves a displacement; with side both it yields either way, by springs with sliders side by side. Broken never carries
-        again once its force has fallen.
+        leaves a displacement; with side both it yields either way, by springs with sliders side by side. Broken stays
+        down once its force has dropped, down a vertical piece; until then it goes back along its curve.
     """
 
     side: SupportSide = "both"
