@@ -18,7 +18,7 @@ module gapbeam_curved
     use gapbeam_curved_transfer, only: transfer_of, value_of, integral
     implicit none
     private
-    public :: curved_type, curve_type, order, expand_curved, advance_curved, condense_curved, curved_fields, cut_into_steps
+    public :: curved_type, order, expand_curved, advance_curved, condense_curved, curved_fields, cut_into_steps
 
     !> A stretch, its load, the layers of ground that act by curves, and the fields (v, psi, M, V) at its ends
     type :: curved_type
@@ -216,7 +216,7 @@ contains
         !> The stretch as small changes of the fields feel it
         type(stretch_type), intent(in) :: motion
         type(stretch_link_type), intent(out) :: link
-        !> As for load_stretch (gapbeam_foundation)
+        !> As for condense_loaded (gapbeam_foundation)
         real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
         !> As for advance_curved; then nothing else is set
         logical, intent(out) :: lost

@@ -1,6 +1,6 @@
 !> Fields anywhere along the beam, and their extremes
 module gapbeam_fields
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, infinity
     use gapbeam_tolerances, only: extreme_margin
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type, combine_loads
@@ -248,14 +248,6 @@ contains
         yes = high + extreme_margin*size < known(1) .and. low - extreme_margin*size > known(2)
     end function stays_between
 
-    !> Above and below all numbers
-    pure function infinities() result(values)
-        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_negative_inf   ! see infinity of gapbeam_units
-        real(wp) :: values(2)
-
-        values(:) = [ieee_value(1.0_wp, ieee_positive_inf), ieee_value(1.0_wp, ieee_negative_inf)]
-    end function infinities
-
     !> Compare the value of a field at one place with its extremes so far
     pure subroutine consider(j, s, value, values, pieces, distances)
         !> Number of the piece, distance from its left end, the value there
@@ -268,7 +260,7 @@ contains
 
         if (.not. abs(value) <= huge(value)) then
             ! Nothing is beyond it: who asked will see it
-            values(:) = infinities()
+            values(:) = [infinity, -infinity]
             pieces(:) = j
             distances(:) = s
             return

@@ -14,7 +14,7 @@ module gapbeam_foundation
     implicit none
     private
     public :: stretch_type, stretch_load_type, stretch_link_type, stretch_ends_type
-    public :: condense_stretch, condense_loaded, link_of_halves, load_stretch, decay_lengths
+    public :: condense_loaded, link_of_halves, decay_lengths
 
     !> How a stretch's ends answer:
     !>
@@ -69,25 +69,15 @@ contains
         number = stretch%length*sqrt(abs(trace_of(stretch, k)) + 2*sqrt(k/stretched_shear(stretch))*sqrt(soft(1)))/2
     end function decay_lengths
 
-    !> How the ends of a stretch answer to their deflections and moments
-    pure subroutine condense_stretch(stretch, link)
-        !> The stretch
-        type(stretch_type), intent(in) :: stretch
-        !> Its link
-        type(stretch_link_type), intent(out) :: link
-        real(wp) :: turn_a(0), turn_b(0), shear_a(0), shear_b(0)
-
-        call condense_loaded(stretch, [stretch_load_type ::], link, turn_a, turn_b, shear_a, shear_b)
-    end subroutine condense_stretch
-
-    !> The same, and what loads make at its ends, for which the functions of the ends, or the series, are found once
+    !> How the ends of a stretch answer to their deflections and moments, and what loads make there where these are zero: the
+    !> functions of the ends, or the series, are found once
     pure subroutine condense_loaded(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
         !> The stretch and some loads
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: loads(:)
         !> Its link
         type(stretch_link_type), intent(out) :: link
-        !> As for load_stretch, shape (size(loads))
+        !> turn_a, -turn_b: rotations; shear_a, -shear_b: shears, shape (size(loads))
         real(wp), intent(out) :: turn_a(:), turn_b(:), shear_a(:), shear_b(:)
         type(end_functions_type) :: h
         integer :: k
@@ -216,29 +206,7 @@ contains
         link%s8 = 0.0_wp
     end subroutine link_of_halves
 
-    !> Rotations and shears of the ends of a stretch that its loads make where deflections and moments are zero there
-    pure subroutine load_stretch(stretch, load, turn_a, turn_b, shear_a, shear_b)
-        !> The stretch and its load
-        type(stretch_type), intent(in) :: stretch
-        type(stretch_load_type), intent(in) :: load
-        !> turn_a, -turn_b: rotations; shear_a, -shear_b: shears
-        real(wp), intent(out) :: turn_a, turn_b, shear_a, shear_b
-        type(half_type) :: half
-        real(wp) :: turn(2), shear(2)
-
-        if (is_sloped(stretch)) then
-            call half_link(stretch, [load], half, turn(1:1), shear(1:1))
-            call half_link(mirrored(stretch), [turned(load)], half, turn(2:2), shear(2:2))
-            turn_a = turn(1)
-            turn_b = turn(2)
-            shear_a = shear(1)
-            shear_b = shear(2)
-        else
-            call load_even(stretch, end_functions(stretch), load, turn_a, turn_b, shear_a, shear_b)
-        end if
-    end subroutine load_stretch
-
-    !> The same where the modulus is constant
+    !> Rotations and shears of the ends that a load makes where modulus and stiffness are constant
     pure subroutine load_even(stretch, h, load, turn_a, turn_b, shear_a, shear_b)
         type(stretch_type), intent(in) :: stretch
         !> The functions of its ends

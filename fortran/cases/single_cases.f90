@@ -1,6 +1,6 @@
 !> Cases of a beam one by one, whatever the beam, but for ground.
 module gapbeam_single_cases
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, not_a_number
     use gapbeam_watch, only: is_stopped
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_not_finite
     use gapbeam_model, only: beam_type
@@ -12,7 +12,7 @@ module gapbeam_single_cases
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
     implicit none
     private
-    public :: single_room_type, solve_one_by_one
+    public :: single_room_type, solve_one_by_one, give_none
 
     !> What cases of one beam need, kept from call to call; calls at the same time need one each
     type :: single_room_type
@@ -154,10 +154,7 @@ contains
             end associate
             solutions%status(i) = gapbeam_not_finite
         end if
-        if (associated(solutions%w)) solutions%w(:, i) = not_a_number()
-        if (associated(solutions%ml)) solutions%ml(:, i) = not_a_number()
-        if (associated(solutions%mr)) solutions%mr(:, i) = not_a_number()
-        if (associated(solutions%reaction)) solutions%reaction(:, i) = not_a_number()
+        call give_none(solutions%status(i), i, solutions)
 
     contains
 
@@ -173,12 +170,19 @@ contains
 
     end subroutine give_alone
 
-    !> A number that is none. Procedures that know of ieee_arithmetic save the processor's state, each time they are called
-    function not_a_number() result(nan)
-        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-        real(wp) :: nan
+    !> Say that a case has no solution
+    pure subroutine give_none(status, i, solutions)
+        integer, intent(in) :: status
+        !> The case
+        integer, intent(in) :: i
+        type(case_solutions_type), intent(inout) :: solutions
 
-        nan = ieee_value(nan, ieee_quiet_nan)
-    end function not_a_number
+        solutions%status(i) = status
+        solutions%closed(:, i) = 0
+        if (associated(solutions%w)) solutions%w(:, i) = not_a_number
+        if (associated(solutions%ml)) solutions%ml(:, i) = not_a_number
+        if (associated(solutions%mr)) solutions%mr(:, i) = not_a_number
+        if (associated(solutions%reaction)) solutions%reaction(:, i) = not_a_number
+    end subroutine give_none
 
 end module gapbeam_single_cases

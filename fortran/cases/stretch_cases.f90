@@ -13,6 +13,7 @@ module gapbeam_stretch_cases
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, combine_case, solve_combination
+    use gapbeam_single_cases, only: give_none
     use gapbeam_scheme_responses, only: response_type, is_linear_in_schemes, changes_axial_force, find_responses, add_up, agrees
     implicit none
     private
@@ -143,24 +144,6 @@ contains
         if (associated(solutions%mr)) solutions%mr(:n, i) = values(2*n + 1:3*n)
         if (associated(solutions%reaction)) solutions%reaction(:m, i) = values(3*n + 1:3*n + m)
     end subroutine give
-
-    !> Say that a case has no solution
-    subroutine give_none(status, i, solutions)
-        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-        integer, intent(in) :: status
-        !> The case
-        integer, intent(in) :: i
-        type(case_solutions_type), intent(inout) :: solutions
-        real(wp) :: nan
-
-        nan = ieee_value(nan, ieee_quiet_nan)
-        solutions%status(i) = status
-        solutions%closed(:, i) = 0
-        if (associated(solutions%w)) solutions%w(:, i) = nan
-        if (associated(solutions%ml)) solutions%ml(:, i) = nan
-        if (associated(solutions%mr)) solutions%mr(:, i) = nan
-        if (associated(solutions%reaction)) solutions%reaction(:, i) = nan
-    end subroutine give_none
 
     !> Make room for the responses, or begin anew for other factors of the loads that change the axial force
     subroutine prepare(assembled, factors, room)

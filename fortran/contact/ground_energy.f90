@@ -11,8 +11,7 @@ module gapbeam_ground_energy
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_mesh_rounds, most_node_rounds, most_line_steps, most_nodes_asked
     use gapbeam_tolerances, only: proximal_ratio, balanced, flat_energy, first_way, last_way, mesh_rounding
-    use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_not_converged, &
-        gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, out_of_range, has_ended, gapbeam_solved, gapbeam_not_converged
     use gapbeam_law, only: both
     use gapbeam_law_kinematics, only: find_level_forces
     use gapbeam_model, only: beam_type, node_support_type, order_supports, last_place, softest
@@ -84,7 +83,7 @@ contains
             if (exhausted) exit
             call solve_model()
             if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped]) .or. allocated(proximal_weight)) return
+                if (has_ended(error) .or. allocated(proximal_weight)) return
                 deallocate (error)
             end if
             if (outcome%status /= gapbeam_solved .and. begun) then

@@ -21,6 +21,7 @@ module gapbeam_search
         last_non_monotone_solves, law_non_monotone_solves, most_law_steps, final_non_monotone_solves, rounding_changes, &
         most_guess_steps, few_guess_changes, steps_between_guesses, subdomain_rounds, few_wrong_supports
     use gapbeam_tolerances, only: last_width, rounding_product, most_in_subdomains
+    use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
@@ -65,7 +66,6 @@ contains
         !> Refine wherever few are wrong, however clearly (default: not what is solved from both ends, where little cancels)
         logical, intent(in), optional :: carefully
         type(search_type) :: search
-        character(len=12) :: text
 
         allocate (search%wrong(size(closed)), search%best(size(closed)))
         search%best(:) = closed
@@ -99,9 +99,9 @@ contains
         if (search%state /= band_ok) then
             call refuse_scheme(beam, search%state, search%place, error)
         else if (work%solves > work%most_solves) then
-            write (text, "(i0)") work%solves
-            call fatal_error(error, gapbeam_not_converged, "the contact state was not found within "//trim(text)//" solves: "// &
-                             "follow the load by steps, or give supports and pieces of the beam stiffnesses that differ less")
+            call fatal_error(error, gapbeam_not_converged, "the contact state was not found within "//trim(whole(work%solves))// &
+                             " solves: follow the load by steps, or give supports and pieces of the beam stiffnesses that "// &
+                             "differ less")
         else
             call fatal_error(error, gapbeam_not_converged, "the signs of some reactions or openings cannot be told from "// &
                              "rounding errors in double precision")
@@ -380,17 +380,17 @@ contains
         type(beam_type), intent(in) :: beam
         integer, intent(in) :: state, place
         type(error_type), allocatable, intent(out) :: error
-        character(len=40) :: text
+        character(len=:), allocatable :: text
 
-        write (text, "(i0, a, i0)") place, " of ", size(beam%links)
+        text = trim(whole(place))//" of "//trim(whole(size(beam%links)))
         if (state == band_stopped) then
             call end_if_stopped(beam%watch, error)
         else if (state == band_needs_pivoting) then
-            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//trim(text)// &
+            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//text// &
                              " rests on more rigid supports than statics can tell apart: give the stretch"// &
                              " or one of its supports a finite stiffness")
         else
-            call fatal_error(error, gapbeam_not_converged, "the scheme near node "//trim(text)//" cannot be solved")
+            call fatal_error(error, gapbeam_not_converged, "the scheme near node "//text//" cannot be solved")
         end if
     end subroutine refuse_scheme
 

@@ -217,8 +217,7 @@ contains
         if (work%plain%has_rows) then
             call refine_rows(work%plain, work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%correction)
         else
-            call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, &
-                                work%sizes, work%compatibility, work%equilibrium)
+            call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, work%sizes)
             if (fits_three_moment(work%nodes(0:n))) then
                 work%method = method_three_moment
                 call solve_three_moment(work%nodes(0:n), beam%links, work%eliminated, work%moment_work, work%correction, regular)

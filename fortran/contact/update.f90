@@ -6,6 +6,7 @@
 module gapbeam_update
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: nodes_apart, most_corrections
+    use gapbeam_ordered, only: sort
     use gapbeam_tolerances, only: last_correction, harmless_correction
     use gapbeam_require, only: checked, require
     use gapbeam_band, only: answer_type, factor_chain, band_ok
@@ -83,14 +84,13 @@ contains
         integer, intent(in) :: changed(:)
         !> From left to right, shape (2, size(changed)), and how many there are
         integer, intent(out) :: groups(:, :), count
+        real(wp), allocatable :: places(:)
         integer, allocatable :: nodes(:)
         integer :: i
 
-        allocate (nodes(size(changed)))
-        do i = 1, size(changed)
-            nodes(i) = node_of_support(beam, changed(i))
-        end do
-        call sort(nodes)
+        places = [(real(node_of_support(beam, changed(i)), wp), i=1, size(changed))]
+        call sort(places)
+        nodes = nint(places)
         groups = 0
         count = 0
         do i = 1, size(nodes)
@@ -104,23 +104,6 @@ contains
             groups(:, count) = nodes(i)
         end do
     end subroutine find_groups
-
-    !> Put a few numbers in ascending order (insertion)
-    pure subroutine sort(list)
-        integer, intent(inout) :: list(:)
-        integer :: i, j, number
-
-        do i = 2, size(list)
-            number = list(i)
-            j = i - 1
-            do while (j >= 1)
-                if (list(j) <= number) exit
-                list(j + 1) = list(j)
-                j = j - 1
-            end do
-            list(j + 1) = number
-        end do
-    end subroutine sort
 
     !> Solve a scheme from the solution of another one that differs at one node, or at some nodes beside each other
     subroutine update_scheme(beam, acting, changed, refined, work, window, state)
@@ -138,7 +121,6 @@ contains
         integer, intent(out) :: window(2)
         !> band_ok; otherwise nothing in the workspace can be used any more
         integer, intent(out) :: state
-        real(wp) :: compatibility, equilibrium
         integer :: place, correction, touched(2), n
         real(wp) :: relative, share, scale(2)
 
@@ -159,8 +141,7 @@ contains
         work%growth = 1.0_wp
         scale = 0.0_wp
         do correction = 1, most_corrections
-            call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, &
-                                compatibility, equilibrium, window)
+            call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, window)
             call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, &
                                work%correction, touched)
             call add_correction(touched, work, scale, relative, share)

@@ -42,7 +42,7 @@ module gapbeam_workspace
         logical :: refined = .false.
         !> The solution, and a correction of it
         type(answer_type), allocatable :: answers(:), correction(:)
-        !> Sizes of the terms of every row, by check_scheme
+        !> Sizes of the terms of every row, by refine_scheme
         type(size_type), allocatable :: sizes(:)
         real(wp), allocatable :: moment_work(:, :)
         !> Reaction of every support, positive up, and the rounding error it may have
@@ -72,8 +72,6 @@ module gapbeam_workspace
         !> Did the paper's rule come back to a scheme that it had seen
         logical :: cycled = .false.
         integer :: method = method_mixed
-        !> Relative residuals of the last solve
-        real(wp) :: compatibility = 0.0_wp, equilibrium = 0.0_wp
         !> By how much elimination has let rounding errors grow, as the corrections of an update tell
         real(wp) :: growth = 1.0_wp
     end type workspace_type

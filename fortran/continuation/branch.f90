@@ -22,13 +22,11 @@ module gapbeam_branch
     use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, &
         clear_arrival, doubtful
     use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, &
-        along_law, parallel, stays_broken
+        parallel, stays_broken
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told
     public :: laws_of
-    ! Of gapbeam_branch_state
-    public :: along_law, parallel, stays_broken
 
     !> What a step came to: the next breakpoint; the factor asked for; the end of the path; no further breakpoint, whatever the
     !> load; supports of which nothing tells how they share a change of load

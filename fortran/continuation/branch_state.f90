@@ -10,10 +10,10 @@ module gapbeam_branch_state
     implicit none
     private
     public :: branch_type, note_place, break_supports, find_shared, sense_of, laws_of
-    public :: along_law, parallel, stays_broken
+    public :: parallel, stays_broken
 
-    !> How a support unloads
-    integer, parameter :: along_law = 0, parallel = 1, stays_broken = 2
+    !> How a support unloads, if not along its law
+    integer, parameter :: parallel = 1, stays_broken = 2
     !> A path on its way
     type :: branch_type
         !> The beam, with the laws as they have become

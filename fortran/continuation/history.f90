@@ -24,16 +24,14 @@ module gapbeam_history
     use gapbeam_state, only: detail_of
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
     use gapbeam_history_stretch, only: stretch_type, pieces_type, keep_pieces, enter_stretch
-    use gapbeam_history_record, only: history_type, limit_type, other_way_type, new_history, laws_at, add_stretch, &
+    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, &
         add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
         no_limit, limit_point, bifurcation, mechanism, ended, cut_off
     implicit none
     private
     public :: follow_history
     ! Of gapbeam_history_record
-    public :: history_type, stretch_type, limit_type, other_way_type, laws_at
-    public :: at_limit_stop, at_limit_jump, at_limit_follow
-    public :: no_limit, limit_point, bifurcation, mechanism, ended, cut_off
+    public :: history_type, at_limit_stop, at_limit_jump, no_limit, ended, cut_off
 
     !> A path on its way
     type :: walk_type

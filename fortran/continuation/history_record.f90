@@ -10,7 +10,7 @@ module gapbeam_history_record
     use gapbeam_history_stretch, only: stretch_type, pieces_type, hand_over, enter_stretch, same_laws
     implicit none
     private
-    public :: history_type, stretch_type, limit_type, other_way_type, on_laws_type, along_type, on_ground_type, point_type
+    public :: history_type, limit_type, other_way_type, on_laws_type, along_type, on_ground_type
     public :: new_history, find_pieces, scheme_at, laws_at, runs_of
     ! Of gapbeam_history_stretch
     public :: pieces_type, same_laws

@@ -17,13 +17,11 @@ module gapbeam_outgoing_directions
     use gapbeam_turning_quad, only: turn_with
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     use gapbeam_region_responses, only: responses_type, outgoing_type, solve_responses, find_falling, find_index, &
-        is_held_twice, rise, fall, turn, from_nowhere
+        is_held_twice, rise, fall, turn
     use gapbeam_single_direction, only: find_single_direction
     implicit none
     private
     public :: find_outgoing
-    ! Of gapbeam_region_responses, for those who ask for ways
-    public :: outgoing_type, rise, fall, turn, from_nowhere
 
 contains
 

@@ -7,8 +7,7 @@
 !> (gapbeam_arc_states, gapbeam_arc_roots). Deflections, forces and factors are in the user's units.
 module gapbeam_smooth_arc
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_not_converged, gapbeam_no_memory, &
-        gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_not_converged
     use gapbeam_laws, only: law_force, law_slope, law_scale
     use gapbeam_polyline, only: node_support_type
     use gapbeam_extended_precision, only: rule_extended
@@ -70,8 +69,7 @@ contains
         type(error_type), allocatable, intent(in) :: error
         logical :: it_is
 
-        it_is = allocated(error)
-        if (it_is) it_is = .not. any(error%code == [gapbeam_no_memory, gapbeam_stopped])
+        it_is = allocated(error) .and. .not. has_ended(error)
     end function is_lost
 
     !> The path along the line between two states

@@ -16,7 +16,7 @@ module gapbeam_smooth_branches
         is_stable_at, jacobian_at, point_at_factor, find_top, find_crossing
     implicit none
     private
-    public :: follow_branch, branch_points_type, tracer_type, tracer_at, point_at_factor
+    public :: follow_branch, branch_points_type, tracer_at, point_at_factor
 
 contains
 

@@ -166,14 +166,13 @@ contains
         !> The correction, shape (0:n)
         type(answer_type), intent(inout) :: correction(0:)
         type(size_type), allocatable :: sizes(:)
-        real(wp) :: compatibility, equilibrium
         integer :: n, i, odd
 
         n = ubound(nodes, 1)
         odd = modulo(n, 2)
         allocate (sizes(0:n))
         do i = 0, n, n
-            call residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium, [i, i])
+            call residual_chain(nodes, links, rhs, answers, residual, sizes, [i, i])
             call set_node(beam, i, nodes(i), residual(i))
         end do
         call residual_inside(nodes, links, rhs, beam%moment, beam%deflection, beam%turn, beam%shear)

@@ -30,7 +30,7 @@ module gapbeam_residual
 contains
 
     !> Residuals of all rows, with differences of neighbouring deflections and moments formed first
-    pure subroutine residual_chain(nodes, links, rhs, answers, residual, sizes, compatibility, equilibrium, range)
+    pure subroutine residual_chain(nodes, links, rhs, answers, residual, sizes, range)
         !> Nodes, links and right-hand side (as before elimination) of the system, see gapbeam_band
         type(node_type), intent(in) :: nodes(0:)
         type(link_type), intent(in) :: links(:)
@@ -41,12 +41,10 @@ contains
         type(rhs_type), intent(inout) :: residual(0:)
         !> Sizes of the terms, shape (0:n)
         type(size_type), intent(inout) :: sizes(0:)
-        !> Largest residual of the two kinds of rows relative to the largest term of its kind
-        real(wp), intent(out) :: compatibility, equilibrium
         !> First and last node of interest, if not all are
         integer, intent(in), optional :: range(2)
         type(end_type) :: left, right, left_of_next
-        real(wp) :: high, low, largest_turn, largest_shear
+        real(wp) :: high, low
         integer :: i, n, begin, finish
 
         n = size(links)
@@ -57,10 +55,6 @@ contains
             begin = range(1)
             finish = range(2)
         end if
-        compatibility = 0.0_wp
-        equilibrium = 0.0_wp
-        largest_turn = tiny(largest_turn)
-        largest_shear = tiny(largest_shear)
         left = end_type()
         if (begin > 0) call ends_of_link(links(begin), answers(begin - 1), answers(begin), right, left)
         do i = begin, finish
@@ -70,16 +64,8 @@ contains
             residual(i) = rhs_type()
             sizes(i) = size_type()
             associate (node => nodes(i), a => answers(i), b => rhs(i), r => residual(i), s => sizes(i))
-                if (i < n) then
-                    ! Residuals are given relative to the terms as they are, not to their differences
-                    associate (h => links(i + 1)%inverse, z => answers(i + 1))
-                        largest_turn = max(largest_turn, (abs(z%deflection) + abs(a%deflection))*h)
-                        largest_shear = max(largest_shear, (abs(z%moment_left) + abs(a%moment_right))*h)
-                    end associate
-                end if
                 if (is_restrained(node%kind)) then
                     call residual_of_restraint(node, a, b, left, right, i > 0, i < n, r, s)
-                    compatibility = max(compatibility, abs(r%left), abs(r%right))
                 else if (is_through(node%kind) .and. i > 0 .and. i < n) then
                     high = right%psi
                     low = right%psi_low
@@ -92,11 +78,8 @@ contains
                         s%right = s%right + node%compliance*abs(a%moment_left)
                     end if
                     r%right = high + low
-                    compatibility = max(compatibility, abs(r%right))
                 end if
-                largest_turn = max(largest_turn, s%left, s%right)
                 s%shear = left%size_of_shear + right%size_of_shear + abs(b%shear) + abs(node%stiffness*a%deflection)
-                largest_shear = max(largest_shear, s%shear)
                 if (node%held) then
                     r%deflection = b%deflection - a%deflection
                 else
@@ -106,13 +89,10 @@ contains
                     call add(high, low, b%shear)
                     call add_product(high, low, -node%stiffness, a%deflection)
                     r%shear = high + low
-                    equilibrium = max(equilibrium, abs(r%shear))
                 end if
             end associate
             left = left_of_next
         end do
-        compatibility = compatibility/largest_turn
-        equilibrium = equilibrium/largest_shear
     end subroutine residual_chain
 
     !> Residuals of the rotations beside a restraint, where a joint or a hinge may be on one side of it

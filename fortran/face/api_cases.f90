@@ -1,7 +1,6 @@
 !> Many cases of one beam in one call, for Fortran; as gapbeam_api in all else
 module gapbeam_api_cases
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, not_a_number
     use gapbeam_limits, only: case_batch
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
@@ -345,7 +344,7 @@ contains
                 reaction(k, :) = 0.0_wp   ! it never carries
             end if
             where (status /= gapbeam_solved .or. lowered%model%supports(k)%direction == gapbeam_axial)
-                reaction(k, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+                reaction(k, :) = not_a_number
             end where
         end do
     end subroutine give_reactions

@@ -4,7 +4,7 @@ module gapbeam_api_objects
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
         gapbeam_bad_input, gapbeam_not_prepared
-    use gapbeam_words, only: shown
+    use gapbeam_words, only: shown, whole
     use gapbeam_search, only: rule_block, rule_single
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
@@ -261,11 +261,10 @@ contains
     subroutine require_size(expected, found, error)
         integer, intent(in) :: expected, found(:)
         type(error_type), allocatable, intent(out) :: error
-        character(len=80) :: text
 
         if (all(found == expected)) return
-        write (text, "(2(a, i0))") "an array has ", found(findloc(found /= expected, .true., 1)), " entries, expected ", expected
-        call fatal_error(error, gapbeam_bad_input, trim(text))
+        call fatal_error(error, gapbeam_bad_input, "an array has "//trim(whole(found(findloc(found /= expected, .true., 1))))// &
+                         " entries, expected "//trim(whole(expected)))
     end subroutine require_size
 
     !> Refuse a factor or a rule that makes no sense
@@ -273,13 +272,11 @@ contains
         real(wp), intent(in) :: factor
         type(options_type), intent(in) :: options
         type(error_type), allocatable, intent(out) :: error
-        character(len=20) :: text
 
         if (.not. abs(factor) <= huge(factor)) then
             call bad_argument(error, "factor", "factor: expected a finite number, got "//trim(shown(factor)))
         else if (options%rule /= rule_block .and. options%rule /= rule_single) then
-            write (text, "(i0)") options%rule
-            call bad_argument(error, "rule", "rule: expected 0 (block) or 1 (single), got "//trim(text))
+            call bad_argument(error, "rule", "rule: expected 0 (block) or 1 (single), got "//trim(whole(options%rule)))
         end if
     end subroutine check_call
 

@@ -1,6 +1,5 @@
 !> Trains as callers give them, for Fortran: checked, and as the engine takes them; and positions that are not solved.
 module gapbeam_api_train_loads
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown, whole
@@ -51,16 +50,16 @@ contains
             return
         end if
         do i = 1, size(train%distance)
-            if (.not. (ieee_is_finite(train%distance(i)) .and. train%distance(i) >= 0.0_wp)) then
+            if (.not. (train%distance(i) >= 0.0_wp .and. train%distance(i) <= huge(1.0_wp))) then
                 call bad_argument(error, "distance", "distance("//trim(whole(i))//"): expected a distance behind "// &
                                  "the first axle, 0 or more, got "//trim(shown(train%distance(i))))
-            else if (.not. ieee_is_finite(train%force(i))) then
+            else if (.not. abs(train%force(i)) <= huge(1.0_wp)) then
                 call bad_argument(error, "force", "force("//trim(whole(i))//"): expected a finite number, got "// &
                                  trim(shown(train%force(i))))
             end if
             if (allocated(error)) return
         end do
-        finite = ieee_is_finite([train%q, train%from, train%to])
+        finite = abs([train%q, train%from, train%to]) <= huge(1.0_wp)
         if (.not. all(finite)) then
             call bad_argument(error, names(findloc(finite, .false., 1)), "train: q, from and to must be finite")
             return

@@ -82,7 +82,7 @@ contains
         type(error_type), allocatable :: error
         type(options_type) :: chosen
         type(event_type), allocatable :: events(:)
-        integer :: k
+        integer :: n
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call read_options(options, chosen, error)
@@ -91,11 +91,10 @@ contains
         if (allocated(error)) return
         status = solved%result%status
         if (present(number)) number = size(events)
-        do k = 1, min(int(capacity), size(events))
-            if (present(event_factor)) event_factor(k) = events(k)%factor
-            if (present(event_support)) event_support(k) = events(k)%support - 1
-            if (present(event_condition)) event_condition(k) = events(k)%state
-        end do
+        n = min(int(capacity), size(events))
+        if (present(event_factor)) event_factor(1:n) = events(:n)%factor
+        if (present(event_support)) event_support(1:n) = events(:n)%support - 1
+        if (present(event_condition)) event_condition(1:n) = events(:n)%state
     end function c_follow
 
     !> See the header

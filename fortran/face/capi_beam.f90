@@ -52,9 +52,8 @@ contains
     !> See the header
     subroutine c_free_beam(beam) bind(c, name="gapbeam_free_beam")
         type(c_ptr), intent(in), value :: beam
-        logical :: freed
 
-        call free_handle(beam, freed, beam_tag)
+        call free_handle(beam, beam_tag)
     end subroutine c_free_beam
 
     !> See the header
@@ -114,9 +113,8 @@ contains
     !> See the header
     subroutine c_free_state(state) bind(c, name="gapbeam_free_state")
         type(c_ptr), intent(in), value :: state
-        logical :: freed
 
-        call free_handle(state, freed, state_tag)
+        call free_handle(state, state_tag)
     end subroutine c_free_state
 
 end module gapbeam_capi_beam

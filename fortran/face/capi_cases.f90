@@ -33,9 +33,8 @@ contains
     !> See the header
     subroutine c_free_cases(cases) bind(c, name="gapbeam_free_cases")
         type(c_ptr), intent(in), value :: cases
-        logical :: freed
 
-        call free_handle(cases, freed, cases_tag)
+        call free_handle(cases, cases_tag)
     end subroutine c_free_cases
 
     !> See the header

@@ -30,7 +30,7 @@ contains
         type(options_type) :: chosen
         type(ground_event_type), allocatable :: events(:)
         type(error_type), allocatable :: error
-        integer :: k
+        integer :: n
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call read_options(options, chosen, error)
@@ -39,14 +39,13 @@ contains
         if (allocated(error)) return
         status = solved%result%status
         if (present(number)) number = size(events)
-        do k = 1, min(int(capacity), size(events))
-            if (present(event_factor)) event_factor(k) = events(k)%factor
-            if (present(event_support)) event_support(k) = events(k)%support - 1
-            if (present(event_foundation)) event_foundation(k) = events(k)%foundation - 1
-            if (present(event_branch)) event_branch(k) = events(k)%branch
-            if (present(event_x)) event_x(k) = events(k)%x
-            if (present(event_change)) event_change(k) = events(k)%change
-        end do
+        n = min(int(capacity), size(events))
+        if (present(event_factor)) event_factor(1:n) = events(:n)%factor
+        if (present(event_support)) event_support(1:n) = events(:n)%support - 1
+        if (present(event_foundation)) event_foundation(1:n) = events(:n)%foundation - 1
+        if (present(event_branch)) event_branch(1:n) = events(:n)%branch
+        if (present(event_x)) event_x(1:n) = events(:n)%x
+        if (present(event_change)) event_change(1:n) = events(:n)%change
     end function c_follow_ground
 
     !> See the header
@@ -61,20 +60,19 @@ contains
         type(handle_type), pointer :: prepared, solved
         type(contact_type), allocatable :: zones(:)
         type(error_type), allocatable :: error
-        integer :: k
+        integer :: n
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call get_contact(prepared%beam, solved%result, zones, error)
         call report(error, status)
         if (allocated(error)) return
         if (present(number)) number = size(zones)
-        do k = 1, min(int(capacity), size(zones))
-            if (present(foundation)) foundation(k) = zones(k)%foundation - 1
-            if (present(from)) from(k) = zones(k)%from
-            if (present(to)) to(k) = zones(k)%to
-            if (present(condition)) condition(k) = zones(k)%condition
-            if (present(resultant)) resultant(k) = zones(k)%resultant
-        end do
+        n = min(int(capacity), size(zones))
+        if (present(foundation)) foundation(1:n) = zones(:n)%foundation - 1
+        if (present(from)) from(1:n) = zones(:n)%from
+        if (present(to)) to(1:n) = zones(:n)%to
+        if (present(condition)) condition(1:n) = zones(:n)%condition
+        if (present(resultant)) resultant(1:n) = zones(:n)%resultant
     end function c_get_contact
 
     !> See the header
@@ -89,19 +87,18 @@ contains
         type(handle_type), pointer :: prepared, solved
         type(free_span_type), allocatable :: spans(:)
         type(error_type), allocatable :: error
-        integer :: k
+        integer :: n
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call get_free_spans(prepared%beam, solved%result, spans, error)
         call report(error, status)
         if (allocated(error)) return
         if (present(number)) number = size(spans)
-        do k = 1, min(int(capacity), size(spans))
-            if (present(foundation)) foundation(k) = spans(k)%foundation - 1
-            if (present(from)) from(k) = spans(k)%from
-            if (present(to)) to(k) = spans(k)%to
-            if (present(sag)) sag(k) = spans(k)%sag
-        end do
+        n = min(int(capacity), size(spans))
+        if (present(foundation)) foundation(1:n) = spans(:n)%foundation - 1
+        if (present(from)) from(1:n) = spans(:n)%from
+        if (present(to)) to(1:n) = spans(:n)%to
+        if (present(sag)) sag(1:n) = spans(:n)%sag
     end function c_get_free_spans
 
     !> See the header

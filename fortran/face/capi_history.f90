@@ -50,9 +50,8 @@ contains
     !> See the header
     subroutine c_free_history(history) bind(c, name="gapbeam_free_history")
         type(c_ptr), intent(in), value :: history
-        logical :: freed
 
-        call free_handle(history, freed, history_tag)
+        call free_handle(history, history_tag)
     end subroutine c_free_history
 
     !> See the header
@@ -67,15 +66,13 @@ contains
         if (.not. present(info)) return
         status = gapbeam_other_version
         if (info%size /= c_sizeof(info)) return
-        status = gapbeam_not_prepared
-        call find_handle(history, history_tag, handle)
-        if (.not. associated(handle)) return
+        call find_handle(history, history_tag, handle, status)
+        if (status /= gapbeam_solved) return
         associate (h => handle%history)
             nodes = 0
             if (allocated(h%motion)) nodes = size(h%motion)
             info = c_history_info(info%size, size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, nodes)
         end associate
-        status = gapbeam_solved
     end function c_get_history_info
 
     !> See the header
@@ -86,24 +83,19 @@ contains
         integer(c_int), intent(inout), optional :: leg(*), direction(*), stable(*), index(*), ways(*), skipped(*)
         integer(c_int) :: status
         type(handle_type), pointer :: handle
-        integer :: k
 
-        status = gapbeam_not_prepared
-        call find_handle(history, history_tag, handle)
-        if (.not. associated(handle)) return
-        do k = 1, size(handle%history%stretches)
-            associate (s => handle%history%stretches(k))
-                if (present(from)) from(k) = s%from
-                if (present(to)) to(k) = s%to
-                if (present(leg)) leg(k) = s%leg - 1
-                if (present(direction)) direction(k) = s%direction
-                if (present(stable)) stable(k) = merge(1, 0, s%stable)
-                if (present(index)) index(k) = s%index
-                if (present(ways)) ways(k) = s%ways
-                if (present(skipped)) skipped(k) = merge(1, 0, s%skipped)
-            end associate
-        end do
-        status = gapbeam_solved
+        call find_handle(history, history_tag, handle, status)
+        if (status /= gapbeam_solved) return
+        associate (s => handle%history%stretches, n => size(handle%history%stretches))
+            if (present(from)) from(1:n) = s%from
+            if (present(to)) to(1:n) = s%to
+            if (present(leg)) leg(1:n) = s%leg - 1
+            if (present(direction)) direction(1:n) = s%direction
+            if (present(stable)) stable(1:n) = merge(1, 0, s%stable)
+            if (present(index)) index(1:n) = s%index
+            if (present(ways)) ways(1:n) = s%ways
+            if (present(skipped)) skipped(1:n) = merge(1, 0, s%skipped)
+        end associate
     end function c_get_stretches
 
     !> See the header
@@ -113,21 +105,16 @@ contains
         integer(c_int), intent(inout), optional :: support(*), condition(*), change(*), stretch(*)
         integer(c_int) :: status
         type(handle_type), pointer :: handle
-        integer :: k
 
-        status = gapbeam_not_prepared
-        call find_handle(history, history_tag, handle)
-        if (.not. associated(handle)) return
-        do k = 1, size(handle%history%events)
-            associate (event => handle%history%events(k))
-                if (present(factor)) factor(k) = event%factor
-                if (present(support)) support(k) = event%support - 1
-                if (present(condition)) condition(k) = event%state
-                if (present(change)) change(k) = event%change
-                if (present(stretch)) stretch(k) = event%stretch - 1
-            end associate
-        end do
-        status = gapbeam_solved
+        call find_handle(history, history_tag, handle, status)
+        if (status /= gapbeam_solved) return
+        associate (events => handle%history%events, n => size(handle%history%events))
+            if (present(factor)) factor(1:n) = events%factor
+            if (present(support)) support(1:n) = events%support - 1
+            if (present(condition)) condition(1:n) = events%state
+            if (present(change)) change(1:n) = events%change
+            if (present(stretch)) stretch(1:n) = events%stretch - 1
+        end associate
     end function c_get_events
 
     !> See the header
@@ -137,21 +124,16 @@ contains
         integer(c_int), intent(inout), optional :: kind(*), leg(*), stretch(*), landing(*)
         integer(c_int) :: status
         type(handle_type), pointer :: handle
-        integer :: k
 
-        status = gapbeam_not_prepared
-        call find_handle(history, history_tag, handle)
-        if (.not. associated(handle)) return
-        do k = 1, size(handle%history%limits)
-            associate (limit => handle%history%limits(k))
-                if (present(factor)) factor(k) = limit%factor
-                if (present(kind)) kind(k) = limit%kind
-                if (present(leg)) leg(k) = limit%leg - 1
-                if (present(stretch)) stretch(k) = limit%stretch - 1
-                if (present(landing)) landing(k) = limit%landing - 1
-            end associate
-        end do
-        status = gapbeam_solved
+        call find_handle(history, history_tag, handle, status)
+        if (status /= gapbeam_solved) return
+        associate (limits => handle%history%limits, n => size(handle%history%limits))
+            if (present(factor)) factor(1:n) = limits%factor
+            if (present(kind)) kind(1:n) = limits%kind
+            if (present(leg)) leg(1:n) = limits%leg - 1
+            if (present(stretch)) stretch(1:n) = limits%stretch - 1
+            if (present(landing)) landing(1:n) = limits%landing - 1
+        end associate
     end function c_get_limits
 
     !> See the header
@@ -161,14 +143,12 @@ contains
         integer(c_int) :: status
         type(handle_type), pointer :: handle
 
-        status = gapbeam_not_prepared
-        call find_handle(history, history_tag, handle)
-        if (.not. associated(handle)) return
+        call find_handle(history, history_tag, handle, status)
+        if (status /= gapbeam_solved) return
         associate (h => handle%history)
             if (present(stretches)) stretches(1:size(h%stretches)) = merge(1, 0, h%stretches%exact)
             if (present(limits)) limits(1:size(h%limits)) = merge(1, 0, h%limits%exact)
         end associate
-        status = gapbeam_solved
     end function c_get_exact
 
     !> See the header

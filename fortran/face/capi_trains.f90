@@ -57,9 +57,8 @@ contains
     !> See the header
     subroutine c_free_passing(passing) bind(c, name="gapbeam_free_passing")
         type(c_ptr), intent(in), value :: passing
-        logical :: freed
 
-        call free_handle(passing, freed, passing_tag)
+        call free_handle(passing, passing_tag)
     end subroutine c_free_passing
 
     !> See the header
@@ -72,21 +71,16 @@ contains
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
         type(handle_type), pointer :: handle
-        integer :: k
 
-        status = gapbeam_not_prepared
-        call find_handle(passing, passing_tag, handle)
-        if (.not. associated(handle)) return
-        associate (events => handle%passing%events)
+        call find_handle(passing, passing_tag, handle, status)
+        if (status /= gapbeam_solved) return
+        associate (events => handle%passing%events, n => min(int(capacity), size(handle%passing%events)))
             if (present(number)) number = size(events)
-            do k = 1, min(int(capacity), size(events))
-                if (present(position)) position(k) = events(k)%position
-                if (present(support)) support(k) = events(k)%support - 1
-                if (present(condition)) condition(k) = events(k)%state
-                if (present(change)) change(k) = events(k)%change
-            end do
+            if (present(position)) position(1:n) = events(:n)%position
+            if (present(support)) support(1:n) = events(:n)%support - 1
+            if (present(condition)) condition(1:n) = events(:n)%state
+            if (present(change)) change(1:n) = events(:n)%change
         end associate
-        status = gapbeam_solved
     end function c_get_train_events
 
     !> See the header
@@ -99,20 +93,15 @@ contains
         integer(c_int), intent(inout), optional :: number
         integer(c_int) :: status
         type(handle_type), pointer :: handle
-        integer :: k
 
-        status = gapbeam_not_prepared
-        call find_handle(passing, passing_tag, handle)
-        if (.not. associated(handle)) return
-        associate (gaps => handle%passing%gaps)
+        call find_handle(passing, passing_tag, handle, status)
+        if (status /= gapbeam_solved) return
+        associate (gaps => handle%passing%gaps, n => min(int(capacity), size(handle%passing%gaps)))
             if (present(number)) number = size(gaps)
-            do k = 1, min(int(capacity), size(gaps))
-                if (present(from)) from(k) = gaps(k)%from
-                if (present(to)) to(k) = gaps(k)%to
-                if (present(reason)) reason(k) = gaps(k)%reason
-            end do
+            if (present(from)) from(1:n) = gaps(:n)%from
+            if (present(to)) to(1:n) = gaps(:n)%to
+            if (present(reason)) reason(1:n) = gaps(:n)%reason
         end associate
-        status = gapbeam_solved
     end function c_get_train_gaps
 
     !> See the header

@@ -142,7 +142,7 @@ subroutine ghfree(handle, info)
     integer, intent(out) :: info
     logical :: freed
 
-    call free_handle(address_numbered(handle), freed)
+    call free_handle(address_numbered(handle), freed=freed)
     info = merge(0, -1, freed)
     if (freed) handle = 0
 end subroutine ghfree

@@ -2,8 +2,8 @@
 !> an object that begins with a tag; no table of handles is kept
 module gapbeam_handles
     use, intrinsic :: iso_fortran_env, only: int64
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer, c_null_ptr
-    use gapbeam_error, only: error_type, no_memory
+    use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_intptr_t, c_loc, c_f_pointer, c_null_ptr
+    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_prepared
     use gapbeam_watch, only: watch_type
     use gapbeam_element, only: field_type
     use gapbeam_cases, only: case_loads_type
@@ -41,16 +41,20 @@ module gapbeam_handles
 contains
 
     !> Find what is behind a handle
-    subroutine find_handle(address, tag, handle)
+    subroutine find_handle(address, tag, handle, status)
         type(c_ptr), intent(in) :: address
         !> What there has to be
         integer(int64), intent(in) :: tag
         !> Null where there is none
         type(handle_type), pointer, intent(out) :: handle
+        !> gapbeam_not_prepared there, else gapbeam_solved
+        integer(c_int), intent(out), optional :: status
 
         handle => handle_at(address)
-        if (.not. associated(handle)) return
-        if (handle%tag /= tag) nullify (handle)
+        if (associated(handle)) then
+            if (handle%tag /= tag) nullify (handle)
+        end if
+        if (present(status)) status = merge(gapbeam_solved, gapbeam_not_prepared, associated(handle))
     end subroutine find_handle
 
     !> What is at an address; null where nothing of the library can be. Where there is no memory at all it cannot be told
@@ -68,20 +72,21 @@ contains
     end function handle_at
 
     !> Free the object behind a handle
-    subroutine free_handle(address, freed, only)
+    subroutine free_handle(address, only, freed)
         type(c_ptr), intent(in) :: address
-        !> Was it a handle
-        logical, intent(out) :: freed
         !> Tag that it must have; default any
         integer(int64), intent(in), optional :: only
+        !> Was it a handle
+        logical, intent(out), optional :: freed
         type(handle_type), pointer :: handle
+        logical :: is_one
 
         handle => handle_at(address)
-        freed = associated(handle)
-        if (.not. freed) return
-        freed = handle%tag >= beam_tag .and. handle%tag <= fields_tag
-        if (present(only)) freed = handle%tag == only
-        if (.not. freed) return
+        is_one = associated(handle)
+        if (is_one) is_one = handle%tag >= beam_tag .and. handle%tag <= fields_tag
+        if (is_one .and. present(only)) is_one = handle%tag == only
+        if (present(freed)) freed = is_one
+        if (.not. is_one) return
         ! The tag is gone before the memory is, should somebody keep the address
         handle%tag = 0
         call dispose(handle)

@@ -111,9 +111,8 @@ subroutine gbdrop(handle)
     use gapbeam_handles, only: free_handle, address_numbered
     implicit none
     integer(8), intent(in) :: handle
-    logical :: freed
 
-    call free_handle(address_numbered(handle), freed)
+    call free_handle(address_numbered(handle))
 end subroutine gbdrop
 
 ! Another beam: the loads of a case, all live, each times its factor, and nothing dead

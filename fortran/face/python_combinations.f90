@@ -3,9 +3,9 @@
 ! Solve NC combinations of loads at full load; one that is not solved has values that are not numbers, and its code as STATUS
 subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, ne, factor, settle, supp, span, modul, rule, closed, piece, dist, &
                   value, extr, place, field, solves, status)
-    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+    use gapbeam_kinds, only: not_a_number
     use gapbeam_python_handles, only: error_type, handle_type, behind
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: has_ended, gapbeam_solved
     use gapbeam_solution, only: state_type
     use gapbeam_combinations, only: combination_type, varied_type, combine, solve_combination, values_of_combination
     use gapbeam_search, only: rule_block
@@ -44,15 +44,13 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, ne, factor, settle, 
     type(varied_type) :: varied
     type(state_type) :: state
     type(error_type), allocatable :: error
-    double precision :: nan
     integer :: i, found(nc)
 
     handle => behind(beam)
-    nan = ieee_value(nan, ieee_quiet_nan)
-    value = nan
-    extr = nan
-    place = nan
-    field = nan
+    value = not_a_number
+    extr = not_a_number
+    place = not_a_number
+    field = not_a_number
     solves = 0
     found = 0
     if (rule == rule_block .and. np == 1 .and. nf == 1 .and. fits_lanes(handle%beam%lowered)) then
@@ -78,12 +76,12 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, ne, factor, settle, 
         end if
         if (.not. allocated(error)) cycle
         status(i) = error%code
-        value(:, :, i) = nan
-        extr(:, :, i) = nan
-        place(:, :, i) = nan
-        field(:, :, i) = nan
+        value(:, :, i) = not_a_number
+        extr(:, :, i) = not_a_number
+        place(:, :, i) = not_a_number
+        field(:, :, i) = not_a_number
         closed(:, i) = 0
-        if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) then
+        if (has_ended(error)) then
             status(i:) = error%code
             return
         end if

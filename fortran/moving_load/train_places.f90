@@ -5,6 +5,7 @@ module gapbeam_train_places
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_quantities, only: bending_count
+    use gapbeam_stations, only: sort_stations
     use gapbeam_train, only: track_type
     use gapbeam_train_samples, only: powers_along
     implicit none
@@ -37,15 +38,14 @@ contains
         type(places_type), intent(out) :: places
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: n, q, j
+        integer :: work(size(piece)), n, q, j
 
         n = size(piece)
         allocate (places%given(n), places%first(size(track%link) + 1), places%x(n), places%distance(n), &
                   places%reached(n, bending_count, 2), places%threshold(n, bending_count, 2), places%ends(n, bending_count, 2), &
                   places%excess(n), stat=stat)
         if (stat /= 0) return
-        places%given(:) = [(q, q=1, n)]
-        call sort(piece, distance, places%given)
+        call sort_stations(piece, distance, places%given, work)
         places%x(:) = [(track%x(piece(places%given(q)) - 1) + distance(places%given(q)), q=1, n)]
         places%distance(:) = distance(places%given)*to_length
         places%reached(:, :, :) = -huge(1.0_wp)
@@ -58,42 +58,6 @@ contains
             places%first(j) = q
         end do
     end subroutine new_places
-
-    !> Sort places by pieces and distances (Shell 1959)
-    pure subroutine sort(piece, distance, order)
-        integer, intent(in) :: piece(:)
-        real(wp), intent(in) :: distance(:)
-        !> Their numbers
-        integer, intent(inout) :: order(:)
-        integer :: step, i, j, this
-
-        step = size(order)/2
-        do while (step > 0)
-            do i = step + 1, size(order)
-                this = order(i)
-                j = i
-                do while (j > step)
-                    if (.not. is_before(this, order(j - step))) exit
-                    order(j) = order(j - step)
-                    j = j - step
-                end do
-                order(j) = this
-            end do
-            step = step/2
-        end do
-
-    contains
-
-        !> Is one place left of another
-        pure function is_before(a, b)
-            integer, intent(in) :: a, b
-            logical :: is_before
-
-            is_before = piece(a) < piece(b)
-            if (piece(a) == piece(b)) is_before = distance(a) < distance(b)
-        end function is_before
-
-    end subroutine sort
 
     !> Fields at places in a cell
     pure subroutine values_along(a, p, q, from, first, last, which, places)

@@ -19,7 +19,7 @@ module gapbeam_train_problem
     use gapbeam_train_changes, only: list_changes_between, measure_support
     implicit none
     private
-    public :: train_problem_type, position_type, crossing_type, new_train_problem, add_state, share_apart
+    public :: train_problem_type, position_type, crossing_type, new_train_problem, add_state, append
 
     !> Positions nearer to each other than this share of the beam are neighbours
     real(wp), parameter :: neighbours = 2.0_wp**(-45)

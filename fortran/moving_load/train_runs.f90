@@ -18,7 +18,7 @@ module gapbeam_train_runs
     use gapbeam_train_on_beam, only: acting_axles
     use gapbeam_train_grid, only: find_borders, find_parts, ends_of_ground
     use gapbeam_train_states, only: kept_type, box_type, alike
-    use gapbeam_train_problem, only: train_problem_type, position_type, crossing_type, new_train_problem, add_state
+    use gapbeam_train_problem, only: train_problem_type, position_type, crossing_type, new_train_problem, add_state, append
     implicit none
     private
     public :: run_type, lost_type, runs_type, follow_train_on_ground
@@ -142,9 +142,7 @@ contains
                 call add_to_way(position)
             else if (problem%length > cells(size(cells))) then
                 cells = [cells, problem%length + 1]
-                problem%length = problem%length + 1
-                if (problem%length > size(problem%way)) problem%way = [problem%way, problem%way]
-                problem%way(problem%length) = problem%way(problem%length - 1)
+                call append(problem, (problem%way(problem%length)), error)
             end if
         end subroutine begin_cell
 
@@ -156,10 +154,7 @@ contains
             near = 0
             if (problem%length > 0) near = problem%way(problem%length)
             call add_state(problem, position, new, error, max(near, 0))
-            if (allocated(error)) return
-            problem%length = problem%length + 1
-            if (problem%length > size(problem%way)) problem%way = [problem%way, problem%way]
-            problem%way(problem%length) = new
+            if (.not. allocated(error)) call append(problem, new, error)
         end subroutine add_to_way
 
     end subroutine walk_cells

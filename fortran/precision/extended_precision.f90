@@ -7,8 +7,7 @@
 module gapbeam_extended_precision
     use gapbeam_kinds, only: wp, qp
     use gapbeam_tolerances, only: sign_width, worst_digits, worst_correction, most_left_out, most_hidden, given_leeway
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped, gapbeam_indeterminate, &
-        gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_memory, only: reserve_memory, for_refining
     use gapbeam_law, only: always_closed, has_laws
     use gapbeam_model, only: beam_type
@@ -118,7 +117,7 @@ contains
         end if
         call find_contact_state(beam, factor, merge(rule_block, rule, rule == rule_given), closed, work, outcome, error)
         if (allocated(error)) then
-            if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+            if (has_ended(error)) return
             in_doubt = .true.
         else if (outcome%status == gapbeam_solved) then
             call find_doubtful(beam, closed, work, undecided, in_doubt)
@@ -205,10 +204,8 @@ contains
             same = .not. allocated(error) .and. outcome%status == gapbeam_solved .and. outcome%indifferent
             if (same) same = all((found .eqv. closed) .or. undecided)
             if (same) return
-            if (allocated(error)) then
-                if (error%code == gapbeam_no_memory) return
-                deallocate (error)
-            end if
+            if (has_ended(error)) return
+            if (allocated(error)) deallocate (error)
             call fatal_error(error, gapbeam_not_converged, "the beam is held by so little here that its state is not unique")
             return
         end if

@@ -7,8 +7,8 @@ module gapbeam_ground_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_limits, only: last_try, last_if_tied, most_edge_nodes, most_stiffer
     use gapbeam_tolerances, only: movement_safety, nearly_settled, fine_ends, movable_ends, no_displacement, rough
-    use gapbeam_error, only: error_type, fatal_error, out_of_range, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
-        gapbeam_not_finite, gapbeam_no_memory, gapbeam_indeterminate, gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, out_of_range, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_not_converged, gapbeam_not_finite, gapbeam_indeterminate
     use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_memory, only: reserve_memory, for_solving, for_ground
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
@@ -91,7 +91,7 @@ contains
             zones = near%zones
             call settle(.true., ends)
             if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
+                if (has_ended(error)) return
                 deallocate (error)
             else if (ends) then
                 return
@@ -119,9 +119,7 @@ contains
                 ! What Newton's method does not find from full contact may be too much to be borne
                 if (first == 0 .or. try > 1) call weigh()
                 if (.not. allocated(error)) call solve_on_mesh()
-                if (allocated(error)) then
-                    if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
-                end if
+                if (has_ended(error)) return
                 if (allocated(error) .or. outcome%status /= gapbeam_solved) call weigh()
                 if (collapses) then
                     if (allocated(error)) deallocate (error)
@@ -187,7 +185,7 @@ contains
             solution%solves = solution%solves + work%solves
             if (allocated(error)) then
                 ! Supports that hold both ways are as many on any zones
-                ends = any(error%code == [gapbeam_no_memory, gapbeam_stopped]) &
+                ends = has_ended(error) &
                     .or. error%code == gapbeam_indeterminate .and. all(ground%beam%supports%side == both)
                 return
             end if

@@ -6,8 +6,7 @@ module gapbeam_rigid_solver
     use gapbeam_kinds, only: wp, qp
     use gapbeam_limits, only: most_rigid_meshes
     use gapbeam_tolerances, only: rigid_places, fine_rigid_places
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, &
-        gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_ground, only: ground_type, grounded_type
@@ -64,18 +63,14 @@ contains
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
             rigid%contacts = contacts
             call settle_contacts(ground, factor, rule, rigid_places, rigid, closed, outcome, settled, error)
-            if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
-                cycle
-            end if
+            if (has_ended(error)) return
+            if (allocated(error)) cycle
             if (.not. settled .or. outcome%status /= gapbeam_solved) cycle
             call refine_contacts(straight, rigid, fine_rigid)
             call settle_fine_contacts(straight, real(factor, qp), rule, fine_rigid_places, fine_rigid, closed, found, settled, &
                                       error)
-            if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
-                cycle
-            end if
+            if (has_ended(error)) return
+            if (allocated(error)) cycle
             if (.not. settled .or. found%status /= gapbeam_solved) cycle
             solution%solves = rigid%solves + fine_rigid%solves
             outcome = outcome_type(indifferent=found%indifferent)

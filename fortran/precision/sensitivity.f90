@@ -46,7 +46,6 @@ contains
         type(workspace_type), intent(inout) :: work
         type(sensitivity_type), intent(out) :: sensitivity
         integer :: state, place, i, n
-        real(wp) :: compatibility, equilibrium
 
         n = size(beam%links)
         state = band_needs_pivoting
@@ -54,8 +53,7 @@ contains
         if (state == band_mechanism) return
         sensitivity%known = .true.
         sensitivity%pivoting = state == band_needs_pivoting
-        call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, work%sizes, &
-                            compatibility, equilibrium)
+        call residual_chain(work%nodes(0:n), beam%links, work%rhs(0:n), work%answers(0:n), work%eliminated, work%sizes)
         call add_load_sizes(beam, factor, work)
         call add_couple_sizes(beam, factor, work, sensitivity)
         allocate (sensitivity%weight(4, 0:n))

@@ -2,8 +2,8 @@
 module gapbeam_state
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
-        gapbeam_not_finite, gapbeam_not_converged, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_buckles, gapbeam_not_finite, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
@@ -141,9 +141,7 @@ contains
             call check_tensions(assembled, ground, error)
             if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
             if (allocated(state%ground)) solves = solves + state%ground%solves
-            if (allocated(error)) then
-                if (any(error%code == [gapbeam_no_memory, gapbeam_stopped])) return
-            end if
+            if (has_ended(error)) return
             if (.not. allocated(error) .and. state%status == gapbeam_solved) then
                 call guess_stretching(stretching, lengthening(assembled, state%ground))
             else

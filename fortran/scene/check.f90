@@ -59,7 +59,6 @@ contains
 
     !> Lengths beside each other, hinges, sections and supports, each alone
     subroutine check_rest(model, with_law, ends, error)
-        use, intrinsic :: ieee_arithmetic, only: ieee_is_finite   ! see infinity of gapbeam_units
         !> With all arrays allocated
         type(model_type), intent(in) :: model
         !> Which supports have a law
@@ -70,7 +69,7 @@ contains
         integer :: i, n
 
         n = ubound(ends, 1)
-        if (.not. ieee_is_finite(ends(n))) then
+        if (.not. ends(n) <= huge(ends)) then
             call refuse(error, of_spans, n, n, too_long, "", "the beam is too long for the range of numbers")
             return
         end if
@@ -374,15 +373,6 @@ contains
         if (.not. (allocated(error) .or. not_given(to))) call check_inside(to, "to", here, end, error)
     end subroutine check_stretch
 
-    !> Is it no number
-    pure function is_nan(x) result(yes)
-        use, intrinsic :: ieee_arithmetic, only: ieee_is_nan   ! see infinity of gapbeam_units
-        real(wp), intent(in) :: x
-        logical :: yes
-
-        yes = ieee_is_nan(x)
-    end function is_nan
-
     !> Refuse a place off the beam, by more than rounding
     pure subroutine check_inside(x, key, here, end, error)
         real(wp), intent(in) :: x
@@ -392,7 +382,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (x >= -end_tolerance*end .and. x <= end + end_tolerance*end) return
-        call refuse_entry(error, here, key, merge(not_expected, off_beam, is_nan(x)), &
+        call refuse_entry(error, here, key, merge(off_beam, not_expected, abs(x) >= 0.0_wp), &
                     trim(shown(x))//" is outside the beam, which runs from x = 0 to x = "//shown(end))
         error%message = trim(error%message)
     end subroutine check_inside

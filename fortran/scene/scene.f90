@@ -3,8 +3,7 @@
 !> Units: any consistent set. Signs: x from the left end to the right; deflections, settlements and loads positive down,
 !> reactions up, moments sagging, couples and rotations clockwise; axial forces on the beam to the right, inside it tension.
 module gapbeam_scene
-    use, intrinsic :: iso_fortran_env, only: int64
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, gapbeam_infinity => infinity
     use gapbeam_laws, only: gapbeam_law_by_points => law_by_points, gapbeam_law_plastic => law_plastic, &
         gapbeam_law_hardening => law_hardening, gapbeam_law_hyperbolic => law_hyperbolic, gapbeam_law_tanh => law_tanh, &
         gapbeam_law_cubic => law_cubic, gapbeam_law_power => law_power, gapbeam_law_brittle => law_brittle, parameters_of_law
@@ -25,8 +24,6 @@ module gapbeam_scene
     public :: gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
               gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle
 
-    !> Infinity: a rigid support, a rigid beam
-    real(wp), parameter :: gapbeam_infinity = transfer(int(z"7FF0000000000000", int64), 1.0_wp)
     !> Instead of a node: the place is given by x
     integer, parameter :: gapbeam_by_x = -1
     !> Sides of a support or foundation: holds the beam both ways, pushes it up only, pushes it down only

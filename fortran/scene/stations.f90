@@ -12,7 +12,7 @@ module gapbeam_stations
     use gapbeam_scene, only: span_type
     implicit none
     private
-    public :: place_span_ends, locate, merge_stations
+    public :: place_span_ends, locate, merge_stations, sort_stations
 
 contains
 

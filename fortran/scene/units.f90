@@ -3,7 +3,7 @@
 !> Lengths along the beam, forces and deflections have a unit each: the equations are linear, so deflections need not have the
 !> unit of the lengths. python/gapbeam/units.py does the same for scenes.
 module gapbeam_units
-    use gapbeam_kinds, only: wp
+    use gapbeam_kinds, only: wp, infinity
     use gapbeam_quantities, only: quantity_units
     implicit none
     private
@@ -145,18 +145,9 @@ contains
         if (bound <= huge(bound)) then
             outside = scale(bound, power)
         else
-            outside = infinity()
+            outside = infinity
         end if
         if (power /= 0 .and. bound > 0.0_wp .and. outside < tiny(outside)) outside = nearest(outside, 1.0_wp)
     end function bound_outside
-
-    !> Beyond all numbers. Whatever uses a module that uses ieee_arithmetic, outside of modules, saves the processor's state each
-    !> time it is called: so not this module, for the sake of calls from Python
-    pure function infinity() result(value)
-        use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
-        real(wp) :: value
-
-        value = ieee_value(value, ieee_positive_inf)
-    end function infinity
 
 end module gapbeam_units

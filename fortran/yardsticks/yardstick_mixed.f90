@@ -99,7 +99,6 @@ contains
         logical, intent(in) :: closed(0:)
         type(answer_type), intent(in) :: answer
         integer, intent(out) :: status
-        real(wp) :: compatibility, equilibrium
         integer :: n, info, step, i
 
         status = solved
@@ -108,8 +107,7 @@ contains
         do step = 1, self%refinements
             if (self%precise) then
                 if (self%by_lapack) call put_solution(self, answer)
-                call residual_chain(self%nodes, self%links, self%rhs, self%solution, self%eliminated, self%sizes, &
-                                    compatibility, equilibrium)
+                call residual_chain(self%nodes, self%links, self%rhs, self%solution, self%eliminated, self%sizes)
             else
                 if (.not. allocated(self%b)) allocate (self%b(2*(n + 1), 1))
                 call residual(beam, closed, answer, self%b)

@@ -19,9 +19,6 @@ AXIAL, ROTATIONAL, RELATIVE = 1, (2, 4, 5), 3
 class Curve(Protocol):
     """A smooth law."""
 
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope at a displacement past the gap, 0 or more."""
-
     def scale(self) -> float:
         """Give a displacement that is typical of the law."""
 

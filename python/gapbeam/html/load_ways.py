@@ -156,7 +156,7 @@ def way_of_load(result: Result, words: list[str], together: int) -> dict[str, An
         return {"over": over, "axis": "load factor", "states": way.states, **way.to_dict(), "events": []}
     _follow(way, result, -(-together // MOST_NUMBERS))
     exact = is_exact(result)
-    events = _events(result, way)
+    events = _events(result)
     return {"over": "path" if exact else "states", "axis": "load factor", "states": way.states, **way.to_dict(), "events": events,
             "left_out": way.left_out, "short": short}  # fmt: skip
 
@@ -222,7 +222,7 @@ def _curved(way: Way, at: Callable[[float], Step], along: float, length: float, 
         way.interval(places[k], places[k + 1], numbers[k : k + 2], found[k][1] if k else found[k + 1][1], leg)
 
 
-def _events(result: Result, way: Way) -> list[dict[str, Any]]:
+def _events(result: Result) -> list[dict[str, Any]]:
     """Give the events of a path, each at its place on the slider, in words."""
     scene, found = result.scene, []
     on_path = isinstance(result.path, BranchPath)

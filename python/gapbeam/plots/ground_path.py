@@ -93,15 +93,13 @@ def draw_zones(axes: Axes, result: Result, stretches: Sequence[Sequence[Step]]) 
     axes.yaxis.set_major_locator(MaxNLocator(6))
 
 
-def draw_extremes(axes: Axes, result: Result, states: Sequence[Step], dots: bool) -> None:
+def draw_extremes(axes: Axes, states: Sequence[Step], dots: bool) -> None:
     """Draw the largest and the smallest deflection of the beam over the load factor.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
         The panel.
-    result : Result
-        Of a beam on the ground.
     states : sequence of Step
         By rising load factor.
     dots : bool

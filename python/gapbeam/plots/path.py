@@ -129,7 +129,7 @@ def path_figure(result: Result) -> Figure:
         elif name == ZONES:
             draw_zones(axes, result, stretches)
         else:
-            draw_extremes(axes, result, states, dots)
+            draw_extremes(axes, states, dots)
         unit, factor = fmt.shown_unit(scene, name)
         words = {"x": "x of contact", "opening": "opening"}.get(name) or f"{name}, {positive(scene, name)}"
         _frame(axes, fmt.heading(words, unit), last=not above)

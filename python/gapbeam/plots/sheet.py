@@ -74,11 +74,11 @@ class Sheet:
         axes.set_axis_off()
         self.sketch.set_ylim(bottom, top)
 
-    def write_heading(self, text: str, handles: list[Line2D], without: str = "Beam") -> None:
+    def write_heading(self, text: str, handles: list[Line2D]) -> None:
         """Write title and text, and the legend beside or under them."""
         rows = legend_rows(text, handles)
         left = LEFT / self.width * 0.25
-        self.picture.text(left, 1 - 0.22 / self.height, cut_text(fmt.title(self.scene, without), 95), fontsize=10,
+        self.picture.text(left, 1 - 0.22 / self.height, cut_text(fmt.title(self.scene, "Beam"), 95), fontsize=10,
                           fontweight="bold", va="center")  # fmt: skip
         self.picture.text(left, 1 - 0.34 / self.height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
         if handles:

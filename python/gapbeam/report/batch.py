@@ -48,20 +48,18 @@ def print_summary(summary: "Summary", console: "Console | None" = None) -> None:
         say.table_by_name(["", "limit", "cases", "share"], above)
 
 
-def summary_text(summary: "Summary", width: int = 80) -> str:
+def summary_text(summary: "Summary") -> str:
     """Write the summary to a string without colours.
 
     Parameters
     ----------
     summary : Summary
         From `Batch.summary`.
-    width : int
-        Characters a line.
     """
     from rich.console import Console
 
     stream = io.StringIO()
-    print_summary(summary, Console(file=stream, width=width, highlight=False, color_system=None))
+    print_summary(summary, Console(file=stream, width=80, highlight=False, color_system=None))
     return stream.getvalue()
 
 

@@ -166,7 +166,7 @@ def plan_combinations(scene: Scene, placed: Mapping[int, Sequence[Placement]] | 
             names.append(name)
             factors.append(row)
             origin.append(i)
-    _check_expanded(scene, names, origin)
+    _check_expanded(names, origin)
     table = np.array(factors).reshape(len(names), len(case_of_load))
     movements = np.zeros((len(scene.combinations), len(scene.supports)))
     for i, combination in enumerate(scene.combinations):
@@ -277,7 +277,7 @@ def _patterns(
         yield f"{combination.name} [{'; '.join(word for word, _, _ in chosen)}]", row + 0.0
 
 
-def _check_expanded(scene: Scene, names: list[str], origin: list[int]) -> None:
+def _check_expanded(names: list[str], origin: list[int]) -> None:
     """Names of patterns must not be names of others."""
     seen: dict[str, int] = {}
     for name, i in zip(names, origin, strict=True):

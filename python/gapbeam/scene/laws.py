@@ -78,10 +78,6 @@ class _Curve(_Law):
         """Give a displacement that is typical of the law."""
         return self.values(0.0).scale
 
-    def force_and_slope(self, d: float) -> tuple[float, float]:
-        """Give force and slope at a displacement, 0 or more."""
-        return self.values(d)[:2]
-
 
 class CubicLaw(_Curve, tag="cubic"):
     """Force = k1*d + k2*d^2 + k3*d^3.

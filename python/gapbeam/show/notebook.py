@@ -72,22 +72,20 @@ def html_of_lines(lines: list[str], table: Columns | None, picture: Callable[[],
     return f"<div>{''.join(parts)}</div>"
 
 
-def html_table(table: Columns, names: tuple[str, ...] = SHOWN) -> str:
+def html_table(table: Columns) -> str:
     """Write some columns of a table as HTML.
 
     Parameters
     ----------
     table : Columns
         The table.
-    names : tuple of str
-        Columns that are written, as far as they are there.
 
     Returns
     -------
     str
         Its first rows.
     """
-    chosen = Columns({name: table[name] for name in names if name in table})
+    chosen = Columns({name: table[name] for name in SHOWN if name in table})
     head = "".join(f"<th>{escape(name)}</th>" for name in chosen)
     rows = "".join(f"<tr>{''.join(f'<td>{escape(word)}</td>' for word in row)}</tr>" for row in chosen.rows(MOST_ROWS))
     more = f"<p>{chosen.count - MOST_ROWS:,} more rows</p>" if chosen.count > MOST_ROWS else ""

@@ -3,11 +3,11 @@ program test_foundation
     use testing, only: check, check_close, finish
     use gapbeam_kinds, only: wp, qp
     use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, stretch_ends_type, &
-        condense_stretch, load_stretch, decay_lengths
+        condense_loaded, decay_lengths
     use gapbeam_foundation_fields, only: fields_at
     use gapbeam_foundation_quad, only: stretch_quad => stretch_type, load_quad => stretch_load_type, &
         link_quad => stretch_link_type, ends_quad => stretch_ends_type, &
-        condense_quad => condense_stretch, loads_quad => load_stretch
+        condense_quad => condense_loaded
     use gapbeam_foundation_fields_quad, only: fields_quad => fields_at
     implicit none
     integer :: status
@@ -42,20 +42,20 @@ contains
         s = stretch_type(x(5), x(1), x(2), x(3), x(4))
         s4 = stretch_quad(stretch(5), stretch(1), stretch(2), stretch(3), stretch(4))
         theta = decay_lengths(s)
-        call condense_stretch(s, l)
+        call condense_loaded(s, [stretch_load_type(load(1), load(2), load(3), load(4))], l, found(11:11), found(12:12), &
+                             found(13:13), found(14:14))
         found(1:10) = [l%pa, l%pb, l%p1, l%p2, l%faa, l%fab, l%fbb, l%gaa, l%gab, l%gbb]
         sums = [l%df, l%dg, l%dh, l%s1, l%s2, l%s3, l%s4, l%s5]
-        call load_stretch(s, stretch_load_type(load(1), load(2), load(3), load(4)), found(11), found(12), found(13), found(14))
         call fields_at(s, stretch_load_type(load(1), load(2), load(3), load(4)), &
                        stretch_ends_type(ends(1), ends(2), ends(3), ends(4)), real(xi4(1), wp), &
                        found(15), found(16), found(17), found(18))
         call fields_at(s, stretch_load_type(load(1), load(2), load(3), load(4)), &
                        stretch_ends_type(ends(1), ends(2), ends(3), ends(4)), real(xi4(2), wp), &
                        found(19), found(20), found(21), found(22))
-        call condense_quad(s4, l4)
+        call condense_quad(s4, [load_quad(load4(1), load4(2), load4(3), load4(4))], l4, found4(11:11), found4(12:12), &
+                           found4(13:13), found4(14:14))
         found4(1:10) = [l4%pa, l4%pb, l4%p1, l4%p2, l4%faa, l4%fab, l4%fbb, l4%gaa, l4%gab, l4%gbb]
         sums4 = [l4%df, l4%dg, l4%dh, l4%s1, l4%s2, l4%s3, l4%s4, l4%s5]
-        call loads_quad(s4, load_quad(load4(1), load4(2), load4(3), load4(4)), found4(11), found4(12), found4(13), found4(14))
         call fields_quad(s4, load_quad(load4(1), load4(2), load4(3), load4(4)), &
                          ends_quad(ends4(1), ends4(2), ends4(3), ends4(4)), xi4(1), &
                          found4(15), found4(16), found4(17), found4(18))
@@ -91,10 +91,10 @@ contains
     subroutine half_infinite()
         type(stretch_link_type) :: link
         real(wp), parameter :: ei = 0.8_wp, beta = 1.25_wp
-        real(wp) :: w, psi, moment, shear
+        real(wp) :: none(0), w, psi, moment, shear
 
         associate (s => stretch_type(length=8000.0_wp, flexibility=1/ei, modulus_a=4*ei*beta**4, modulus_b=4*ei*beta**4))
-            call condense_stretch(s, link)
+            call condense_loaded(s, [stretch_load_type ::], link, none, none, none, none)
             call check_close([link%pa, link%faa, link%gaa], [beta, 1/(2*beta*ei), 2*beta**3*ei], "half-infinite beam", 1e-15_wp)
             call check_close([link%p1, link%fab, link%gab], spread(0.0_wp, 1, 3), "nothing comes through", absolute=1e-300_wp)
             call check_close([link%dh, link%s5], [beta**2, 2*beta**2], "its sums", 2e-15_wp)
@@ -131,7 +131,7 @@ contains
         type(stretch_load_type) :: load, part
         type(stretch_ends_type) :: ends
         type(stretch_link_type) :: link
-        real(wp) :: y(4, 0:2), z(4), turn_a, turn_b, shear_a, shear_b
+        real(wp) :: y(4, 0:2), z(4), turn(2), shear(2)
         integer :: i, j
 
         do i = 1, 4
@@ -144,13 +144,12 @@ contains
             end do
             call check_close(y([1, 3], 0), [ends%w_a, ends%moment_a], "the left end", 1e-15_wp)
             call check_close(y([1, 3], 2), [ends%w_b, ends%moment_b], "the right end", 1e-15_wp)
-            call condense_stretch(whole, link)
-            call load_stretch(whole, load, turn_a, turn_b, shear_a, shear_b)
+            call condense_loaded(whole, [load], link, turn(1:1), turn(2:2), shear(1:1), shear(2:2))
             associate (l => link, e => ends)
-                z = [-l%pa*e%w_a + l%p1*e%w_b + l%faa*e%moment_a + l%fab*e%moment_b + turn_a, &
-                     -l%pa*e%moment_a + l%p2*e%moment_b - l%gaa*e%w_a - l%gab*e%w_b + shear_a, &
-                     l%pb*e%w_b - l%p2*e%w_a - l%fab*e%moment_a - l%fbb*e%moment_b - turn_b, &
-                     l%pb*e%moment_b - l%p1*e%moment_a + l%gbb*e%w_b + l%gab*e%w_a - shear_b]
+                z = [-l%pa*e%w_a + l%p1*e%w_b + l%faa*e%moment_a + l%fab*e%moment_b + turn(1), &
+                     -l%pa*e%moment_a + l%p2*e%moment_b - l%gaa*e%w_a - l%gab*e%w_b + shear(1), &
+                     l%pb*e%w_b - l%p2*e%w_a - l%fab*e%moment_a - l%fbb*e%moment_b - turn(2), &
+                     l%pb*e%moment_b - l%p1*e%moment_a + l%gbb*e%w_b + l%gab*e%w_a - shear(2)]
             end associate
             call check_close([y([2, 4], 0), y([2, 4], 2)], z, "rotations and shears of the ends", 4e-15_wp)
             half = whole

@@ -9,7 +9,7 @@ program test_ground
         point_force, gapbeam_below
     use gapbeam_band, only: node_type, rhs_type, pivot_type, answer_type, hinge, restrained, band_ok, &
         band_needs_pivoting, band_mechanism
-    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_stretch, load_stretch
+    use gapbeam_foundation, only: stretch_type, stretch_load_type, stretch_link_type, condense_loaded
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
     use gapbeam_layers, only: layer_type, law_piece_type, pieces_of_law, law_piece
     use gapbeam_filled_ground, only: any_falls, peak_of, fill_valleys
@@ -75,9 +75,9 @@ contains
                 if (mod(trial, 3) == 0 .and. i == 1) stretch%modulus_a = 0.0_wp
                 stretch%modulus_b = stretch%modulus_a
                 lengths(i) = stretch%length
-                call condense_stretch(stretch, links(i))
                 call random_number(r)
-                call load_stretch(stretch, stretch_load_type(qa=r(1), qb=r(2), kappa=r(3)), turn(1), turn(2), shear(1), shear(2))
+                call condense_loaded(stretch, [stretch_load_type(qa=r(1), qb=r(2), kappa=r(3))], links(i), turn(1:1), turn(2:2), &
+                                     shear(1:1), shear(2:2))
                 rhs(i - 1)%right = turn(1)
                 rhs(i)%left = turn(2)
                 rhs(i - 1)%shear = rhs(i - 1)%shear + shear(1)
@@ -136,20 +136,22 @@ contains
 
     !> Without ground and supports, and with a hinge too many
     subroutine the_chain_finds_mechanisms()
+        type(stretch_type), parameter :: grounded = stretch_type(1.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, 1.0_wp)
         type(stretch_link_type) :: links(2)
         type(node_type) :: nodes(0:2)
         type(pivot_type) :: pivots(0:2)
+        real(wp) :: none(0)
         integer :: state, place
 
-        call condense_stretch(stretch_type(1.0_wp, 1.0_wp), links(1))
+        call condense_loaded(stretch_type(1.0_wp, 1.0_wp), [stretch_load_type ::], links(1), none, none, none, none)
         links(2) = links(1)
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_mechanism, "nothing holds the beam")
-        call condense_stretch(stretch_type(1.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, 1.0_wp), links(2))
+        call condense_loaded(grounded, [stretch_load_type ::], links(2), none, none, none, none)
         nodes(1)%kind = hinge
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_mechanism .and. place == 1, "a part that hangs at a hinge turns")
-        call condense_stretch(stretch_type(1.0_wp, 1.0_wp, 0.0_wp, 1.0_wp, 1.0_wp), links(1))
+        call condense_loaded(grounded, [stretch_load_type ::], links(1), none, none, none, none)
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_ok, "ground holds both parts")
     end subroutine the_chain_finds_mechanisms

@@ -54,7 +54,8 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
         refuse_movements(scene, "a support cannot be moved by a load under trains")
         if beam.has_links_along:
             what = "friction, ground along the beam, and axial supports that push one way or have a law,"
-            raise SceneError("supports", f"{what} cannot be combined with trains in this version; leave one of them out")
+            advice = "but for friction neither feels the other: solve the beam without its trains, and without these"
+            raise SceneError("supports", f"{what} cannot be combined with trains in this version; {advice}")
         what = "supports whose state depends on the loading history cannot be combined with trains"
         raise SceneError("supports", f"{what} in this version; use non-decreasing polylines")
     result.trains.pass_all()

@@ -79,7 +79,7 @@ def _word(value: Any) -> str:
     return "" if value is None else str(value)
 
 
-def one_of(kind: str, kinds: Sequence[str] | Mapping[str, Any], argument: str = "kind") -> str:
+def one_of(kind: str, kinds: Sequence[str] | Mapping[str, Any]) -> str:
     """Take one of some words.
 
     Parameters
@@ -88,8 +88,6 @@ def one_of(kind: str, kinds: Sequence[str] | Mapping[str, Any], argument: str = 
         What the caller gave.
     kinds : sequence or mapping of str
         What there is.
-    argument : str
-        Name of the argument, for the message.
 
     Returns
     -------
@@ -101,5 +99,5 @@ def one_of(kind: str, kinds: Sequence[str] | Mapping[str, Any], argument: str = 
         It is none of them.
     """
     if not isinstance(kind, str) or kind not in kinds:
-        raise ValueError(f"{argument}: expected {choice(map(shown, kinds))}, got {shown(kind)}")
+        raise ValueError(f"kind: expected {choice(map(shown, kinds))}, got {shown(kind)}")
     return kind
