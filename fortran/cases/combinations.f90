@@ -4,7 +4,7 @@ module gapbeam_combinations
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: model_type
-    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assembled_model, only: assembled_type, copy_given
     use gapbeam_assemble, only: assemble_model
     use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_solution, only: state_type, new_state
@@ -60,7 +60,7 @@ contains
         if (moves .or. combined%moved) then
             if (allocated(combined%assembled)) deallocate (combined%assembled)
             allocate (combined%assembled, stat=stat)
-            if (stat == 0) call copy_model(base%model, combined%assembled%model, stat)
+            if (stat == 0) call copy_given(base, combined%assembled%model, stat)
         else if (.not. allocated(combined%assembled)) then
             allocate (combined%assembled, source=base, stat=stat)
         end if
@@ -73,9 +73,6 @@ contains
             assembled%model%loads%value_to = factors*loads%value_to
             if (present(varied)) call take_varied(varied, assembled%model)
             if (moves .or. combined%moved) then
-                if (allocated(base%given_settlement) .and. .not. vary) then
-                    assembled%model%supports%settlement = base%given_settlement
-                end if
                 assembled%model%supports%settlement = assembled%model%supports%settlement + settlements
                 call assemble_model(assembled, error)
             else

@@ -8,7 +8,7 @@ module gapbeam_api
     use gapbeam_environment, only: environment_type, hold_environment
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, load_type, gapbeam_movement, gapbeam_temperature
-    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assembled_model, only: assembled_type, copy_model, copy_given
     use gapbeam_units, only: bound_outside, quantity_unit
     use gapbeam_assemble, only: assemble_model
     use gapbeam_assemble_loads, only: assemble_loads
@@ -78,14 +78,13 @@ contains
             if (.not. allocated(error)) call exchange_loads(beam%lowered, loads, error)
         else
             allocate (other, stat=stat)
-            if (stat == 0) call copy_model(beam%lowered%model, other%model, stat)
+            if (stat == 0) call copy_given(beam%lowered, other%model, stat)
             if (stat == 0) then
                 deallocate (other%model%loads)
                 allocate (other%model%loads(size(loads)), stat=stat)
             end if
             if (stat == 0) then
                 other%model%loads(:) = loads
-                if (allocated(beam%lowered%given_settlement)) other%model%supports%settlement = beam%lowered%given_settlement
                 call assemble_model(other, error)
             else
                 call no_memory(error)

@@ -4,7 +4,7 @@ module gapbeam_train_on_beam
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_distributed, gapbeam_live, gapbeam_by_x
-    use gapbeam_assembled_model, only: assembled_type, copy_model
+    use gapbeam_assembled_model, only: assembled_type, copy_given
     use gapbeam_assemble, only: assemble_model
     use gapbeam_train, only: train_type
     implicit none
@@ -59,7 +59,7 @@ contains
         real(wp) :: from, to
         integer :: i, n, stat
 
-        call copy_model(assembled%model, placed%model, stat)
+        call copy_given(assembled, placed%model, stat)
         n = size(assembled%model%loads)
         if (stat == 0) allocate (loads(n + count(acts) + size(train%uniform)), stat=stat)
         if (stat /= 0) then

@@ -14,8 +14,8 @@ module gapbeam_assembled_model
     implicit none
     private
     public :: in_bending, in_shear, along_axis, axial_force_in, kinds
-    public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, is_stretch, &
-        is_along, has_ground_along, has_springs_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, &
+    public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, copy_given, &
+        is_stretch, is_along, has_ground_along, has_springs_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, &
         piece_length, find_length_errors
 
     !> What spans and sections give: EI, GA, EA, and the axial force in bending
@@ -301,6 +301,17 @@ contains
         end function shift_of
 
     end subroutine find_length_errors
+
+    !> Copy the model of a beam as it was given: movements with the dead loads are in the settlements of the one it holds
+    pure subroutine copy_given(assembled, copy, stat)
+        type(assembled_type), intent(in) :: assembled
+        !> As for copy_model
+        type(model_type), intent(out) :: copy
+        integer, intent(out) :: stat
+
+        call copy_model(assembled%model, copy, stat)
+        if (stat == 0 .and. allocated(assembled%given_settlement)) copy%supports%settlement = assembled%given_settlement
+    end subroutine copy_given
 
     !> Copy a model, what is missing as arrays of size 0
     pure subroutine copy_model(source, copy, stat)

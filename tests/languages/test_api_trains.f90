@@ -6,8 +6,8 @@ program test_api_trains
         options_type, result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, &
         get_train_extremes, get_train_curves, get_train_quantity_extremes, get_train_quantity_curves, gapbeam_of_curvature, &
         gapbeam_of_shear, gapbeam_of_pressure, prepare_model, replace_loads, solve_beam, get_supports, point_force, &
-        gapbeam_below, gapbeam_dead, gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, gapbeam_not_prepared, &
-        gapbeam_no_equilibrium
+        support_movement, gapbeam_below, gapbeam_dead, gapbeam_infinity, gapbeam_opens, gapbeam_closes, gapbeam_bad_input, &
+        gapbeam_not_prepared, gapbeam_no_equilibrium
     implicit none
     integer :: status
 
@@ -15,6 +15,7 @@ program test_api_trains
     call it_tips()
     call everything_refused()
     call on_the_ground()
+    call over_a_moved_support()
     call over_tapers_and_joints()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
@@ -192,5 +193,31 @@ contains
         call get_train_extremes(beam, passing, fields, supports, error)
         call check(supports(1, 1, 1)%value > 0.0_wp .and. abs(supports(2, 1, 1)%value) <= 0.0_wp, "the stop is met and left")
     end subroutine on_the_ground
+
+    !> A support that a dead load moves is moved once, and as a force that stands there would have it
+    subroutine over_a_moved_support()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(passing_type) :: passing
+        type(result_type) :: result
+        type(error_type), allocatable :: error
+        type(train_extreme_type) :: fields(2, 4), supports(2, 4, 2)
+        real(wp) :: r(2), w(2), opening(2), couple(2)
+        integer :: condition(2)
+
+        model%spans = [span_type(4.0_wp, EI=1000.0_wp)]
+        model%foundations = [foundation_type(k=500.0_wp, side=gapbeam_below)]
+        model%supports = [support_type(node=0), support_type(node=1)]
+        model%loads = [support_movement(0.01_wp, 1, case=gapbeam_dead), point_force(5.0_wp, x=1.0_wp)]
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call get_supports(beam, result, r, w, opening, couple, condition, error)
+        call check_close(r(1), -1.93863852647_wp, "a moved support", relative=1e-10_wp)
+        model%loads = model%loads(:1)
+        call prepare_model(model, beam, error)
+        call follow_train(beam, moving_train_type(distance=[0.0_wp], force=[5.0_wp], from=1.0_wp, to=1.0_wp), passing, error)
+        call get_train_extremes(beam, passing, fields, supports, error)
+        call check_close(supports(1, 1, :)%value, r, "the same under a train")
+    end subroutine over_a_moved_support
 
 end program test_api_trains
