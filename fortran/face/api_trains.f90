@@ -140,6 +140,7 @@ contains
         type(train_extreme_type), intent(out) :: values(:, :)
         !> As for get_train_extremes; gapbeam_bad_input also for other quantities
         type(error_type), allocatable, intent(out) :: error
+        type(environment_type) :: environment
         type(envelope_type) :: envelope
         type(extreme_type), allocatable :: found(:, :)
         integer :: k
@@ -150,6 +151,7 @@ contains
         if (allocated(error)) return
         if (allocated(passing%runs)) then
             allocate (found(2, size(quantities)))
+            call hold_environment(environment)
             call fields_of_runs(beam%lowered, passing%runs, quantities, found, error)
             if (.not. allocated(error)) values(:, :) = first_tie(found)
             return

@@ -1,6 +1,7 @@
 !> Trains by the module gapbeam alone: a lift-off in closed form, both directions, what is refused
 program test_api_trains
     use, intrinsic :: iso_fortran_env, only: wp => real64
+    use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_set_flag, ieee_inexact
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, section_type, foundation_type, uniform_load, prepared_type, &
         options_type, result_type, error_type, moving_train_type, passing_type, train_extreme_type, follow_train, &
@@ -169,6 +170,7 @@ contains
         type(train_extreme_type) :: fields(2, 4), supports(2, 4, 1)
         real(wp), parameter :: b = (6.4_wp/400.0_wp)**0.25_wp
         real(wp) :: value(2, 4, 1), position(2, 4, 1)
+        logical :: raised
 
         model%spans = [span_type(90.0_wp, EI=100.0_wp)]
         model%foundations = [foundation_type(k=6.4_wp)]
@@ -180,6 +182,10 @@ contains
         call check_close([fields(1, 3)%value, fields(1, 1)%value], [2/b, 4*b/6.4_wp], "under the force", relative=1e-13_wp)
         call get_train_quantity_extremes(beam, passing, [gapbeam_of_pressure], fields(:, :1), error)
         call check_close(fields(1, 1)%value, 4*b, "pressure", relative=1e-13_wp)
+        call ieee_set_flag(ieee_inexact, .false.)
+        call get_train_quantity_extremes(beam, passing, [gapbeam_of_curvature], fields(:, :1), error)
+        call ieee_get_flag(ieee_inexact, raised)
+        call check(.not. raised, "the caller's flags are as they were")
         call get_train_curves(beam, passing, [45.1_wp], value, position, error)
         call check_close([value(1, 3, 1), position(1, 3, 1)], [2/b, 45.1_wp], "curves", relative=1e-13_wp)
         model%spans = [span_type(12.0_wp, EI=200.0_wp)]
