@@ -12,14 +12,15 @@ module gapbeam_train_problem
     use gapbeam_zone_margin, only: change_type, find_margin
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_state, only: ground_of
-    use gapbeam_path_problem, only: point_type, path_problem_type
+    use gapbeam_path_problem, only: point_type
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: put_train, end_of_beam
     use gapbeam_train_states, only: kept_type, box_type, solve_at, put_near, take_undecided, alike_states => alike, same_units
     use gapbeam_train_changes, only: list_changes_between, measure_support
+    use gapbeam_train_way, only: train_way_type, crossing_type, append, append_crossing, decide
     implicit none
     private
-    public :: train_problem_type, position_type, crossing_type, new_train_problem, add_state, append
+    public :: train_problem_type, position_type, new_train_problem, add_state, share_apart
 
     !> Positions nearer to each other than this share of the beam are neighbours
     real(wp), parameter :: neighbours = 2.0_wp**(-45)
@@ -35,17 +36,8 @@ module gapbeam_train_problem
         type(kept_type), allocatable :: measured
     end type position_type
 
-    !> Where something changes between two states
-    type :: crossing_type
-        !> Numbers of the states next to it
-        integer :: below = 0, above = 0
-        real(wp) :: at = 0.0_wp
-        !> Places of what changes, if any are known
-        real(wp), allocatable :: place(:)
-    end type crossing_type
-
     !> A beam, a train on it, and what comes of it
-    type, extends(path_problem_type) :: train_problem_type
+    type, extends(train_way_type) :: train_problem_type
         type(assembled_type), pointer :: assembled => null()
         type(train_type) :: train
         integer :: rule = 0
@@ -53,13 +45,6 @@ module gapbeam_train_problem
         logical, allocatable :: acts(:)
         real(wp) :: first = 0.0_wp
         integer :: parts = 1
-        !> All states, the first entries
-        type(box_type), allocatable :: boxes(:)
-        integer :: states = 0
-        !> Numbers of the states of a walk in ascending order, or of a crossing below zero, the first entries
-        integer, allocatable :: way(:)
-        integer :: length = 0
-        type(crossing_type), allocatable :: crossings(:)
     contains
         procedure :: find
         procedure :: alike
@@ -91,7 +76,7 @@ contains
     end subroutine new_train_problem
 
     !> Solve at a position, and keep the state
-    subroutine add_state(problem, at, number, error, near, measured)
+    subroutine add_state(problem, at, number, error, near, measured, undecided)
         class(train_problem_type), intent(inout) :: problem
         real(wp), intent(in) :: at
         !> Of the state
@@ -102,9 +87,12 @@ contains
         integer, intent(in) :: near
         !> Where else it may be looked for
         type(kept_type), intent(in), optional :: measured
+        !> Does that stay undecided
+        logical, intent(in), optional :: undecided
         type(box_type), allocatable :: more(:)
         type(kept_type), allocatable :: kept
         integer :: i, stat
+        logical :: takes
 
         number = problem%states + 1
         if (number > size(problem%boxes)) then
@@ -127,7 +115,9 @@ contains
         end if
         if (.not. allocated(error)) call end_if_stopped(problem%assembled%beam%watch, error)
         if (allocated(error)) return
-        if (near > 0) call take_undecided(kept, problem%boxes(near)%of)
+        takes = near > 0
+        if (present(undecided)) takes = takes .and. .not. undecided
+        if (takes) call take_undecided(kept, problem%boxes(near)%of)
         call move_alloc(kept, problem%boxes(number)%of)
         problem%states = number
     end subroutine add_state
@@ -305,6 +295,7 @@ contains
 
         latest = 0
         if (problem%length > 0) latest = -problem%way(problem%length)
+        call decide(problem, number_of(point))
         if (latest > 0) then
             associate (crossing => problem%crossings(latest))
                 if (number_of(point) /= crossing%above .and. point%at < problem%last .and. &
@@ -314,39 +305,17 @@ contains
         call append(problem, number_of(point), error)
     end subroutine take
 
-    !> One entry more
-    subroutine append(problem, entry, error)
-        class(train_problem_type), intent(inout) :: problem
-        integer, intent(in) :: entry
-        type(error_type), allocatable, intent(out) :: error
-        integer, allocatable :: longer(:)
-        integer :: stat
-
-        if (problem%length == size(problem%way)) then
-            allocate (longer(2*problem%length), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
-            longer(:problem%length) = problem%way
-            call move_alloc(longer, problem%way)
-        end if
-        problem%length = problem%length + 1
-        problem%way(problem%length) = entry
-    end subroutine append
-
     !> Record a crossing
     subroutine take_changes(problem, before, after, at, place, error)
         class(train_problem_type), intent(inout) :: problem
         class(point_type), intent(in) :: before, after
         real(wp), intent(in) :: at(:), place(:)
         type(error_type), allocatable, intent(out) :: error
-        type(crossing_type), allocatable :: longer(:)
         type(crossing_type) :: crossing
-        integer :: stat
 
         crossing%below = number_of(before)
         crossing%above = number_of(after)
+        call decide(problem, crossing%below)
         crossing%place = pack(place, place >= 0.0_wp)
         crossing%at = after%at
         if (size(at) > 0) crossing%at = min(max(minval(at), before%at), after%at)
@@ -356,15 +325,7 @@ contains
             if (problem%way(problem%length) == number_of(before) .and. crossing%at - before%at <= share_apart*problem%extent &
                 .and. problem%way(problem%length - 1) > 0) problem%length = problem%length - 1
         end if
-        allocate (longer(size(problem%crossings) + 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        longer(:size(problem%crossings)) = problem%crossings
-        longer(size(longer)) = crossing
-        call move_alloc(longer, problem%crossings)
-        call append(problem, -size(problem%crossings), error)
+        call append_crossing(problem, crossing, error)
     end subroutine take_changes
 
     !> Neighbours on both sides of a crossing: what it was computed from has rounding of its own
@@ -380,10 +341,11 @@ contains
         way = 2*neighbours*problem%extent
         next = crossing%at
         do tries = 1, most_tries
-            call add_state(problem, next, number, error, crossing%below)
+            call add_state(problem, next, number, error, crossing%below, undecided=.true.)
             if (allocated(error)) return
             if (problem%boxes(number)%of%status /= gapbeam_solved) exit
             is_below = alike_states(problem%boxes(crossing%below)%of, problem%boxes(number)%of)
+            call take_undecided(problem%boxes(number)%of, problem%boxes(merge(crossing%below, crossing%above, is_below))%of)
             if (is_below) crossing%below = number
             if (.not. is_below) crossing%above = number
             associate (low => problem%boxes(crossing%below)%of%position, high => problem%boxes(crossing%above)%of%position)

@@ -18,7 +18,8 @@ module gapbeam_train_runs
     use gapbeam_train_on_beam, only: acting_axles
     use gapbeam_train_grid, only: find_borders, find_parts, ends_of_ground
     use gapbeam_train_states, only: kept_type, box_type, alike
-    use gapbeam_train_problem, only: train_problem_type, position_type, crossing_type, new_train_problem, add_state, append
+    use gapbeam_train_way, only: crossing_type, append
+    use gapbeam_train_problem, only: train_problem_type, position_type, new_train_problem, add_state
     implicit none
     private
     public :: run_type, lost_type, runs_type, follow_train_on_ground

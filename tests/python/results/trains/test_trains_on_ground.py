@@ -292,3 +292,17 @@ def test_each_side_of_an_end_of_a_foundation_is_a_place_of_its_own():
     left, right = np.flatnonzero(curves.x == 6.0)
     largest = curves.largest["pressure"]
     assert largest[right] == pytest.approx(largest[left] / 4, rel=1e-9)
+
+
+def test_a_support_at_an_end_of_the_ground_acts_from_where_the_zone_comes_to_it():
+    """Both begin at one deflection, and next to it the support bears no more than rounding."""
+    made = {"beam": {"spans": [4.0], "EI": 1000.0}, "supports": [{"node": 0}, {"node": 1, "side": "below"}],
+            "foundation": [{"k": 2000.0, "side": "below"}],
+            "trains": [{"axles": [[0.0, 10.0]]}]}  # fmt: skip
+    train = gapbeam.solve(made).trains["train 1"]
+    of_support, of_zone = train.events
+    assert (of_support.support, of_support.event, of_zone.event) == (1, "closes", "end reaches")
+    assert of_support.position == of_zone.position
+    states = [gapbeam.solve(made | {"trains": [], "loads": [{"type": "force", "x": x, "F": 10.0}]}).steps[-1].state[1]
+              for x in (of_support.position - 1e-6, of_support.position + 1e-6)]  # fmt: skip
+    assert states == ["open", "closed"]
