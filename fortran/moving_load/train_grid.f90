@@ -1,6 +1,6 @@
 !> Positions of a train at which states on the ground or on smooth laws are solved.
 !>
-!> Where an axle comes to an end of the beam, to a support, a hinge, a force, another section or an end of a foundation is known
+!> Where an axle comes to an end of the beam, to a support, a hinge, a load, another section or an end of a foundation is known
 !> beforehand. Between such positions the grid is finer than the length in which the beam bends (4 EI/k)**(1/4) and than its spans.
 module gapbeam_train_grid
     use gapbeam_kinds, only: wp
@@ -11,7 +11,7 @@ module gapbeam_train_grid
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_normal, gapbeam_force, gapbeam_right_end, gapbeam_table_of_k, &
         gapbeam_table_of_parameter
     use gapbeam_laws, only: law_cubic
-    use gapbeam_assembled_model, only: assembled_type, in_bending
+    use gapbeam_assembled_model, only: assembled_type, in_bending, point_x
     use gapbeam_check_rigid_ground, only: is_on_rigid_ground
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_train, only: train_type
@@ -208,9 +208,13 @@ contains
     pure function places_of_kinks(assembled) result(places)
         type(assembled_type), intent(in) :: assembled
         real(wp), allocatable :: places(:)
+        integer :: i
 
-        associate (model => assembled%model, end => end_of_beam(assembled))
-            places = [assembled%ends, places_of_jumps(assembled), model%hinges, ends_of_ground(assembled), model%sections%from, &
+        associate (model => assembled%model, end => end_of_beam(assembled), from => assembled%load_from, to => assembled%load_to)
+            places = [assembled%ends, [(place_of(assembled, model%supports(i)%x, model%supports(i)%node), &
+                                        i=1, size(model%supports))], &
+                      [(point_x(assembled, from(i)), i=1, size(from))], [(point_x(assembled, to(i)), i=1, size(to))], &
+                      model%hinges, ends_of_ground(assembled), model%sections%from, &
                       merge(end, model%sections%to, model%sections%to <= gapbeam_right_end), &
                       pack(model%ground%x, model%ground%x > 0.0_wp .and. model%ground%x < end), &
                       pack(model%ground_law%x, model%ground_law%x > 0.0_wp .and. model%ground_law%x < end)]

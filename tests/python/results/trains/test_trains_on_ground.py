@@ -306,3 +306,13 @@ def test_a_support_at_an_end_of_the_ground_acts_from_where_the_zone_comes_to_it(
     states = [gapbeam.solve(made | {"trains": [], "loads": [{"type": "force", "x": x, "F": 10.0}]}).steps[-1].state[1]
               for x in (of_support.position - 1e-6, of_support.position + 1e-6)]  # fmt: skip
     assert states == ["open", "closed"]
+
+
+def test_the_place_of_a_couple_is_none_between_two_states():
+    """Beside ground that holds next to nothing the exact road knows it."""
+    made = {"beam": {"spans": [4.0], "EI": 4000.0}, "supports": [{"node": 0}, {"node": 1}],
+            "loads": [{"type": "moment", "x": 1.418, "M": 4.0, "case": "dead"}],
+            "trains": [{"axles": [[0.0, 3.8], [0.55, 2.9], [2.05, 4.9]]}]}  # fmt: skip
+    exact = gapbeam.solve(made).envelope().extremes["moment"]["max"]
+    found = gapbeam.solve(made | {"foundation": [{"k": 1e-9}]}).envelope().extremes["moment"]["max"]
+    assert (found.value, found.x, found.position) == pytest.approx((exact.value, exact.x, exact.position), rel=1e-12)
