@@ -32,9 +32,10 @@ contains
         !> Not solved yet
         type(mesh_type), intent(out) :: mesh
         integer :: parts(size(ground%pieces)), i, j
-        real(wp) :: shortest
+        real(wp) :: whole, shortest
 
-        shortest = sum(ground%pieces%length)/merge(most_mesh_parts, most_first_parts, any(has_curves(ground%layers)))
+        whole = sum(ground%pieces%length)
+        shortest = whole/merge(most_mesh_parts, most_first_parts, any(has_curves(ground%layers)))
         do j = 1, size(parts)
             ! As short under compression as series ask for
             parts(j) = steps_of_piece(ground, j)
@@ -42,7 +43,7 @@ contains
             associate (p => ground%pieces(j))
                 parts(j) = max(2, merge(parts(j), 1, p%compression > 0.0_wp), &
                                ceiling(min(max(parts_of_decay*decays_between(p, 0.0_wp, p%length, first_stiffness(j)), &
-                                               least_mesh_parts*(p%length/sum(ground%pieces%length))), p%length/shortest)))
+                                               least_mesh_parts*(p%length/whole)), p%length/shortest)))
             end associate
         end do
         allocate (mesh%piece(sum(parts)), mesh%from(sum(parts)), mesh%to(sum(parts)), mesh%node(0:size(parts)))

@@ -45,8 +45,8 @@ contains
         type(sums_type) :: part, sums
         !> Sizes of the fields in every stretch, and what is nothing there; the same beside the place at hand
         type(field_type) :: sizes_of(size(solution%piece)), least_of(size(solution%piece)), sizes, least
-        !> Rounding errors of the reactions, and whether a support may have either state: none may
-        real(wp) :: errors(size(closed))
+        !> Rounding errors of the reactions, length of the beam, and whether a support may have either state: none may
+        real(wp) :: errors(size(closed)), whole
         logical :: undecided(size(closed))
         !> Rotations that supports hold, and their numbers at every node
         type(turned_type), allocatable :: turned(:)
@@ -54,6 +54,7 @@ contains
         integer :: i, j, m
 
         m = size(solution%piece)
+        whole = sum(ground%pieces%length)
         call find_turned(ground%beam, numbers)
         allocate (turned(maxval(numbers)))
         undecided(:) = .false.
@@ -212,8 +213,7 @@ contains
                 end if
                 if (j > 0) then
                     ! Under couples alone there is no force but what moments leave by rounding
-                    call fits(of_parts, forces, part%force - before, part%force_size + sizes%shear &
-                              + part%moment_size/sum(ground%pieces%length))
+                    call fits(of_parts, forces, part%force - before, part%force_size + sizes%shear + part%moment_size/whole)
                     call fits(of_parts, moments, part%moment - left, part%moment_size + sizes%moment)
                 end if
                 if (is_hinge(beam%kind(j))) then

@@ -76,7 +76,10 @@ contains
         near(:) = .true.
         if (.not. allocated(contacts)) return
         near(:) = .false.
-        from(:) = [(sum(ground%pieces(:j - 1)%length), j=1, size(from))]
+        from(1) = 0.0_wp
+        do j = 2, size(from)
+            from(j) = from(j - 1) + ground%pieces(j - 1)%length
+        end do
         margin = sum(ground%pieces%length)/first_rigid_parts/8
         do c = 1, size(contacts)
             associate (here => from(places%piece) + places%from, start => from(contacts(c)%piece))

@@ -166,7 +166,7 @@ contains
         real(qp), intent(in) :: share
         integer :: k
 
-        k = findloc(bedding%cells%bar, bar, 1)
+        k = axial_node(bedding%cells%bar, bar) + 1
         do while (k < size(bedding%cells))
             if (bedding%cells(k)%to >= share .or. bedding%cells(k + 1)%bar /= bar) exit
             k = k + 1
@@ -199,7 +199,7 @@ contains
 
         displacement = ground%displacement(bar - 1) + share*ground%longer(bar)
         from = 0.0_wp
-        do k = findloc(ground%parts%bar, bar, 1), size(ground%parts)
+        do k = axial_node(ground%parts%bar, bar) + 1, size(ground%parts)
             associate (p => ground%parts(k))
                 to = min(share, p%to)
                 tension = force_in(ground, k, share)

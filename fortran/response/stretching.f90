@@ -16,6 +16,7 @@ module gapbeam_stretching
     use gapbeam_scene, only: gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_tension, only: tensions_of_loads
+    use gapbeam_ground_query, only: stretch_of
     implicit none
     private
     public :: stretching_type, lengthening, lengthening_to, begin_stretching, bound_stretching, guess_stretching
@@ -69,7 +70,7 @@ contains
         integer :: i
 
         longer = 0.0_wp
-        do i = findloc(solution%piece, piece, 1), size(solution%piece)
+        do i = stretch_of(solution, piece, 0.0_wp), size(solution%piece)
             if (solution%piece(i) /= piece .or. solution%from(i) >= distance) exit
             longer = longer + of_stretch(assembled, solution, i, min(1.0_wp, (distance - solution%from(i)) &
                                                                      /(solution%to(i) - solution%from(i))))
