@@ -145,8 +145,9 @@ contains
         if (allocated(beam%lowered)) number = size(beam%lowered%model%supports)
     end function count_supports
 
-    !> Number of nodes of the system: beam ends, hinges, supports across the beam, on overhangs the places of loads; ask again
-    !> after replace_loads
+    !> Number of nodes of the system: beam ends, hinges, supports across the beam, on overhangs the places of loads; of a beam that
+    !> is solved stretch by stretch (on foundations, under axial forces) all places at which anything changes; ask again after
+    !> replace_loads
     pure function count_nodes(beam) result(number)
         type(prepared_type), intent(in) :: beam
         !> 0 if it is not prepared

@@ -98,7 +98,8 @@ subroutine ghmotn(beam, state, maxnd, nnode, xnode, motion, info)
     use gapbeam_fortran77_info, only: error_type, handle_type, state_tag, find_both, info_of
     implicit none
     integer(8), intent(in) :: beam, state
-    ! Room in the arrays; NHINGE + NSUP + 2 NLOAD + 2 is always enough, with foundations NSPAN + 2 NFOUND + NPROF + NTAB more
+    ! Room in the arrays; NSPAN + NHINGE + NSUP + 2 NLOAD + 1 is always enough, with foundations 2 NFOUND + NPROF + NFLAW + NTAB
+    ! more, with sections 2 NSEC more, with lumped masses NMASS more
     integer, intent(in) :: maxnd
     ! Number of nodes of the system
     integer, intent(inout) :: nnode
