@@ -126,7 +126,9 @@ contains
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_history(beam, history, error)
         if (.not. allocated(error)) then
-            if (limit < 1 .or. limit > size(history%limits)) then
+            if (size(history%limits) == 0) then
+                call bad_argument(error, "limit", "limit: the history has none, got "//trim(whole(limit)))
+            else if (limit < 1 .or. limit > size(history%limits)) then
                 call bad_argument(error, "limit", "limit: expected 1 to "//trim(whole(size(history%limits)))//", got "// &
                                  trim(whole(limit)))
             else if (history%limits(limit)%landing == 0 .or. history%limits(limit)%leg == 0) then

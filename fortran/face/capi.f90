@@ -10,7 +10,7 @@ module gapbeam_capi
     use gapbeam_handles, only: handle_type, state_tag, find_handle
     use gapbeam_capi_model, only: c_model, model_from_c
     use gapbeam_capi_quantities, only: c_get_quantity_extremes
-    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
+    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, check_flag, forget, report
     implicit none
     private
     public :: c_info, c_certificate
@@ -61,6 +61,7 @@ contains
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call read_options(options, chosen, error)
         if (.not. allocated(error)) call solve_beam(prepared%beam, factor, chosen, solved%result, error)
+        call forget(solved, error)
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve
@@ -87,6 +88,7 @@ contains
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call read_options(options, chosen, error)
         if (.not. allocated(error)) call follow_load(prepared%beam, factor, chosen, events, solved%result, error)
+        call forget(solved, error)
         call report(error, status, message, message_size)
         if (allocated(error)) return
         status = solved%result%status

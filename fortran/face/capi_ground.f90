@@ -6,7 +6,7 @@ module gapbeam_capi_ground
     use gapbeam_api_ground, only: contact_type, free_span_type, ground_event_type, follow_ground, get_contact, get_free_spans, &
         get_pressure, get_pressure_extremes
     use gapbeam_handles, only: handle_type
-    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, report
+    use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, check_flag, forget, report
     implicit none
     private
 
@@ -35,6 +35,7 @@ contains
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call read_options(options, chosen, error)
         if (.not. allocated(error)) call follow_ground(prepared%beam, factor, chosen, events, solved%result, error)
+        call forget(solved, error)
         call report(error, status, message, message_size)
         if (allocated(error)) return
         status = solved%result%status

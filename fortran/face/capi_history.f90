@@ -3,10 +3,11 @@ module gapbeam_capi_history
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
+    use gapbeam_words, only: whole
     use gapbeam_api_history, only: solve_on_path, get_released_energy
     use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, address_of
     use gapbeam_new_objects, only: new_history
-    use gapbeam_capi_objects, only: get_beam, get_both, report
+    use gapbeam_capi_objects, only: get_beam, get_both, forget, report
     implicit none
     private
     public :: c_history_info
@@ -184,8 +185,13 @@ contains
         call get_both(beam, state, prepared, solved, error)
         call find_history(history, handle, error)
         if (.not. allocated(error)) then
-            call solve_on_path(prepared%beam, handle%history, factor, solved%result, error, stretch + 1)
+            call check_number("stretch", stretch, -1, size(handle%history%stretches), error)
         end if
+        if (.not. allocated(error)) then
+            call solve_on_path(prepared%beam, handle%history, factor, solved%result, error, stretch + 1)
+            if (allocated(error)) call count_from_zero("stretch", stretch, error)
+        end if
+        call forget(solved, error)
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve_on_path
@@ -205,10 +211,44 @@ contains
 
         call get_beam(beam, prepared, error)
         call find_history(history, handle, error)
-        if (.not. allocated(error)) call get_released_energy(prepared%beam, handle%history, limit + 1, found, error)
+        if (.not. allocated(error)) call check_number("limit", limit, 0, size(handle%history%limits), error)
+        if (.not. allocated(error)) then
+            call get_released_energy(prepared%beam, handle%history, limit + 1, found, error)
+            if (allocated(error)) call count_from_zero("limit", limit, error)
+        end if
         if (.not. allocated(error) .and. present(energy)) energy = found
         call report(error, status, message, message_size)
     end function c_get_released_energy
+
+    !> Refuse a number of a stretch or a limit that is none, as C counts them
+    subroutine check_number(name, number, first, count, error)
+        character(len=*), intent(in) :: name
+        !> The number, the first one that there is, and how many stretches or limits
+        integer(c_int), intent(in) :: number
+        integer, intent(in) :: first, count
+        type(error_type), allocatable, intent(out) :: error
+
+        if (number >= first .and. number < count) return
+        if (count > 0) then
+            call fatal_error(error, gapbeam_bad_input, name//": expected "//trim(whole(first))//" to "//trim(whole(count - 1))// &
+                             ", got "//trim(whole(int(number))))
+        else
+            call fatal_error(error, gapbeam_bad_input, name//": the history has none, got "//trim(whole(int(number))))
+        end if
+    end subroutine check_number
+
+    !> Name a stretch or a limit in a message as C counts it
+    subroutine count_from_zero(name, number, error)
+        character(len=*), intent(in) :: name
+        integer(c_int), intent(in) :: number
+        type(error_type), intent(inout) :: error
+        integer :: at, last
+
+        at = index(error%message, name//" "//trim(whole(number + 1)))
+        if (at == 0) return
+        last = at + len(name) + len_trim(whole(number + 1))
+        error%message = error%message(:at + len(name))//trim(whole(int(number)))//error%message(last + 1:)
+    end subroutine count_from_zero
 
     !> The history behind a handle
     subroutine find_history(history, handle, error)

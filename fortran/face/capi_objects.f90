@@ -3,6 +3,7 @@ module gapbeam_capi_objects
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_null_char, c_sizeof
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
+    use gapbeam_words, only: whole
     use gapbeam_api, only: options_type
     use gapbeam_handles, only: handle_type, state_tag, beam_tag, passing_tag, find_handle
     implicit none
@@ -81,22 +82,62 @@ contains
         end if
     end subroutine check_points
 
+    !> Refuse a flag that is neither 0 nor 1
+    subroutine check_flag(name, flag, error)
+        character(len=*), intent(in) :: name
+        integer(c_int), intent(in) :: flag
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
+
+        if (allocated(error) .or. flag == 0 .or. flag == 1) return
+        call fatal_error(error, gapbeam_bad_input, name//": expected 0 or 1, got "//trim(whole(int(flag))))
+    end subroutine check_flag
+
+    !> After an error a state holds nothing that can be asked for
+    subroutine forget(solved, error)
+        !> Null where there is none
+        type(handle_type), pointer, intent(in) :: solved
+        type(error_type), allocatable, intent(in) :: error
+
+        if (allocated(error) .and. associated(solved)) solved%result%status = -1
+    end subroutine forget
+
+    !> A message about one entry of an argument, which C counts from 0
+    pure subroutine count_from_zero(error, message)
+        type(error_type), intent(in) :: error
+        character(len=:), allocatable, intent(out) :: message
+        integer :: bracket, last, number
+
+        message = error%message
+        if (len_trim(error%key) == 0) return
+        bracket = len_trim(error%key) + 1
+        if (index(message, trim(error%key)//"(") /= 1) return
+        last = index(message, "): ")
+        if (last <= bracket + 1) return
+        if (verify(message(bracket + 1:last - 1), "0123456789") > 0) return
+        read (message(bracket + 1:last - 1), *) number
+        message = message(:bracket - 1)//"["//trim(whole(number - 1))//"]"//message(last + 1:)
+        if (error%key == "quantities") message = "quantity"//message(bracket:)
+    end subroutine count_from_zero
+
     !> Status and message for C
     subroutine report(error, status, message, message_size)
         type(error_type), allocatable, intent(in) :: error
         integer(c_int), intent(out) :: status
         character(kind=c_char), intent(inout), optional :: message(*)
         integer(c_size_t), intent(in), optional :: message_size
+        character(len=:), allocatable :: text
         integer(c_size_t) :: i, length
 
         status = gapbeam_solved
         if (allocated(error)) status = error%code
         if (.not. present(message) .or. .not. present(message_size)) return
         if (message_size < 1) return
-        length = 0
-        if (allocated(error)) length = min(len(error%message, c_size_t), message_size - 1)
+        text = ""
+        if (allocated(error)) call count_from_zero(error, text)
+        length = min(len(text, c_size_t), message_size - 1)
         do i = 1, length
-            message(i) = error%message(i:i)
+            message(i) = text(i:i)
         end do
         message(length + 1) = c_null_char
     end subroutine report

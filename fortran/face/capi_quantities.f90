@@ -2,6 +2,8 @@
 module gapbeam_capi_quantities
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr
     use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_words, only: whole
+    use gapbeam_quantities, only: quantity_count
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
     use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves, &
         copy_extremes
@@ -28,7 +30,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
         if (.not. allocated(error)) call check_points(count, present(x) .and. present(values), "x or values", error)
         if (.not. allocated(error) .and. count > 0) then
             call get_quantities(prepared%beam, solved%result, quantity(1:quantities) + 1, x(1:count), values(:, 1:count), error, &
@@ -52,7 +54,7 @@ contains
         real(c_double) :: values(2, max(quantities, 0)), places(2, max(quantities, 0))
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
         if (.not. allocated(error)) then
             call get_quantity_extremes(prepared%beam, solved%result, quantity(1:quantities) + 1, values, places, error)
         end if
@@ -77,7 +79,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity) .and. present(values), error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity) .and. present(values), error, quantity)
         if (.not. allocated(error)) then
             call get_train_quantity_extremes(prepared%beam, handle%passing, quantity(1:quantities) + 1, found, error)
         end if
@@ -101,7 +103,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error)
+        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
         if (.not. allocated(error)) then
             call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
         end if
@@ -112,18 +114,27 @@ contains
         call report(error, status, message, message_size)
     end function c_get_train_quantity_curves
 
-    !> Refuse a number of quantities that makes no sense
-    subroutine check_quantities(quantities, given, error)
+    !> Refuse quantities that make no sense, as C counts them
+    subroutine check_quantities(quantities, given, error, quantity)
         integer(c_int), intent(in) :: quantities
         !> Are they given
         logical, intent(in) :: given
         type(error_type), allocatable, intent(out) :: error
 
+        integer(c_int), intent(in), optional :: quantity(*)
+        integer :: k
         if (quantities < 1) then
             call fatal_error(error, gapbeam_bad_input, "quantities: expected 1 or more")
         else if (.not. given) then
             call fatal_error(error, gapbeam_bad_input, "quantity or values is NULL")
         end if
+        else
+            do k = 1, quantities
+                if (quantity(k) >= 0 .and. quantity(k) < quantity_count) cycle
+                call fatal_error(error, gapbeam_bad_input, "quantity["//trim(whole(k - 1))//"]: expected a number from 0 to "// &
+                                 trim(whole(quantity_count - 1))//", got "//trim(whole(int(quantity(k)))))
+                return
+            end do
     end subroutine check_quantities
 
 end module gapbeam_capi_quantities
