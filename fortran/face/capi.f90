@@ -207,8 +207,9 @@ contains
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), "x or fields", error)
+        call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
-            call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left /= 0)
+            call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left == 1)
         end if
         call report(error, status, message, message_size)
     end function c_get_fields

@@ -117,8 +117,9 @@ contains
 
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call check_points(count, present(x) .and. present(pressure), "x or pressure", error)
+        call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
-            call get_pressure(prepared%beam, solved%result, x(1:count), pressure(1:count), error, from_left /= 0)
+            call get_pressure(prepared%beam, solved%result, x(1:count), pressure(1:count), error, from_left == 1)
         end if
         call report(error, status, message, message_size)
     end function c_get_pressure

@@ -6,6 +6,7 @@ module gapbeam_capi_model
     use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, section_type, load_type, gapbeam_temperature
     use gapbeam_assembled_model, only: is_movement, is_of_support
+    use gapbeam_capi_objects, only: check_flag
     implicit none
     private
     public :: c_model, is_model_size, empty_model, model_from_c, loads_from_c
@@ -128,6 +129,10 @@ contains
             if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_law) &
                                                          .eqv. c_associated(c%support_parameter), &
                                                          "support_law and support_parameter need each other", error)
+            call check_flag("model: N_grows", c%N_grows, error)
+            call check_flag("model: first_order", c%first_order, error)
+            call check_flag("model: stretching", c%stretching, error)
+            call check_flag("model: with_trains", c%with_trains, error)
             if (.not. allocated(error)) call foundations_from_c(c, model, error)
             if (.not. allocated(error)) call sections_from_c(c, model%sections, error)
         end if
@@ -148,10 +153,10 @@ contains
         if (with_all) then
             if (has_reals(c%N, c%spans, reals)) model%spans%N = reals
             if (has_reals(c%mass, c%spans, reals)) model%spans%mass = reals
-            model%N_grows = c%N_grows /= 0
-            model%first_order = c%first_order /= 0
-            model%stretching = c%stretching /= 0
-            model%with_trains = c%with_trains /= 0
+            model%N_grows = c%N_grows == 1
+            model%first_order = c%first_order == 1
+            model%stretching = c%stretching == 1
+            model%with_trains = c%with_trains == 1
             allocate (model%masses(2, c%masses))
             if (has_reals(c%mass_x, c%masses, reals)) model%masses(1, :) = reals
             if (has_reals(c%lumped_mass, c%masses, reals)) model%masses(2, :) = reals

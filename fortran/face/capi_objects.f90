@@ -8,7 +8,7 @@ module gapbeam_capi_objects
     use gapbeam_handles, only: handle_type, state_tag, beam_tag, passing_tag, find_handle
     implicit none
     private
-    public :: c_options, get_beam, get_both, get_train, read_options, check_points, report
+    public :: c_options, get_beam, get_both, get_train, read_options, check_points, check_flag, forget, report
 
     !> Mirror of the header's structure
     type, bind(c) :: c_options

@@ -8,7 +8,7 @@ module gapbeam_capi_quantities
     use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves, &
         copy_extremes
     use gapbeam_handles, only: handle_type
-    use gapbeam_capi_objects, only: get_both, get_train, check_points, report
+    use gapbeam_capi_objects, only: get_both, get_train, check_points, check_flag, report
     implicit none
     private
     public :: c_get_quantity_extremes, c_get_train_quantity_curves
@@ -32,9 +32,10 @@ contains
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
         if (.not. allocated(error)) call check_points(count, present(x) .and. present(values), "x or values", error)
+        call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
             call get_quantities(prepared%beam, solved%result, quantity(1:quantities) + 1, x(1:count), values(:, 1:count), error, &
-                                from_left /= 0)
+                                from_left == 1)
         end if
         call report(error, status, message, message_size)
     end function c_get_quantities
@@ -120,14 +121,13 @@ contains
         !> Are they given
         logical, intent(in) :: given
         type(error_type), allocatable, intent(out) :: error
-
         integer(c_int), intent(in), optional :: quantity(*)
         integer :: k
+
         if (quantities < 1) then
             call fatal_error(error, gapbeam_bad_input, "quantities: expected 1 or more")
         else if (.not. given) then
             call fatal_error(error, gapbeam_bad_input, "quantity or values is NULL")
-        end if
         else
             do k = 1, quantities
                 if (quantity(k) >= 0 .and. quantity(k) < quantity_count) cycle
@@ -135,6 +135,7 @@ contains
                                  trim(whole(quantity_count - 1))//", got "//trim(whole(int(quantity(k)))))
                 return
             end do
+        end if
     end subroutine check_quantities
 
 end module gapbeam_capi_quantities

@@ -6,7 +6,7 @@ module gapbeam_capi_trains
     use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, copy_extremes
     use gapbeam_handles, only: handle_type, passing_tag, find_handle, free_handle, address_of
     use gapbeam_new_objects, only: new_passing
-    use gapbeam_capi_objects, only: get_beam, get_train, report
+    use gapbeam_capi_objects, only: get_beam, get_train, check_flag, report
     use gapbeam_capi_quantities, only: c_get_train_quantity_curves
     implicit none
     private
@@ -31,6 +31,7 @@ contains
 
         if (present(passing)) passing = c_null_ptr
         call get_beam(beam, prepared, error)
+        call check_flag("to_the_left", to_the_left, error)
         if (allocated(error)) then
             continue
         else if (.not. present(passing)) then
@@ -45,7 +46,7 @@ contains
             train%distance(:) = distance(1:axles)
             train%force(:) = force(1:axles)
             train%q = q
-            train%to_the_left = to_the_left /= 0
+            train%to_the_left = to_the_left == 1
             if (present(from)) train%from = from
             if (present(to)) train%to = to
             call new_passing(prepared%beam, train, passed, error)

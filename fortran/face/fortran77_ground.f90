@@ -174,15 +174,16 @@ subroutine ghpres(beam, state, nx, x, left, press, info)
     integer, intent(in) :: left
     ! Force per length of all foundations together on the beam, up, at every place; 0 without foundations
     double precision, intent(inout) :: press(*)
-    ! -1, -2, -3; -4: a place off the beam; 14: a pressure out of range; 15
+    ! -1, -2, -3, -5; -4: a place off the beam; 14: a pressure out of range; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nx < 0) info = -3
+    if (info == 0 .and. left /= 0 .and. left /= 1) info = -5
     if (info /= 0) return
-    call get_pressure(prepared%beam, solved%result, x(1:nx), press(1:nx), error, left /= 0)
+    call get_pressure(prepared%beam, solved%result, x(1:nx), press(1:nx), error, left == 1)
     info = info_of(error, 4)
 end subroutine ghpres
 

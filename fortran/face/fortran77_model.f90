@@ -50,7 +50,9 @@ contains
         beam = 0
         ientry = 0
         info = 0
-        if (present(nsec)) info = merge(-34, 0, nsec < 0)
+        if (present(nsec)) info = merge(-34, info, nsec < 0)
+        if (present(nmass)) info = merge(-32, info, nmass < 0)
+        if (present(igrow)) info = merge(-31, info, igrow < 0 .or. igrow > 15)
         k = findloc([nspan - 1, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab] < 0, .true., 1)
         if (k > 0) info = -place_of_count(k)
         if (info /= 0) return
@@ -94,7 +96,7 @@ contains
                 model%spans%mass = axial(2, 1:nspan)
             end if
             if (present(shear)) model%foundations%shear = shear(1:nfound)
-            if (present(nmass)) model%masses = amass(:, 1:max(nmass, 0))
+            if (present(nmass)) model%masses = amass(:, 1:nmass)
             if (present(nsec)) model%sections = sections_of(isec(:, 1:nsec), sec(:, 1:nsec))
             model%first_order = .true.
             if (present(igrow)) then

@@ -36,7 +36,8 @@ subroutine ghpraf(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, alo
     ! As from GHPREP
     integer(8), intent(out) :: beam
     integer, intent(out) :: ientry
-    ! -1 to -28 as from GHPRFD; -29: AXIAL(., IENTRY); -30: SHEAR(IENTRY), also beside what it is not available with; 14, 15
+    ! -1 to -28 as from GHPRFD; -29: AXIAL(., IENTRY); -30: SHEAR(IENTRY), also beside what it is not available with; -31: IGROW;
+    ! 14, 15
     integer, intent(out) :: info
 
     call prepare(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, &

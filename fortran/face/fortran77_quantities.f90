@@ -19,7 +19,7 @@ subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
     integer, intent(in) :: left
     ! All quantities at every place; 0 of what the beam does not have
     double precision, intent(inout) :: value(nquan, *)
-    ! -1, -2, -3, -4, -5; -6: a place off the beam; 14: a value out of range; 15
+    ! -1, -2, -3, -4, -5, -7; -6: a place off the beam; 14: a value out of range; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
@@ -27,8 +27,9 @@ subroutine ghquan(beam, state, nquan, iquan, nx, x, left, value, info)
     call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nquan < 1) info = -3
     if (info == 0 .and. nx < 0) info = -5
+    if (info == 0 .and. left /= 0 .and. left /= 1) info = -7
     if (info /= 0) return
-    call get_quantities(prepared%beam, solved%result, iquan(1:nquan), x(1:nx), value(:, 1:nx), error, left /= 0)
+    call get_quantities(prepared%beam, solved%result, iquan(1:nquan), x(1:nx), value(:, 1:nx), error, left == 1)
     info = info_of(error, 6, ["quantities"], [4])
 end subroutine ghquan
 

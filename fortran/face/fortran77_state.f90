@@ -61,15 +61,16 @@ subroutine ghflds(beam, state, nx, x, left, field, info)
     integer, intent(in) :: left
     ! Deflection, rotation, moment, shear, axial force, axial displacement at every place
     double precision, intent(inout) :: field(6, *)
-    ! -1, -2, -3; -4: a place off the beam; 14: a field out of range; 15
+    ! -1, -2, -3, -5; -4: a place off the beam; 14: a field out of range; 15
     integer, intent(out) :: info
     type(handle_type), pointer :: prepared, solved
     type(error_type), allocatable :: error
 
     call find_both(beam, state, state_tag, prepared, solved, info)
     if (info == 0 .and. nx < 0) info = -3
+    if (info == 0 .and. left /= 0 .and. left /= 1) info = -5
     if (info /= 0) return
-    call get_fields(prepared%beam, solved%result, x(1:nx), field(:, 1:nx), error, left /= 0)
+    call get_fields(prepared%beam, solved%result, x(1:nx), field(:, 1:nx), error, left == 1)
     info = info_of(error, 4)
 end subroutine ghflds
 

@@ -87,6 +87,13 @@ static void refused_arguments(void)
     other.spans = -1;
     check(gapbeam_prepare(&other, &beam, NULL, 0) == GAPBEAM_BAD_INPUT, "prepare: negative number");
     other = model;
+    other.N_grows = -1;
+    check(gapbeam_prepare(&other, &beam, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && !strcmp(message, "model: N_grows: expected 0 or 1, got -1"), "prepare: no flag");
+    other = model;
+    other.with_trains = 3;
+    check(gapbeam_prepare(&other, &beam, NULL, 0) == GAPBEAM_BAD_INPUT, "prepare: nor that one");
+    other = model;
     other.load_value = NULL;
     check(gapbeam_prepare(&other, &beam, NULL, 0) == GAPBEAM_BAD_INPUT, "prepare: an array is missing");
     other.load_value = three;
@@ -130,8 +137,18 @@ static void refused_arguments(void)
     check(fields[0] == 5.0 && strstr(message, "4.1") != NULL, "nothing written, place named");
     check(gapbeam_get_fields(beam, state, -1, x3, 0, fields, NULL, 0) == GAPBEAM_BAD_INPUT, "fields: negative number");
     check(gapbeam_get_fields(beam, state, 1, NULL, 0, fields, NULL, 0) == GAPBEAM_BAD_INPUT, "fields: no places");
+    check(gapbeam_get_fields(beam, state, 1, x3, 7, fields, message, sizeof message) == GAPBEAM_BAD_INPUT
+          && !strcmp(message, "from_left: expected 0 or 1, got 7"), "fields: no side");
+    check(gapbeam_get_pressure(beam, state, 1, x3, -1, fields, NULL, 0) == GAPBEAM_BAD_INPUT, "pressure: no side");
     check(gapbeam_solve(beam, INFINITY, NULL, state, NULL, 0) == GAPBEAM_BAD_INPUT, "solve: infinite factor");
     check(gapbeam_get_fields(beam, state, 1, x3, 0, fields, NULL, 0) == GAPBEAM_NOT_PREPARED, "and no old result is shown");
+    info.size = sizeof info;
+    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved again");
+    check(gapbeam_solve(beam, 1.0, &old, state, NULL, 0) == GAPBEAM_OTHER_VERSION, "options of another size");
+    check(gapbeam_get_info(state, &info) == GAPBEAM_NOT_PREPARED, "leave none either");
+    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved again");
+    check(gapbeam_follow(NULL, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, NULL, 0) == GAPBEAM_NOT_PREPARED, "nor does no beam");
+    check(gapbeam_get_info(state, &info) == GAPBEAM_NOT_PREPARED, "leave one");
     gapbeam_free_state(state);
     gapbeam_free_beam(beam);
     gapbeam_free_state(NULL);
@@ -142,13 +159,6 @@ static void refused_arguments(void)
 /* Two spans with a gap in the middle: the deflection without the support is 5 q L^4 / 384 EI = 0.1 at factor 1 */
 static void closed_form(void)
 {
-    info.size = sizeof info;
-    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved again");
-    check(gapbeam_solve(beam, 1.0, &old, state, NULL, 0) == GAPBEAM_OTHER_VERSION, "options of another size");
-    check(gapbeam_get_info(state, &info) == GAPBEAM_NOT_PREPARED, "leave none either");
-    check(gapbeam_solve(beam, 1.0, NULL, state, NULL, 0) == GAPBEAM_SOLVED, "solved again");
-    check(gapbeam_follow(NULL, 1.0, NULL, 0, NULL, NULL, NULL, NULL, state, NULL, 0) == GAPBEAM_NOT_PREPARED, "nor does no beam");
-    check(gapbeam_get_info(state, &info) == GAPBEAM_NOT_PREPARED, "leave one");
     gapbeam_model model = two_spans();
     gapbeam_beam *beam = NULL;
     gapbeam_state *state = NULL;

@@ -157,6 +157,8 @@ C     What is refused, and how
       CALL EXPECT(INFO, -4, 'place off the beam')
       CALL GHFLDS(BEAM, STATE, -1, X, 0, F, INFO)
       CALL EXPECT(INFO, -3, 'negative number of places')
+      CALL GHFLDS(BEAM, STATE, 1, X, 7, F, INFO)
+      CALL EXPECT(INFO, -5, 'no side of a place')
       CALL GHMOTN(BEAM, STATE, 3, NN, F, F, INFO)
       CALL EXPECT(INFO, -2, 'it does not move')
       CALL GHMOTN(BEAM, STATE, 2, NN, F, F, INFO)
@@ -936,7 +938,8 @@ C     a gap of 0.02: its states, how it buckles; two spans that vibrate
       INTEGER IPROF(1), IFLAW(1), IGLAW(3), ITAB(2,1), INFO, IENT, I, K
       INTEGER KIND(3), N, IUNIQ, IEV(4,2), NINFO(5), IQ(2)
       EXTERNAL GBINF, GHBUCK, GHEVNT, GHFREE, GHGEVT, GHINFO, GHMODE
-      EXTERNAL GHMOTN, GHPRAF, GHQUAN, GHSHAP, GHSOLV, GHSTAT, GHSUPP
+      EXTERNAL GHMOTN, GHPRAF, GHPRLM, GHQUAN, GHSHAP, GHSOLV, GHSTAT
+      EXTERNAL GHSUPP
       EXTERNAL GHUNIQ
       DATA COMP /0.5D0, 0.9D0, 2.0D0/
       DATA FORCE /0.14714005862549203D0, 0.53807030793317657D0,
@@ -974,6 +977,18 @@ C     a gap of 0.02: its states, how it buckles; two spans that vibrate
       CALL EXPECT(INFO, -29, 'a negative mass')
       CALL EXPECT(IENT, 1, 'of span 1')
       AXIAL(2,1) = 0.0D0
+      DO 25 K = -1, 16, 17
+         CALL GHPRAF(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD,
+     +               0, ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF,
+     +               APROF, 0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB,
+     +               ATAB, AXIAL, SHEAR, K, BEAM, IENT, INFO)
+         CALL EXPECT(INFO, -31, 'no sum of 1, 2, 4 and 8')
+   25 CONTINUE
+      CALL GHPRLM(1, SPAN, 0, HINGE, 3, ISUP, SUP, 1, ILOAD, ALOAD, 0,
+     +            ILAW, ALAW, IUNL, 0, IFOUND, FOUND, 0, IPROF, APROF,
+     +            0, IFLAW, AFLAW, IGLAW, GLAW, 0, ITAB, ATAB, AXIAL,
+     +            SHEAR, 0, -1, AXIAL, BEAM, IENT, INFO)
+      CALL EXPECT(INFO, -32, 'negative number of masses')
       CALL GHSTAT(STATE, INFO)
       CALL EXPECT(INFO, 0, 'state')
       DO 30 K = 1, 3
