@@ -73,6 +73,8 @@ class Beam(Layout):
         feels those of axial loads.
     has_laws, depends_on_path : bool
         A support with a law; one whose force may fall, or that does not unload along its law.
+    also_along : bool
+        Whether it has fields along its axis though nothing acts there: they are 0, as beside other combinations of a scene.
 
     Raises
     ------
@@ -84,6 +86,7 @@ class Beam(Layout):
         The system gives no more memory.
     """
 
+    also_along = False
     __hash__ = None
 
     def __init__(self, columns: Columns, curves: tuple[tuple[int, Curve], ...] = ()):
@@ -139,8 +142,11 @@ class Beam(Layout):
         """
         handle, status, message = _engine.gbcopy(self.handle, np.append(factors, 0.0))
         check_status(status, message)
+        return self._copy(handle, factors)
+
+    def _copy(self, handle: int, factors: np.ndarray | None) -> Beam:
         beam = object.__new__(type(self))
-        beam.columns, beam.curves, beam._factors = self.columns, self.curves, factors
+        beam.columns, beam.curves, beam._factors, beam.also_along = self.columns, self.curves, factors, self.also_along
         beam._take(handle)
         return beam
 
@@ -163,16 +169,14 @@ class Beam(Layout):
             return self
         handle, status, message = _engine.gblaws(self.handle, np.column_stack((breakpoints, np.zeros(4))), self.pieces)
         check_status(status, message)
-        beam = object.__new__(type(self))
-        beam.columns, beam.curves, beam._factors = self.columns, self.curves, self._factors
-        beam._take(handle)
+        beam = self._copy(handle, self._factors)
         beam.__dict__["laws"] = self.laws  # which breakpoints they have stays
         return beam
 
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
         breakpoints = self.breakpoints if self.has_laws else None
-        return _made_of, (self.columns, self.curves, self._factors, breakpoints)
+        return _made_of, (self.columns, self.curves, self._factors, breakpoints, self.also_along)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -287,14 +291,17 @@ class Beam(Layout):
     @property
     def fields(self) -> dict[str, int]:
         """Names of the fields that it has, and which of `FIELDS` they are."""
-        there = {"bending": True, "axial": self.bars >= 0, "ground": self.ground_layers > 0, "second order": self.has_axial_force}
+        along = self.bars >= 0 or self.also_along
+        there = {"bending": True, "axial": along, "ground": self.ground_layers > 0, "second order": self.has_axial_force}
         return {one.name: k for k, one in enumerate(QUANTITIES) if there[one.of]}
 
 
 def _made_of(
-    columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, breakpoints: np.ndarray | None
+    columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, breakpoints: np.ndarray | None,
+    also_along: bool,
 ) -> Beam:
     """Make a beam that was pickled again."""
     beam = Beam(columns, curves)
+    beam.also_along = also_along
     beam = beam if factors is None else beam.with_factors(factors)
     return beam if breakpoints is None else beam.with_breakpoints(breakpoints)

@@ -31,7 +31,6 @@ class Verbs(Shown, States):
     renamed: ClassVar = {
         "beam": "_beam", "rule": "_rule", "members": "_members", "places_along": "_places_along", "another": "_another",
         "refuse": "_refuse", "refuse_answer": "_refuse_answer", "refuse_limit": "_refuse_limit", "take_trains": "_take_trains",
-        "fields_there": "_fields_there",
     }  # fmt: skip
 
     @property

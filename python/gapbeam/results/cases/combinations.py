@@ -170,9 +170,14 @@ class Combinations(Pickled, Mapping[str, Result]):
         load[2:, :-1] *= plan.factors[k]
         support[3, :-1] += plan.settlements[k]
         try:
-            return Beam(replace(base, load=load, support=support), self._beam.curves)
+            return self._like_others(Beam(replace(base, load=load, support=support), self._beam.curves))
         except RefusalError as refused:
             raise refusal(self._plan.scene_of(k), *refused.codes) from None
+
+    def _like_others(self, beam: Beam) -> Beam:
+        """Give it the fields that all combinations have, so that what is 0 in one of them counts in the envelope."""
+        beam.also_along = "axial_force" in self._beam.fields
+        return beam
 
     def _make(self, k: int) -> Result:
         plan = self._plan
@@ -208,7 +213,7 @@ class Combinations(Pickled, Mapping[str, Result]):
             return result
         acts = [state != "open" for state in before.steps[-1].state]
         scene = plan.scene_of(k, acts)
-        beam = beam_of(scene)
+        beam = self._like_others(beam_of(scene))
         result = Result(scene, beam, self._rule)
         follow_load(result, starting_scheme(beam))
         if result.reason:

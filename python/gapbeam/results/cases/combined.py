@@ -85,6 +85,8 @@ class CombinedResult(Result):
 
     def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray, remarks: Sequence[str] = ()):
         super().__init__(scene, beam, rule)
+        if plan.settlements[:, ~beam.bends].any():
+            beam.also_along = True
         self.names = plan.names
         self._plan = plan
         numbers = 4 * beam.scene_supports + beam.supports + len(scene.loads) + 40
@@ -103,7 +105,7 @@ class CombinedResult(Result):
         self._solver = kind(self._combinations, plan, beam, rule, start)
         self._found, reasons = self._solver.solve(self._note_compression)
         self.statuses = tuple(reasons)
-        self._combinations.take(self._found, self.statuses, self._fields_there)
+        self._combinations.take(self._found, self.statuses, self._beam.fields)
         if not scene.analysis.first_order:
             for k in self._solver.compressed(self._found):
                 self._note_compression(k)
@@ -248,7 +250,7 @@ class CombinedResult(Result):
         sources = [Source(name) for name in self.names]
         at_supports, extremes = (without_others(values, chosen) for values in (self._found.at_supports, self._found.extremes))
         envelope = Envelope(
-            self, self._fields_there, sources, at_supports, extremes, self._found.places,
+            self, self._beam.fields, sources, at_supports, extremes, self._found.places,
             lambda k: self.combinations[k], lambda: self._curves(points, places, chosen), places is not None,
         )  # fmt: skip
         envelope.limit_state = limit_state
@@ -314,14 +316,6 @@ class CombinedResult(Result):
     def has_envelope(self) -> bool:
         """Whether there is anything in the envelope."""
         return "solved" in self.statuses or any(one.has_envelope for one in self.combinations.values())
-
-    @property
-    def _fields_there(self) -> dict[str, int]:
-        """Names of the fields, and which of FIELDS they are."""
-        there = dict(self._beam.fields)
-        if self._plan.settlements[:, ~self._beam.bends].any():
-            there |= {"axial_force": 4, "axial_displacement": 5}
-        return there
 
     def _curves(
         self, points: int, x: np.ndarray | None, chosen: np.ndarray

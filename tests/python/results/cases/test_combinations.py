@@ -425,3 +425,39 @@ def test_envelopes_on_the_ground_and_along_the_axis():
     assert "clay" in json.dumps(result.to_dict(2))
     assert result.hints() == []
     assert "Not looked for" in report_text(result, 100)
+
+
+AXIAL = [{"node": 0}, {"node": 0, "direction": "axial"}, {"node": 1}]
+SLIDING = [{"node": 0, "friction": 0.3}, {"node": 1}]
+
+
+def heated(supports, combinations):
+    """A beam with a uniform load, cold or hot."""
+    return {
+        "beam": {"spans": [6.0], "EI": 3.0e3, "EA": 1.0e5, "alpha": 1.2e-5}, "supports": supports,
+        "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "temperature", "dT": 100.0, "case": "hot"}],
+        "combinations": [{"name": name, "factors": dict.fromkeys(cases, 1.0)} for name, cases in combinations.items()],
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("supports", [AXIAL, SLIDING])
+def test_where_nothing_acts_along_the_beam_its_axial_force_is_0(supports):
+    result = gapbeam.solve(heated(supports, {"cold": ["dead"]}))
+    data = json.loads(to_json(result))
+    assert data["envelope"]["extremes"]["axial_force"]["max"][:2] == [0.0, 0.0]
+    assert "Largest axial force" not in report_text(result)
+    assert "axial_force" in result.to_html()
+    assert pickle.loads(pickle.dumps(result)).combinations["cold"].at(3).axial_force == 0.0
+
+
+@pytest.mark.parametrize("stiffness", [math.inf, 3000.0])
+def test_an_axial_force_of_0_counts_in_the_envelope(stiffness):
+    """Friction along the beam is followed from event to event, combination by combination, one of them without an axial load."""
+    supports = [*AXIAL[:2], {"node": 1, "friction": 0.3, "stiffness": stiffness}]
+    result = gapbeam.solve(heated(supports, {"cold": ["dead"], "hot": ["dead", "hot"]}))
+    envelope, force = result.envelope(), 0.3 * 6.0
+    assert [envelope.extremes["axial_force"][kind].value for kind in ("max", "min")] == pytest.approx([0.0, -force], abs=1e-12)
+    assert envelope.extremes["axial_force"]["max"].combination == "cold"
+    at = envelope.at(3.0)
+    assert (at.largest["axial_force"], at.smallest["axial_force"]) == pytest.approx((0.0, -force), abs=1e-12)
+    assert result.at(3.0, combination="cold").axial_force == 0.0
