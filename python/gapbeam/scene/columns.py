@@ -28,6 +28,7 @@ from .loads import (
     TemperatureLoad,
     UniformLoad,
 )
+from .masses import check_masses
 from .movements import number_of_moved, what_moves
 from .sides import AT_HINGE, DIRECTIONS, SIDES, refuse_sides
 from .structs import Scene
@@ -85,22 +86,25 @@ def columns(scene: Scene) -> Columns:
     span = _empty(6, spans)
     span[0, :spans] = beam.spans
     span[5] = 0.0
-    for row, key in enumerate(("EI", "GA", "EA", "N", *(("mass",) if scene.analysis.frequencies else ())), 1):
+    with_masses = bool(scene.analysis.frequencies)
+    for row, key in enumerate(("EI", "GA", "EA", "N", "mass"), 1):
         values = np.asarray(getattr(beam, key), dtype=float)
         if values.ndim and len(values) != spans and spans:
             count = f"has {len(values)} values for {spans} spans"
             raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
-        span[row, :spans] = values if spans else np.inf
+        if key != "mass" or with_masses:
+            span[row, :spans] = values if spans else np.inf
     check_beam(beam)
     hinge = _empty(2, len(beam.hinges) + len(scene.hinges))
     free = len(beam.hinges)
     hinge[0, :free], hinge[1, :free] = beam.hinges, 0.0
     hinge[0, free:-1] = _x_of(scene, "hinges")
     hinge[1, free:-1] = [one.stiffness or 0.0 for one in scene.hinges]
-    masses = scene.masses if scene.analysis.frequencies else []
-    mass = _empty(2, len(masses))
-    if masses:
-        mass[0, :-1], mass[1, :-1] = _x_of(scene, "masses"), [one.mass for one in masses]
+    places = _x_of(scene, "masses")
+    check_masses(beam, scene.masses, places)
+    mass = _empty(2, len(places) if with_masses else 0)
+    if with_masses:
+        mass[0, :-1], mass[1, :-1] = places, [one.mass for one in scene.masses]
     codes, values = _supports(scene.supports)
     law_supports, law = _laws(scene.supports, points_given)
     load_codes, load_values = _loads(scene)

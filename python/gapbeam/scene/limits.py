@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from ..base.errors import SceneError
 from .table import Positive, Table
+from .wording import number
 
 
 class Limits(Table, forbid_unknown_fields=True, kw_only=True):
@@ -38,7 +41,7 @@ class Limits(Table, forbid_unknown_fields=True, kw_only=True):
 
 
 def check_limits(limits: Limits | None, width: float | None, has_foundation: bool) -> None:
-    """Refuse limits that nothing can be set beside.
+    """Refuse limits and a width that are no numbers above 0, and limits that nothing can be set beside.
 
     Parameters
     ----------
@@ -52,8 +55,14 @@ def check_limits(limits: Limits | None, width: float | None, has_foundation: boo
     Raises
     ------
     SceneError
-        A limit of the pressure without a width of the beam, or without ground.
+        A number that is not above 0; a limit of the pressure without a width of the beam, or without ground.
     """
+    for key, value in ({} if limits is None else limits.given()).items():
+        if not value > 0.0:
+            problem = f"expected a number above 0, got {number(value)}; leave it out where there is no limit"
+            raise SceneError(f"limits.{key}", problem)
+    if width is not None and not 0.0 < width < inf:
+        raise SceneError("beam.width", f"expected a finite number above 0, got {number(width)}; give the width on the ground")
     if limits is None or limits.pressure is None:
         return
     if not has_foundation:

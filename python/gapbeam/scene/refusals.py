@@ -57,7 +57,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if table == SPANS:
         return _beam_refusal(scene, reason, entry - 1, key)
     if not table:
-        return _mass_refusal(scene, entry - 1, message) if key == "masses" else SceneError(f"analysis.{key}", message)
+        return SceneError(f"analysis.{key}", message)
     i = entry - 1
     if table == HINGES and i >= len(scene.beam.hinges):
         return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
@@ -103,16 +103,6 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         'which side takes it; say at_hinge = "left" or "right"',
     }
     return SceneError(path, words[reason]())
-
-
-def _mass_refusal(scene: Scene, i: int, message: str) -> SceneError:
-    """Word a refusal of a lumped mass."""
-    if scene.masses[i].x is scene.masses[i].node is None:
-        return SceneError(f"masses[{i}]", "has no place; give x or node")
-    key, _, problem = message.partition(").")[2].partition(": ")
-    if key == "x" and scene.masses[i].node is not None:
-        key, problem = "node", f"expected a node, from 0 to {len(scene.beam.spans)}, got {scene.masses[i].node}"
-    return SceneError(f"masses[{i}].{key}", problem)
 
 
 def _hinge_refusal(scene: Scene, reason: int, i: int, key: str, message: str) -> SceneError:
@@ -165,7 +155,8 @@ def _beam_refusal(scene: Scene, reason: int, i: int, key: str) -> SceneError:
     if key != "length":
         value = getattr(scene.beam, key)
         place, got = (f"beam.{key}[{i}]", value[i]) if hasattr(value, "__len__") else (f"beam.{key}", value)
-        return SceneError(place, f"expected a number above 0 (inf = rigid), got {number(got)}")
+        expected = "a finite number, tension positive" if key == "N" else "a number above 0 (inf = rigid)"
+        return SceneError(place, f"expected {expected}, got {number(got)}")
     if not isfinite(length):
         return SceneError(f"beam.spans[{i}]", f"expected a finite length above 0, got {number(length)}")
     stretch = f"the span from x = {number(ends[i])} to x = {number(ends[i] + length)} has length {number(length)}"

@@ -156,6 +156,14 @@ EI = -1e4 -> beam.EI: expected a number above 0 (inf = rigid), got -10000
 EI = nan -> beam.EI: expected a number above 0 (inf = rigid), got nan
 GA = [1.0, 2.0, 0.0] -> beam.GA[2]: expected a number above 0 (inf = rigid), got 0
 EA = [nan, 2.0, 0.0] -> beam.EA[0]: expected a number above 0 (inf = rigid), got nan
+N = nan -> beam.N: expected a finite number, tension positive, got nan
+N = [1.0, inf, 0.0] -> beam.N[1]: expected a finite number, tension positive, got inf
+mass = -1.0 -> beam.mass: expected a finite number, 0 or more, got -1
+mass = [0.0, nan, 1.0] -> beam.mass[1]: expected a finite number, 0 or more, got nan
+mass = [1.0] -> beam.mass: has 1 values for 3 spans; give one number, or one per span
+width = 0.0 -> beam.width: expected a finite number above 0, got 0; give the width on the ground
+width = -1.5 -> beam.width: expected a finite number above 0, got -1.5; give the width on the ground
+width = nan -> beam.width: expected a finite number above 0, got nan; give the width on the ground
 EI = [1e4, 1e4] -> beam.EI: has 2 values for 3 spans; give one number, or one per span
 EI = [] -> beam.EI: has 0 values for 3 spans; give one number, or one per span
 hinges = [0.0] -> beam.hinges[0]: x = 0 is an end of the beam, where no hinge can be; remove it
@@ -467,6 +475,13 @@ def test_foundation(given, expected):
 def test_steps(steps):
     expected = f"analysis.steps: expected a whole number, 1 or more, got {steps}"
     assert message(analysis={"steps": steps}) == expected
+
+
+@pytest.mark.parametrize("value", [-3.0, 0.0, np.nan])
+@pytest.mark.parametrize("key", ["moment", "shear", "reaction", "opening", "deflection", "pressure"])
+def test_limits(key, value):
+    expected = f"limits.{key}: expected a number above 0, got {value:g}; leave it out where there is no limit"
+    assert message(limits={key: value}) == expected
 
 
 # Scenes built in Python

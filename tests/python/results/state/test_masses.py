@@ -91,15 +91,20 @@ def test_amplitudes():
 @pytest.mark.parametrize(
     ("mass", "place", "words"),
     [
-        ({"x": 2.0, "mass": 1.0}, "masses[0].x", "from 0 to 1"), ({"node": 5, "mass": 1.0}, "masses[0].node", "from 0 to 1"),
+        ({"x": 2.0, "mass": 1.0}, "masses[0].x", "2 is outside the beam, which runs from x = 0 to x = 1"),
+        ({"node": 5, "mass": 1.0}, "masses[0].node", "there is no node 5; the nodes of the beam are 0 to 1"),
+        ({"x": 0.5, "node": 0, "mass": 1.0}, "masses[0]", "give one of the two"),
+        ({"x": math.nan, "mass": 1.0}, "masses[0].x", "nan is outside the beam"),
+        ({"x": 0.5, "mass": math.nan}, "masses[0].mass", "expected a finite number, 0 or more, got nan"),
         ({"x": 0.5, "mass": -1.0}, "masses[0].mass", "0 or more"), ({"x": 0.5}, "masses[0].mass", "missing"),
-        ({"mass": 1.0}, "masses[0]", "x"),
+        ({"mass": 1.0}, "masses[0]", "its position is missing; give node or x"),
     ],
 )  # fmt: skip
-def test_what_is_refused(mass, place, words):
+@pytest.mark.parametrize("frequencies", [0, 1])
+def test_what_is_refused(mass, place, words, frequencies):
     simple = scene([1.0], [{"node": 0}, {"node": 1}], [uniform(1.0), force(0.5, 1.0)], EI=1.0)
     with pytest.raises(SceneError) as caught:
-        gapbeam.solve({**simple, "masses": [mass], "analysis": {"frequencies": 1}})
+        gapbeam.solve({**simple, "masses": [mass], "analysis": {"frequencies": frequencies}})
     assert caught.value.place == place
     assert words in str(caught.value)
 
