@@ -73,7 +73,7 @@ class States(Pickled, WithModes):
     @property
     def reason(self) -> str | None:
         """Why there is no equilibrium or no unique answer, which limit there is, or that the beam is free to move."""
-        return self._neutral_words if self._reason is None and self.status == "solved" else self._reason
+        return self._neutral_words if self._reason is None else self._reason
 
     @reason.setter
     def reason(self, words: str | None) -> None:
@@ -82,7 +82,7 @@ class States(Pickled, WithModes):
     @property
     def _neutral_words(self) -> str | None:
         """What is said where it stands at the end of the load, but can move freely without work of the loads."""
-        if not self.steps or not self.steps[-1].indifferent:
+        if self.status != "solved" or not self.steps or not self.steps[-1].indifferent:
             return None
         chain = self.steps[-1].solution.chain
         return SLIDING if chain is not None and chain.loose == ALONG_ONLY else MOVING
