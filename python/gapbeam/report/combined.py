@@ -17,7 +17,7 @@ from ..scene.rotations import at_support, which_turn
 from .axial_force import write_modes_of_combinations
 from .ground import free_span_headings
 from .over_path import write_over_path
-from .signs import positive_fields
+from .signs import names_with_units, positive_fields
 from .system import write_system
 from .trains import write_trains
 from .writer import Writer, chosen
@@ -224,17 +224,16 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
         return
     say.heading(f"Supports, {of}")
     one_sided = any(support.side != "both" for support in scene.supports)
-    rows, names, turning, couple = [], fmt.numbered(scene.supports), which_turn(scene.supports), fmt.unit(scene, "couple")
+    rows, names = [], names_with_units(scene)
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
     for k in chosen(len(names), lifted, MOST_ROWS):
         if k is None:
             rows.append(["..."] * (6 if one_sided else 4))
             continue
-        row, units = envelope.supports[k], "" if not turning[k] else f" [{', '.join(filter(None, (couple, 'rad')))}]"
-        name = names[k] + units
+        row = envelope.supports[k]
         for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
-            texts = [name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
+            texts = [names[k] if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
             if one_sided:
                 opening = row["opening"][kind]
                 far = fmt.shown(scene, at_support(scene, "opening", k), opening.value)

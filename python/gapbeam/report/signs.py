@@ -1,8 +1,11 @@
-"""Signs in words: which values of the fields along the beam are positive."""
+"""Signs and units in words: which values are positive along the beam, and what those at supports that turn are told in."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from ..results import formatting as fmt
+from ..scene.rotations import turns
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
@@ -27,3 +30,18 @@ def positive_fields(scene: Scene) -> str:
     if scene.beam.direction == "down":
         return "Deflection to the right, moment with tension on the right, counterclockwise rotation: positive."
     return "Deflection downward, sagging moment, clockwise rotation: positive."
+
+
+def names_with_units(scene: Scene) -> list[str]:
+    """Name the supports in a table of reactions and openings, those that hold rotations with the units of couples and angles.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its unit labels.
+    """
+    units = ", ".join(filter(None, (fmt.unit(scene, "couple"), "rad")))
+    return [
+        f"{name} [{units}]" if turns(support) else name
+        for name, support in zip(fmt.numbered(scene.supports), scene.supports, strict=True)
+    ]

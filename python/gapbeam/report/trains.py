@@ -10,9 +10,10 @@ from ..results.cases.limit_states import envelopes_to_tell
 from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
 from ..results.views.extreme import IN_WORDS
+from ..scene.rotations import at_support
 from ..scene.trains import LEFT
 from .ground import free_span_headings
-from .signs import positive_fields
+from .signs import names_with_units, positive_fields
 from .writer import Writer, chosen
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
     scene = result.scene
     if not scene.supports:
         return
-    rows, names = [], fmt.numbered(scene.supports)
+    rows, names = [], names_with_units(scene)
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
     which = chosen(len(names), sorted(lifted, key=lambda k: -envelope.supports[k]["opening"]["max"].value), MOST_SUPPORTS)
     for k in which:
@@ -97,7 +98,8 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
                 rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
         opening = row["opening"]["max"]
         if opening is not None and opening.value > 0.0:
-            rows.append(["", "opening", fmt.shown(scene, "opening", opening.value), *_source(result, opening)])
+            far = fmt.shown(scene, at_support(scene, "opening", k), opening.value)
+            rows.append(["", "opening", far, *_source(result, opening)])
     say.heading(f"Supports while trains pass{of}")
     say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4), len(rows))
     if None in which:

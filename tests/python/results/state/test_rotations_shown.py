@@ -93,3 +93,18 @@ def test_the_study_refuses_it(tmp_path, capsys):
     scene.write_text(json.dumps(SCENE))
     assert main(["study", "accuracy", str(scene)]) != 0
     assert "does not know restraints and hinges with laws" in capsys.readouterr().err
+
+
+def test_while_trains_pass():
+    scene = {
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [9.0, 12.0, 9.0], "EI": 3e5},
+        "hinges": [{"x": 12.0, "stiffness": 2e4, "slack": 0.0005, "name": "splice"}],
+        "supports": [{"node": 0, "side": "below"}, *({"node": k} for k in (1, 2, 3))],
+        "trains": [{"name": "a", "axles": [[0.0, 90.0]]}],
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    table = result.report().partition("Supports while trains pass")[2].partition("What changes")[0]
+    couple, angle = (result.envelope().supports[4][name]["max"].value for name in ("reaction", "opening"))
+    assert re.search(rf"4 splice \[kN m, rad\]\s+largest\s+{couple:.5g}\s", table)
+    assert re.search(rf"opening\s+{angle:.5g}\s+a at", table.partition("splice")[2])
+    assert angle <= 0.0011
