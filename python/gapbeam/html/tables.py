@@ -12,7 +12,6 @@ from ..results import formatting as fmt
 from ..results.contact import source_in_words
 from ..results.data import modes_data
 from ..results.event_words import state_in_words
-from ..results.state.ground import joined
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import label, labels
 from ..scene.rotations import turns
@@ -182,7 +181,7 @@ def _zones(result: Result) -> TableData:
         rows.append([Cell(what), Cell(label(scene.foundation, foundation)), *of])
 
     if step is not None and scene.foundation:
-        for zone in joined(step.contact):
+        for zone in step.contact:
             ends = [_number(value) for value in (zone.from_, zone.to, zone.to - zone.from_)]
             add(state_in_words(zone.state), zone.foundation, [*ends, _shown(result, "resultant", zone.resultant), Cell("")])
         for span in step.free_spans:

@@ -11,7 +11,9 @@ import gapbeam
 import numpy as np
 import pytest
 from gapbeam.html.hand_check import sums_data
+from gapbeam.html.tables import tables_of
 from gapbeam.html.three_moments import three_moments_data
+from gapbeam.results.event_words import state_in_words
 
 from .pages import EVENTS, LOADS, combined, data_of, fifty, on_ground, scene, see_saw, train, without_seconds
 
@@ -137,6 +139,15 @@ def test_the_checker_reads_input_hash_signs_bounds_and_what_was_left_out():
     assert "Moments are positive sagging" in page
     assert "Σ V = 36 + 160 \N{MINUS SIGN} 6 \N{MINUS SIGN} " in page
     assert "Three-moment equation at support B" in page
+
+
+def test_zones_on_the_ground_are_those_of_the_state():
+    """Zones on different segments of a law are not joined under the name of the first one."""
+    result = gapbeam.solve(EXAMPLES / "laterally_loaded_pile.toml")
+    (table,) = (one for one in tables_of(result, result.envelope(), []) if one.name == "zones")
+    given = [(zone.state, zone.from_, zone.to) for zone in result.steps[-1].contact]
+    assert len({state for state, *_ in given}) > 2
+    assert [(row[0].text, row[2].value, row[3].value) for row in table.rows] == [(state_in_words(a), *ends) for a, *ends in given]
 
 
 def test_names_are_no_markup():
