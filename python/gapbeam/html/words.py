@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..results import formatting as fmt
+from ..results.equilibrium import feels_axial_force
 from ..scene.rotations import which_turn
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ LEFT_OUT = {
     "second order": "Effect of axial forces on bending (second order).",
 }
 """By the words of `System.left_out`."""
+BESIDE_N = {"axial": "Displacements along the beam: no load and no support acts along it; its axial force N is given."}
+"""Other words where bending feels an axial force."""
 FIRST_ORDER = "Equilibrium is that of the undeformed beam (first order). Deflections and rotations are small."
 SECOND_ORDER = "Equilibrium is that of the deflected beam under its axial forces (second order). Slopes are small."
 ALWAYS = (
@@ -55,8 +58,10 @@ def left_out(result: Result) -> list[str]:
     result : Result
         Of one load.
     """
-    order = SECOND_ORDER if result._beam.has_axial_force else FIRST_ORDER
-    return [LEFT_OUT.get(one, one) for one in result.system.left_out] + [order, *ALWAYS]
+    words, order = LEFT_OUT, FIRST_ORDER
+    if feels_axial_force(result):
+        words, order = LEFT_OUT | BESIDE_N, SECOND_ORDER
+    return [words.get(one, one) for one in result.system.left_out] + [order, *ALWAYS]
 
 
 def bounds_in_words(result: Result, step: Step) -> list[str]:

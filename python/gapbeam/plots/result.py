@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..results.equilibrium import acting_axial_forces
+from ..results.equilibrium import acting_axial_forces, feels_axial_force
 from ..results.state.ground import joined, noun_of
 from .beam import SupportLanes, draw_beam, draw_contacts
 from .bezier import cells_of
@@ -120,7 +120,7 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
         text += " (limit load)"
     doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
-    if result._beam.has_axial_force:
+    if feels_axial_force(result):
         forces = [force for *_, left, right in acting_axial_forces(result, result.steps[step]) for force in (left, right)]
         ends = dict.fromkeys(fmt.value(result.scene, "axial_force", force) for force in (min(forces), max(forces)))
         text += with_minus_signs(f", N {' to '.join(ends)}")

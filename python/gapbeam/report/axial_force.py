@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..base.errors import EngineError, SceneError
 from ..results import formatting as fmt
 from ..results.answer import is_one_of_several
-from ..results.equilibrium import acting_axial_forces, axial_forces
+from ..results.equilibrium import acting_axial_forces, axial_forces, feels_axial_force
 from ..results.stepping import solve
 from ..scene.ground_laws import any_falls
 
@@ -44,7 +44,7 @@ def write_axial_force(say: Writer, result: Result, at: str) -> None:
         Which state it is.
     """
     analysis = result.scene.analysis
-    if result._beam.has_axial_force:
+    if feels_axial_force(result):
         say.heading(f"Axial force in bending {at}")
         say.line(axial_forces_in_words(result, result.steps[-1]))
         say.line("shear = dM/dx, normal to the deflected axis: sections are designed for it. transverse = shear + N w': loads and "

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..base.characters import visible
 from ..results import formatting as fmt
+from ..results.equilibrium import feels_axial_force
 from ..scene.names import DEAD, cases_of
 from ..scene.structs import Scene
 from ..scene.tapers import ends_of, is_tapered
@@ -37,7 +38,8 @@ def write_system(say: "Writer", result: "Result") -> None:
     """Print what was solved: beam, supports, loads, equations, and what was left out."""
     scene, system = result.scene, result.system
     say.heading("System")
-    left_out = [LEFT_OUT.get(name, name) for name in system.left_out if name != "second order"]
+    words = LEFT_OUT | ({"axial": "axial displacements"} if feels_axial_force(result) else {})
+    left_out = [words.get(name, name) for name in system.left_out if name != "second order"]
     equations = f"{system.method}: {fmt.count(system.nodes, 'node')}, {fmt.count(system.unknowns, 'unknown')}"
     equations += f", half bandwidth {system.half_bandwidth}"
     if system.axial_unknowns:

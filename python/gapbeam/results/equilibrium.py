@@ -198,6 +198,17 @@ def axial_forces(scene: Scene) -> list[AxialRun]:
     return _runs(cuts, force, force)
 
 
+def feels_axial_force(result: Result) -> bool:
+    """Tell whether bending feels an axial force, not only a shear of the ground.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load or of combinations.
+    """
+    return result._beam.feels_axial_loads or any(run.left for run in axial_forces(result.scene))
+
+
 def _runs(cuts: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[AxialRun]:
     """Stretches along which the force is constant or linear, from those between the cuts."""
     slope, size = (right - left) / np.diff(cuts), np.maximum(np.abs(left), np.abs(right))

@@ -175,3 +175,30 @@ def test_the_answer_tells_what_is_along_the_beam():
     assert "\nLargest moment " in rack
     assert "\nLargest axial force 15.94 kN at x = 0 " in rack
     assert "xial" not in gapbeam.solve(EXAMPLES / "three_spans.toml").report().partition("\n\n")[0]
+
+
+def subtitle(result):
+    """All words of a picture."""
+    return " ".join(text.get_text() for text in figure(result).findobj(lambda one: hasattr(one, "get_text")))
+
+
+def test_a_shear_of_the_ground_is_no_axial_force():
+    ground = {"k": 5e3, "shear": 600.0, "side": "both"}
+    loads = [{"type": "force", "x": 2.0, "F": 9.0}]
+    made = {"units": UNITS, "beam": {"spans": [4.0], "EI": 10.0}, "foundation": [ground], "loads": loads}
+    result = gapbeam.solve(made)
+    assert result._beam.has_axial_force
+    assert "N = 0" not in told(result)
+    assert "N 0 kN" not in subtitle(result)
+    assert "under its axial forces" not in result.to_html()
+    pulled = gapbeam.solve({**made, "beam": {**made["beam"], "N": 3.0}})
+    assert "N = 3 kN (tension) all along the beam" in told(pulled)
+    assert "N 3 kN" in subtitle(pulled)
+
+
+def test_what_is_left_out_beside_an_axial_force_is_what_would_be_along_the_beam():
+    page, text = html_page(column(-0.2 * EULER)), " ".join(report_text(column(-0.2 * EULER), verbose=True).split())
+    assert "Axial forces and displacements: no load" not in page
+    assert "Displacements along the beam: no load and no support acts along it; its axial force N is given." in page
+    assert "axial displacements" in text
+    assert "left out axial forces" not in text
