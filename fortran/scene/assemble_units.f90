@@ -332,7 +332,7 @@ contains
                 end associate
             case default
                 call refuse_range(error, "though no length, stiffness or level is far from the rest", &
-                                  "this is an error of gapbeam, please report it")
+                                  "give smaller loads and load factors")
             end select
         end associate
 

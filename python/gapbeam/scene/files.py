@@ -148,7 +148,7 @@ def _parse(text: str, kind: str, name: str) -> Written:
     if far:
         raise SceneError(_place(data, far[0]) or name, out_of_range(far[0].word, far[0].value))
     if not isinstance(data, dict):
-        raise SceneError("the scene", f"expected a table, got {shown(data)}")
+        raise SceneError(name, f"expected a table with beam, supports and loads, got {shown(data)}")
     return Written(data, name, text)
 
 

@@ -133,11 +133,13 @@ class _Repair:
         return True
 
     def _leave_out(self, path: Path, owner: dict[str, Any]) -> None:
-        """Take a key away; where a gap may stand beside it, the side is put right."""
+        """Take a key away; where a gap may stand beside it, the side is put right; a train without others gets an axle."""
         self._done.add(path)
         owner.pop(path[-1], None)
         if path[0] == "supports" and path[-1] == "side" and owner.get("direction") != "axial":
             owner["side"] = "below"
+        if path[0] == "trains" and path[-1] == "together":
+            owner.setdefault("axles", [[0.0, 1.0]])
 
     def _owner(self, path: Path) -> Any:
         """The table or list that the last piece of a path stands in."""

@@ -183,9 +183,13 @@ def prepared_beam(scene: Scene) -> Beam:
     """
     with names_in_errors(scene):
         try:
-            return beam_of(scene)
+            beam = beam_of(scene)
         except RefusalError as refused:
             raise refusal(scene, *refused.codes) from None
+    # On the ground there are no histories at all, which is said where it is solved
+    if scene.analysis.has_history and scene.analysis.follow == "steps" and not beam.in_stretches:
+        raise SceneError("analysis.history", 'a history needs follow = "events"')
+    return beam
 
 
 def as_written(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:

@@ -84,6 +84,22 @@ def test_a_side_that_is_none_says_nothing_of_the_gap(tmp_path):
     assert [place for _, place, _ in caught.value.mistakes] == ["supports[1].side"]
 
 
+@pytest.mark.parametrize(
+    ("given", "place"),
+    [
+        ('trains = [{ name = "t", together = [["u", 0.0]] }]', "trains[0].together[0][0]"),
+        ("analysis = { history = [1.0, 0.0] }", "analysis.history"),
+    ],
+)
+def test_one_mistake_is_told_once_with_its_line(tmp_path, given, place):
+    path = tmp_path / "one.toml"
+    path.write_text(f"beam = {{ spans = [6.0], EI = 1.0 }}\nsupports = [{{ node = 0 }}, {{ node = 1 }}]\n{given}\n")
+    for read in (gapbeam.read_scene, gapbeam.solve):
+        with pytest.raises(gapbeam.SceneError) as caught:
+            read(path)
+        assert [(line, at) for line, at, _ in caught.value.mistakes] == [(3, place)]
+
+
 def test_json_has_lines_too(tmp_path):
     data = tomllib.loads(BAD)
     data["analysis"]["history"] = [1.0]

@@ -621,7 +621,7 @@ def test_other_files(tmp_path):
     path.write_text("[1]")
     with pytest.raises(SceneError) as caught:
         read_scene(path)
-    assert str(caught.value) == "the scene: expected a table, got [1]"
+    assert str(caught.value) == f"{path}: expected a table with beam, supports and loads, got [1]"
 
 
 # The exception

@@ -147,8 +147,6 @@ def follow_path(result: Result, closed: np.ndarray | None = None) -> None:
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":
         raise SceneError("analysis.at_limit", '"follow" needs follow = "events": with falling load there is no state by steps')
-    if by_steps and analysis.has_history:
-        raise SceneError("analysis.history", 'a history needs follow = "events"')
     result.path = follow_branches(result)
     _refuse_beyond_bounds(result)
     if result.path is None:

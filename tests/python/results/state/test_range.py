@@ -376,3 +376,11 @@ def test_reactions_are_not_lost_beside_a_great_lack_of_fit():
     supports[1]["gap"] = -1e30
     with pytest.raises(EngineError, match="so great that reactions to the loads are lost"):
         gapbeam.solve(made)
+
+
+def test_load_factors_beyond_what_can_be_solved_are_named():
+    supports = [{"node": 0}, {"node": 1, "side": "below", "gap": 0.002}, {"node": 2}]
+    loads = [{"type": "uniform", "q": 2.0}, {"type": "force", "x": 3.0, "F": 40.0}]
+    made = {"beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": supports, "loads": loads}
+    with pytest.raises(EngineError, match=r"left the range of double precision.*; give smaller loads and load factors"):
+        report_text(gapbeam.solve({**made, "analysis": {"follow": "events", "history": [1e300]}}))
