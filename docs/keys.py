@@ -81,7 +81,7 @@ def table_of(name, table, with_defaults=True):
         unit, meaning = meaning_of(entry["description"])
         if with_defaults:
             default = default_of(entry, key, table)
-            meaning = re.sub(r"[;,]? default [^.;]*?(?=[.;]|$)| \(default\)", "", meaning) if default != NONE else meaning
+            meaning = re.sub(r"[;,]? default .*?(?=[.;](?: |$)|$)| \(default\)", "", meaning) if default != NONE else meaning
         shown = f"`{key}`" if key in table.get("required", ()) or with_defaults else f"`{key}` (optional)"
         row = [shown, kind_of(entry).replace(" or null", "" if with_defaults else " or `null`"), unit]
         lines.append("| " + " | ".join(map(cell, [*row, *([default] if with_defaults else []), meaning])) + " |")

@@ -24,6 +24,11 @@ def test_pages_are_made_of_the_schemas(name):
     assert (KEYS["REFERENCE"] / name).read_text(encoding="utf-8") == KEYS["PAGES"][name](), "run python docs/keys.py"
 
 
+def test_a_default_is_left_out_of_the_meaning_whole():
+    (row,) = (line for line in KEYS["table_of"]("Analysis", DEFS["Analysis"]) if line.startswith("| `history`"))
+    assert row == "| `history` | list of number | no unit | `[1.0]` | Load factors gone through in turn, from event to event. |"
+
+
 def test_every_table_is_there():
     assert set(KEYS["SCENE"]) == set(DEFS)
 

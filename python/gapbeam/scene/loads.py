@@ -118,7 +118,7 @@ class CurvatureLoad(_StretchLoad, kw_only=True, gc=False, tag="curvature"):
     ----------
     kappa : float or (float, float)
         Curvature (1/length), added to w'' = -M/EI; positive where the upper side gets longer (warmer above). Or (at from, at to),
-        linear in between: not beside foundations, along tapered sections and under trains.
+        linear in between: not over rigid ground; along tapered sections only on the ground or with N.
     """
 
     kappa: float | tuple[float, float]

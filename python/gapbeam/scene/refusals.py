@@ -172,7 +172,7 @@ def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
             key = "rotation"
     value = getattr(item, "from_" if key == "from" else key)
     expected = EXPECTED.get(key, "a finite number") if table != LOADS else "a finite number"
-    if table == SECTIONS and key != "limit":
+    if table == SECTIONS and key not in ("limit", "N"):
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):
         expected = "finite numbers, 0 or more" if key == "k" else "finite numbers"

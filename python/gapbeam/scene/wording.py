@@ -291,10 +291,12 @@ def _core(kind: inspect.Type) -> inspect.Type:
 
 
 def _struct(kind: inspect.Type, value: Mapping) -> inspect.StructType | None:
-    """Find the struct that a table is to become; None for a load without (valid) type."""
+    """Find the struct that a table is to become; None where there are several, for a load without (valid) type."""
     kind = _core(kind)
     if isinstance(kind, inspect.UnionType):
-        tables = (member for member in kind.types if isinstance(member, inspect.StructType))
+        tables = [member for member in kind.types if isinstance(member, inspect.StructType)]
+        if len(tables) == 1:
+            return tables[0]
         return next((member for member in tables if member.tag == value.get("type")), None)
     return kind
 

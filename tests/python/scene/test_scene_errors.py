@@ -196,6 +196,8 @@ to = nan; EI = 1.0 -> sections[1].to: expected a number, got nan
 EI = 0 -> sections[1].EI: expected a number above 0 (inf = rigid), got 0.0
 GA = -2.5 -> sections[1].GA: expected a number above 0 (inf = rigid), got -2.5
 EA = nan -> sections[1].EA: expected a number, got nan
+N = inf -> sections[1].N: expected a finite number, got inf
+EI = { type = "cubic" } -> sections[1].EI.type: unknown key; the keys are from, to and power
 from = 2.0; to = 4.0 -> sections[1]: changes nothing; give EI, GA or EA
 """
 

@@ -130,8 +130,19 @@ def test_pairs_columns_and_scales():
     assert far.at(scale).rotation == gapbeam.solve(SIMPLE).at(1.0).rotation
 
 
+@pytest.mark.parametrize("changes", [
+    {"trains": [{"axles": [[0.0, 1.0]]}]}, {"foundation": [{"k": 10.0, "side": "below"}]},
+    {"foundation": [{"k": 10.0}], "sections": [{"EI": [100.0, 300.0]}]},
+    {"beam": {"spans": [L], "EI": 100.0, "N": -1.0}, "sections": [{"EI": [100.0, 300.0]}]},
+])  # fmt: skip
+def test_what_may_stand_beside_it(changes):
+    """As the reference of keys says."""
+    assert gapbeam.solve(SIMPLE | changes).status == "solved"
+
+
 @pytest.mark.parametrize(("changes", "words"), [
     ({"sections": [{"EI": [100.0, 300.0]}]}, "loads[0].kappa: a curvature that changes along a section that tapers"),
+    ({"foundation": [{"k": np.inf, "side": "below"}], "supports": []}, "loads[0].kappa: a support that is turned"),
     ({"loads": [{"type": "curvature", "kappa": [0.0, np.inf]}]}, "loads[0].kappa: expected finite numbers, got [0.0, inf]"),
     ({"loads": [{"type": "curvature", "kappa": [0.0, 1.0, 2.0]}]}, "loads[0].kappa: expected"),
 ])  # fmt: skip
