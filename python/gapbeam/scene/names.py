@@ -155,8 +155,10 @@ def check_names(scene: Scene) -> None:
     SceneError
         Names the place.
     """
-    for key in NAMED:
-        seen: dict[str, int] = {}
+    for key in (*NAMED, "hinges"):
+        # What a hinge holds is told among the supports
+        beside = names_of(scene.supports) if key == "hinges" else ()
+        seen = {name: f"supports[{k}]" for k, name in enumerate(beside) if name is not None}
         names = names_of(getattr(scene, key))
         if names.count(None) == len(names):
             continue
@@ -170,8 +172,8 @@ def check_names(scene: Scene) -> None:
             if key != "combinations" and re.fullmatch(r"\s*\d+\s*", name):
                 raise SceneError(place, f"{shown(name)} could be taken for a number; give a name with a letter in it")
             if name in seen:
-                raise SceneError(place, f"{shown(name)} is the name of {key}[{seen[name]}] already; give another one")
-            seen[name] = i
+                raise SceneError(place, f"{shown(name)} is the name of {seen[name]} already; give another one")
+            seen[name] = f"{key}[{i}]"
     cases = cases_of(scene.loads)
     for case in dict.fromkeys(cases):
         place = f"loads[{cases.index(case)}].case"

@@ -49,6 +49,14 @@ def test_columns_have_names_and_cases():
     ("change", "message"),
     [
         (lambda made: made["supports"][1].update(name="R-101"), r'supports[1].name: "R-101" is the name of supports[0] already'),
+        (
+            lambda made: made.update(hinges=[{"x": 2.0, "name": "R-102"}]),
+            'hinges[0].name: "R-102" is the name of supports[1] already; give another one',
+        ),
+        (
+            lambda made: made.update(hinges=[{"x": 2.0, "name": "joint"}, {"x": 6.0, "name": "joint"}]),
+            'hinges[1].name: "joint" is the name of hinges[0] already; give another one',
+        ),
         (lambda made: made["supports"][1].update(name=" "), "supports[1].name: is empty"),
         (lambda made: made["supports"][1].update(name="7"), 'supports[1].name: "7" could be taken for a number'),
         (lambda made: made["supports"][1].update(name=7), "supports[1].name: expected a text in quotes, got 7"),
