@@ -307,4 +307,4 @@ def _range(train: Train, direction: str, end: float, place: str) -> tuple[float,
             positions = f"it is so from {number(low)} to {number(high)}"
             raise SceneError(f"{place}.inside", f"nowhere from {number(first)} to {number(last)} is the train inside; {positions}")
         first, last = max(first, low), min(last, high)
-    return first, last
+    return first + 0.0, last + 0.0  # a zero without sign

@@ -133,3 +133,10 @@ def test_a_train_under_which_the_beam_always_falls_can_be_shown(tmp_path, combin
     words = " ".join(text.get_text() for text in result.plot().texts)
     assert ("Envelope of 0 of 1 combination" if combined else "tips about") in words
     assert "tips about" in result.to_html(tmp_path / "page.html")
+
+
+def test_positions_have_no_zero_below_zero():
+    tipping = plank(supports=[{"x": 1.0, "side": "below"}, {"node": 2, "side": "below"}], loads=[])
+    result = gapbeam.solve(tipping)
+    assert result.reason.startswith("train man, positions 0 to 1: ")
+    assert "man, 0 to 1: no equilibrium" in report_text(result)
