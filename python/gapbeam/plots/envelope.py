@@ -89,7 +89,7 @@ def envelope_figure(result: Result) -> Figure:
     values = None if envelope is None else EnvelopeValues(scene, envelope, key)
     supports = SupportLanes(scene, states, length, (ground.below, ground.above), values)
     extremes = {panel[0]: _marks(envelope.extremes[panel[0]], key) for panel in panels}
-    loaded, note = _loaded(envelope, scene) if scene.trains and envelope is not None else (None, "")
+    loaded, note = _loaded(envelope, result) if scene.trains and envelope is not None else (None, "")
     loads = None if loaded is None else LoadLanes(loaded, supports.top, length)
     if values is not None and len(values.up):
         positions = ", with the position of the train" * bool(scene.trains)
@@ -166,8 +166,9 @@ def _headline(result: Result, sources: list[Any], several: bool) -> str:
     return text + "; the strips tell which one governs" * several
 
 
-def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
+def _loaded(envelope: TrainEnvelope, result: Result) -> tuple[Scene | None, str]:
     """Give the scene with the axles where the largest value comes from, and say so."""
+    scene = result.scene
     for name in ABOUT:
         found = [one for one in envelope.extremes.get(name, {}).values() if one is not None and one.position is not None]
         if found:
@@ -178,7 +179,8 @@ def _loaded(envelope: TrainEnvelope, scene: Scene) -> tuple[Scene | None, str]:
             words = f"Drawn: {source_name(most)} at position {place}, from which the largest {name} comes: {value}."
             if state is None:
                 return None, ""
-            first = len(scene.loads)
+            # What acts in a combination comes before the axles
+            first = len((scene if most.combination is None else result.combinations[most.combination].scene).loads)
             loads = [*state.scene.loads[:first], *(replace(load, name="axle") if isinstance(load, ForceLoad) else load
                                                    for load in state.scene.loads[first:])]  # fmt: skip
             return replace(state.scene, loads=loads), words

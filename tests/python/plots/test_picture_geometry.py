@@ -212,3 +212,15 @@ def test_axles_stand_where_the_largest_moment_is():
     notes = " ".join(text.get_text() for text in made.texts)
     assert f"{most.train}" in notes
     assert f"at position {number(most.position, 4)} m" in notes
+
+
+def test_axles_are_no_loads_of_a_case():
+    """Also where a case does not act in the combination, which has less loads than the scene."""
+    crane = {"name": "crane", "axles": [[0.0, 90.0], [2.0, 80.0]], "case": "crane"}
+    loads = [scenes.uniform(2.0, case="dead"), scenes.force(3.0, 1.0, case="wind")]
+    supports = [scenes.at(k) for k in range(3)]
+    made = scenes.scene([6.0, 6.0], supports, loads) | {"trains": [crane]}
+    made["combinations"] = [{"name": "uls", "factors": {"dead": 1.0, "crane": 1.5}}]
+    words = [text.get_text() for axes in figure(gapbeam.solve(made)).axes for text in axes.texts]
+    assert {"135 axle", "120 axle"} <= set(words)
+    assert not any("live" in word for word in words)
