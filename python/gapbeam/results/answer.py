@@ -16,7 +16,7 @@ from ..scene.structs import Scene
 from . import formatting as fmt
 from .contact import contact_in_words, ground_in_words, source_in_words
 from .envelopes.full_load import envelope_of_one
-from .envelopes.lifted import NONE, lifted_supports
+from .envelopes.lifted import NONE, carrying_supports, lifted_supports
 from .envelopes.over_path import count_states, is_followed
 from .event_words import limits_of_load_in_words
 from .plausibility import doubts_of_scene, doubts_of_signs
@@ -257,7 +257,7 @@ def answer(result: Result) -> list[str]:
         return lines + doubts_of_signs(result)
     if not result.has_envelope:
         lines.append("Up to there:")
-    lines += contact_in_words(result, lifted_supports(result, envelope))
+    lines += contact_in_words(result, lifted_supports(result, envelope), carrying_supports(envelope))
     one_sided = any(item.side != "both" for item in result.scene.foundation)
     if one_sided and result.steps and result.stands and not result.scene.trains:
         lines += ground_in_words(result)

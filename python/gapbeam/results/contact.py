@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from ..base.characters import visible
@@ -56,7 +57,7 @@ def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) ->
     return ", ".join(words)
 
 
-def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
+def contact_in_words(result: Result, lifted: list[Lifted], carrying: Collection[int] = ()) -> list[str]:
     """Say which supports have no contact and by how much.
 
     Parameters
@@ -65,6 +66,8 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
         Of one load or of combinations.
     lifted : list of Lifted
         By `lifted_supports`.
+    carrying : collection of int
+        By `carrying_supports`.
 
     Returns
     -------
@@ -83,7 +86,7 @@ def contact_in_words(result: Result, lifted: list[Lifted]) -> list[str]:
     largest = sorted(lifted, key=lambda one: -one.opening)
     for one in sorted(largest[:MOST_NAMED]):
         place = f"{_named(result.scene, one.support)} (x = {fmt.number(x[one.support], fmt.DIGITS)})"
-        lines.append(f"{place} {_how_far(result, one)}.")
+        lines.append(f"{place} {_how_far(result, one, one.support in carrying)}.")
     if more := sorted(one.support for one in largest[MOST_NAMED:]):
         named = ", ".join(label(supports, k) for k in more) if len(more) <= MOST_NAMED else fmt.ranges(more)
         lines.append(f"{len(more):,} more have no contact, all with smaller openings: {named}.")
@@ -118,8 +121,8 @@ def _closed_gaps(result: Result, lifted: set[int]) -> list[str]:
     ]
 
 
-def _how_far(result: Result, one: Lifted) -> str:
-    """Say how far a support is from the beam, and what becomes of that."""
+def _how_far(result: Result, one: Lifted, carries: bool) -> str:
+    """Say how far a support is from the beam, whether it carries elsewhere, and what becomes of that."""
     scene = result.scene
     gap, followed = max(scene.supports[one.support].gap or 0.0, 0.0), is_followed(result)
     source = source_in_words(one, scene) if result.combinations or scene.trains or followed else ""
@@ -133,7 +136,9 @@ def _how_far(result: Result, one: Lifted) -> str:
         when = f" {share_in_words(scene, first.factor)}" if first is not None and len(scene.analysis.history) == 1 else ""
         return f"closes its gap of {fmt.value(scene, 'gap', gap)}{when}"
     about = ", ".join([*([f"gap {fmt.value(scene, 'gap', gap)}"] if gap else []), *([source] if source else [])])
-    words = f"{'has no contact: opening' if gap else 'lifts off by'} {opening}{f' ({about})' if about else ''}"
+    ends_there = result.steps and not (ends_closed or result.combinations or scene.trains) and one.factor == result.steps[-1].factor
+    apart = "has no contact: opening" if ends_there or not (carries or ends_closed) else "is not always in contact: opening up to"
+    words = f"{apart if gap else 'lifts off by'} {opening}{f' ({about})' if about else ''}"
     return f"{words}, and is in contact at the end" if ends_closed else words
 
 

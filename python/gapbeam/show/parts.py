@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..results import formatting as fmt
 from ..results.answer import holds_values, values_in_words
 from ..results.contact import contact_in_words
+from ..results.envelopes.lifted import carrying_supports
 from ..results.envelopes.verbs import PartVerbs
 from ..results.trains.trains import TrainResult
 from ..results.views.columns import Columns
@@ -30,7 +31,7 @@ def part_answer(part: PartVerbs) -> list[str]:
     if part.reason is not None:
         lines.append(fmt.sentence(part.reason))
     if holds_values(ranges):
-        lines += contact_in_words(result, part.lifted) + values_in_words(result, ranges)
+        lines += contact_in_words(result, part.lifted, carrying_supports(ranges)) + values_in_words(result, ranges)
     return lines
 
 

@@ -216,3 +216,23 @@ def test_states_on_ground_take_longer(monkeypatch):
     monkeypatch.setattr(answers, "MOST_WORK", 300_000)
     assert not answers.has_cheap_envelope(gapbeam.solve(pile(20.0)))
     assert answers.has_cheap_envelope(gapbeam.solve(rail(follow="steps", steps=99)))
+
+
+def test_a_hold_down_that_carries_at_times_is_not_said_to_have_no_contact():
+    """At other load factors, in other combinations, while trains pass."""
+    ends = [scenes.at(0, side="above", gap=0.001), scenes.at(0, side="below"), scenes.at(1), scenes.at(2)]
+    lift = scenes.force(9.0, 80.0, case="lift")
+    made = scenes.scene([6.0, 6.0], ends, [scenes.uniform(2.0, case="dead"), lift], EI=1e4) | {"units": UNITS}
+    combinations = [{"name": "rest", "factors": {"dead": 1.0}}, {"name": "up", "factors": {"dead": 1.0, "lift": 1.0}}]
+    combined = gapbeam.solve({**made, "combinations": combinations})
+    assert combined.combinations["up"].steps[-1].reaction[0] < -1.0
+    said = "Support 0 (x = 0) is not always in contact: opening up to 1 mm (gap 1 mm, rest)."
+    assert said in repr(combined)
+    assert said in repr(combined.envelope())
+    rest = gapbeam.solve({**made, "combinations": combinations[:1]})
+    assert "Support 0 (x = 0) has no contact: opening 1 mm (gap 1 mm, rest)." in repr(rest)
+    train = gapbeam.solve({**made, "loads": made["loads"][:1], "trains": [{"name": "crane", "axles": [[0.0, 80.0]]}]})
+    assert "Support 0 (x = 0) is not always in contact: opening up to 1 mm (gap 1 mm, crane at " in repr(train)
+    there_and_back = {**made, "analysis": {"follow": "events", "history": [1.0, -1.0]}}
+    said = "Support 0 (x = 0) is not always in contact: opening up to 1 mm (gap 1 mm, load factor "
+    assert said in repr(gapbeam.solve(there_and_back))

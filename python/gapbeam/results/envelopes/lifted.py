@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..views.extreme import given_of
+from ..views.extreme import KINDS, given_of
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -75,6 +75,18 @@ def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[
             factor = result.steps[-1].factor
         found.append(Lifted(k, one.value, factor, one.combination, one.train, one.position))
     return found
+
+
+def carrying_supports(envelope: Envelope | TrainEnvelope) -> set[int]:
+    """Find the supports that carry something somewhere in an envelope.
+
+    Parameters
+    ----------
+    envelope : Envelope or TrainEnvelope
+        Of a result.
+    """
+    sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
+    return set(np.flatnonzero((sizes > NONE * np.nanmax(sizes, initial=0.0)).any(axis=0)).tolist())
 
 
 def lifted_in_cases(openings: np.ndarray, solved: np.ndarray, largest: float) -> list[Lifted]:
