@@ -84,6 +84,11 @@ def carrying_supports(envelope: Envelope | TrainEnvelope) -> set[int]:
     ----------
     envelope : Envelope or TrainEnvelope
         Of a result.
+
+    Returns
+    -------
+    set of int
+        Their numbers in the scene.
     """
     sizes = np.array([np.abs(envelope.supports.values("reaction", kind)) for kind in KINDS])
     return set(np.flatnonzero((sizes > NONE * np.nanmax(sizes, initial=0.0)).any(axis=0)).tolist())
