@@ -108,7 +108,8 @@ contains
                              "them, which is not available in this version; give its axles as forces at places")
         else
             call fatal_error(error, gapbeam_bad_input, "goes over a beam that would buckle off its one-sided supports (N below "// &
-                             "0), which is not available in this version; give its axles as forces at places")
+                             "0), which is not available in this version; give its axles as forces at places, or first_order "// &
+                             "where axial loads press it")
         end if
     end subroutine refuse_several_states
 

@@ -121,7 +121,7 @@ def columns(scene: Scene) -> Columns:
 def _is_of_first_order(scene: Scene) -> bool:
     """Whether axial loads have no effect on bending: where that is asked for, and beside what is followed without it."""
     asked = scene.analysis
-    return asked.first_order or asked.has_history or asked.at_limit != "stop" or bool(scene.trains)
+    return asked.first_order or asked.has_history or asked.at_limit != "stop"
 
 
 def curves(scene: Scene, taken: Columns) -> tuple[tuple[int, Curve], ...]:

@@ -118,6 +118,23 @@ def test_random_beams_in_every_way(seed):
         assert len(sums) == 2
 
 
+@pytest.mark.parametrize("F", [-20.0, 60.0])
+def test_under_a_train_they_act_as_beside_standing_forces(F):
+    """Envelopes had first order, states at positions second."""
+    scene = {
+        "beam": {"spans": [6.0, 8.0], "EI": 900.0}, "loads": [{"type": "axial", "node": 2, "F": F}, {"type": "uniform", "q": 3.0}],
+        "supports": [{"node": 0}, {"node": 1, "side": "below"}, {"node": 2}, {"node": 0, "direction": "axial"}],
+    }  # fmt: skip
+    result = gapbeam.solve({**scene, "trains": [{"name": "T", "axles": [[0.0, 12.0]]}]})
+    largest = result.envelope().extremes["moment"]["max"]
+    there = [{"type": "force", "x": largest.position, "F": 12.0}]
+    alone = gapbeam.solve({**scene, "loads": [*scene["loads"], *there]})
+    assert alone.extremes["moment"]["max"].value == pytest.approx(largest.value, rel=1e-12)
+    assert result.trains["T"].state(largest.position).extremes["moment"]["max"].value == pytest.approx(largest.value, rel=1e-12)
+    first = gapbeam.solve({**scene, "trains": [{"name": "T", "axles": [[0.0, 12.0]]}], "analysis": {"first_order": True}})
+    assert (first.envelope().extremes["moment"]["max"].value > largest.value) == (F > 0.0)
+
+
 @pytest.mark.parametrize(
     "more",
     [
@@ -127,7 +144,6 @@ def test_random_beams_in_every_way(seed):
         {"supports": [{"x": 0.25, "law": {"type": "tanh", "stiffness": 1.0, "limit": 1.0}}]},
         {"sections": [{"from": 0.0, "to": 0.5, "GA": [1e3, 2e3]}]},
         {"analysis": {"history": [1.0, 0.0], "follow": "events"}},
-        {"trains": [{"axles": [[0.0, 1.0]]}]},
     ],
 )
 def test_beside_what_is_not_available_they_are_of_first_order(more):
