@@ -84,13 +84,12 @@ contains
         integer, intent(in) :: changed(:)
         !> From left to right, shape (2, size(changed)), and how many there are
         integer, intent(out) :: groups(:, :), count
-        real(wp), allocatable :: places(:)
-        integer, allocatable :: nodes(:)
-        integer :: i
+        real(wp) :: places(size(changed))
+        integer :: nodes(size(changed)), i
 
-        places = [(real(node_of_support(beam, changed(i)), wp), i=1, size(changed))]
+        places(:) = [(real(node_of_support(beam, changed(i)), wp), i=1, size(changed))]
         call sort(places)
-        nodes = nint(places)
+        nodes(:) = nint(places)
         groups = 0
         count = 0
         do i = 1, size(nodes)

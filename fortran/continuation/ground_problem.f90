@@ -199,7 +199,7 @@ contains
         real(wp), allocatable :: factors(:)
         integer :: k
 
-        factors = [limit_by_work(problem, from), from*(1 + [(2.0_wp**k, k=-50, -9, 4)])]
+        allocate (factors, source=[limit_by_work(problem, from), from*(1 + [(2.0_wp**k, k=-50, -9, 4)])])
         do k = 1, size(factors)
             if (.not. factors(k) > from) cycle
             problem%path%beyond = factors(k)

@@ -20,7 +20,7 @@ module gapbeam_train_problem
     use gapbeam_train_way, only: train_way_type, crossing_type, append, append_crossing, decide
     implicit none
     private
-    public :: train_problem_type, position_type, new_train_problem, add_state, share_apart
+    public :: train_problem_type, position_type, new_train_problem, add_state
 
     !> Positions nearer to each other than this share of the beam are neighbours
     real(wp), parameter :: neighbours = 2.0_wp**(-45)

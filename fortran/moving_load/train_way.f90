@@ -40,9 +40,9 @@ contains
         latest = problem%way(problem%length)
         if (latest < 0) then
             latest = problem%crossings(-latest)%above
-            call take_undecided(problem%boxes(latest)%of, problem%boxes(number)%of)
+            if (latest /= number) call take_undecided(problem%boxes(latest)%of, problem%boxes(number)%of)
         end if
-        call take_undecided(problem%boxes(number)%of, problem%boxes(latest)%of)
+        if (latest /= number) call take_undecided(problem%boxes(number)%of, problem%boxes(latest)%of)
     end subroutine decide
 
     !> One entry more

@@ -91,10 +91,10 @@ contains
     subroutine half_infinite()
         type(stretch_link_type) :: link
         real(wp), parameter :: ei = 0.8_wp, beta = 1.25_wp
-        real(wp) :: none(0), w, psi, moment, shear
+        real(wp) :: none(0, 4), w, psi, moment, shear
 
         associate (s => stretch_type(length=8000.0_wp, flexibility=1/ei, modulus_a=4*ei*beta**4, modulus_b=4*ei*beta**4))
-            call condense_loaded(s, [stretch_load_type ::], link, none, none, none, none)
+            call condense_loaded(s, [stretch_load_type ::], link, none(:, 1), none(:, 2), none(:, 3), none(:, 4))
             call check_close([link%pa, link%faa, link%gaa], [beta, 1/(2*beta*ei), 2*beta**3*ei], "half-infinite beam", 1e-15_wp)
             call check_close([link%p1, link%fab, link%gab], spread(0.0_wp, 1, 3), "nothing comes through", absolute=1e-300_wp)
             call check_close([link%dh, link%s5], [beta**2, 2*beta**2], "its sums", 2e-15_wp)

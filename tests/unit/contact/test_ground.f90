@@ -140,18 +140,21 @@ contains
         type(stretch_link_type) :: links(2)
         type(node_type) :: nodes(0:2)
         type(pivot_type) :: pivots(0:2)
-        real(wp) :: none(0)
+        real(wp) :: none(0, 4)
         integer :: state, place
 
-        call condense_loaded(stretch_type(1.0_wp, 1.0_wp), [stretch_load_type ::], links(1), none, none, none, none)
+        call condense_loaded(stretch_type(1.0_wp, 1.0_wp), [stretch_load_type ::], links(1), none(:, 1), none(:, 2), &
+                             none(:, 3), none(:, 4))
         links(2) = links(1)
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_mechanism, "nothing holds the beam")
-        call condense_loaded(grounded, [stretch_load_type ::], links(2), none, none, none, none)
+        call condense_loaded(grounded, [stretch_load_type ::], links(2), none(:, 1), none(:, 2), &
+                             none(:, 3), none(:, 4))
         nodes(1)%kind = hinge
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_mechanism .and. place == 1, "a part that hangs at a hinge turns")
-        call condense_loaded(grounded, [stretch_load_type ::], links(1), none, none, none, none)
+        call condense_loaded(grounded, [stretch_load_type ::], links(1), none(:, 1), none(:, 2), &
+                             none(:, 3), none(:, 4))
         call factor_foundation_chain(nodes, links, pivots, state, place)
         call check(state == band_ok, "ground holds both parts")
     end subroutine the_chain_finds_mechanisms
