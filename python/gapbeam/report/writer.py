@@ -52,9 +52,10 @@ class Writer:
         """
         shown, hidden = cut(rows, longest)
         table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
-        for index, heading in enumerate(headings):
+        widths = widths_of_columns([list(texts) for texts in zip(headings, *shown, strict=True)], self.width)
+        for index, (heading, width) in enumerate(zip(headings, widths, strict=True)):
             table.add_column(
-                Text(heading), justify="left" if index in left else "right", overflow="fold", vertical="top"
+                Text(heading), justify="left" if index in left else "right", overflow="fold", vertical="top", width=width
             )
         for index, row in enumerate(shown):
             if hidden and index == len(shown) // 2:
@@ -93,6 +94,39 @@ class Writer:
 
 #: A line under the headings and nothing else
 PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
+
+
+def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[int | None]:
+    """Choose widths that break no word, where all texts do not fit but all words do.
+
+    Parameters
+    ----------
+    columns : sequence of sequence of str
+        Heading and cells of each.
+    width : int
+        Of all of them.
+
+    Returns
+    -------
+    sequence of int or None
+        None: as the table has it by itself.
+
+    Examples
+    --------
+    >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 18)
+    [8, 6]
+    >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 80)
+    [None, None]
+    """
+    room = width - GAP * len(columns)
+    wanted = [max(map(cell_len, texts)) for texts in columns]
+    least = [max((cell_len(word) for text in texts for word in text.split()), default=0) for texts in columns]
+    if sum(wanted) <= room or sum(least) > room:
+        return [None] * len(columns)
+    for _ in range(room - sum(least)):
+        missing = [most - there for most, there in zip(wanted, least, strict=True)]
+        least[missing.index(max(missing))] += 1
+    return least
 
 
 def cut(rows: Sequence, longest: int = LONGEST) -> tuple[list, int]:
