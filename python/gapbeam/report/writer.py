@@ -114,7 +114,7 @@ def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[
     Examples
     --------
     >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 18)
-    [8, 6]
+    [9, 5]
     >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 80)
     [None, None]
     """
