@@ -6,7 +6,9 @@ module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, gapbeam_buckles, gapbeam_no_equilibrium
     use gapbeam_kinematics, only: work_of_loads
+    use gapbeam_piece, only: is_compressed
     use gapbeam_layers, only: has_limit, has_curves
+    use gapbeam_ground, only: ground_type
     use gapbeam_filled_ground, only: any_falls
     use gapbeam_refined_ground, only: refine_ground, refine_links
     use gapbeam_ground_limit, only: find_limit
@@ -32,8 +34,10 @@ module gapbeam_ground_problem
     integer, parameter :: most_guesses = 8
     !> So far below that factor a beam may stand on an edge, which nothing settles
     real(wp), parameter :: edge_share = 2.0_wp**(-20)
-    !> How far below the end of a path a state is looked for to which axial forces lead that are put on last
-    real(wp), parameter :: farthest_back = 2.0_wp**(-8)
+    !> How far below the end of a path a state is looked for to which axial forces lead that are put on last, and how often what is
+    !> between is halved then
+    real(wp), parameter :: farthest_back = 2.0_wp**(-2)
+    integer, parameter :: most_halvings_back = 20
     !> Powers of 2, as shares of the factor at which falling ground gives way, by which states are looked for beside it
     integer, parameter :: next_to_fall = -44, far_from_fall = -24
 
@@ -297,10 +301,8 @@ contains
         associate (path => problem%path)
             path%last = below%at
             path%beyond = below%at
-            if (allocated(problem%ground%moving)) then
-                if (allocated(problem%ground%moving%tension)) call step_back(problem, path%last, error)
-                if (allocated(error)) return
-            end if
+            if (feels_axial_force(problem%ground)) call step_back(problem, path%last, error)
+            if (allocated(error)) return
             path%at_limit = problem%yields .and. path%last > 0.0_wp
             if (.not. allocated(above%trouble)) then
                 if (abs(problem%state%factor - above%at) > 0.0_wp) call problem%find(above%at, point, error)
@@ -317,6 +319,15 @@ contains
         call go_beyond(problem, below%at, above%trouble, error)
     end subroutine take_end
 
+    !> Are there states to which axial forces lead that are put on last: those of a compressed beam, or of one whose forces grow
+    pure function feels_axial_force(ground) result(it_does)
+        type(ground_type), intent(in) :: ground
+        logical :: it_does
+
+        it_does = any(is_compressed(ground%pieces))
+        if (.not. it_does .and. allocated(ground%moving)) it_does = allocated(ground%moving%tension)
+    end function feels_axial_force
+
     !> Where axial forces are put on last, under all other loads, there may be no way to a state to which they grow with these: the
     !> path ends where there is
     subroutine step_back(problem, last, error)
@@ -324,18 +335,26 @@ contains
         real(wp), intent(inout) :: last
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: point
-        real(wp) :: share
+        real(wp) :: share, lost
+        integer :: halving
 
         share = 0.0_wp
-        do while (share <= farthest_back)
+        lost = 0.0_wp
+        do
             call problem%find(last*(1 - share), point, error)
             if (allocated(error)) return
-            if (point%stands) then
-                last = last*(1 - share)
-                return
-            end if
+            if (point%stands) exit
+            lost = share
             share = max(near_limit, 8*share)
+            if (share > farthest_back) return
         end do
+        do halving = 1, merge(most_halvings_back, 0, share > near_limit)
+            call problem%find(last*(1 - (lost + share)/2), point, error)
+            if (allocated(error)) return
+            if (point%stands) share = (lost + share)/2
+            if (.not. point%stands) lost = (lost + share)/2
+        end do
+        last = last*(1 - share)
     end subroutine step_back
 
 end module gapbeam_ground_problem

@@ -73,8 +73,9 @@ class Beam(Layout):
         feels those of axial loads.
     has_laws, depends_on_path : bool
         A support with a law; one whose force may fall, or that does not unload along its law.
-    also_along : bool
-        Whether it has fields along its axis though nothing acts there: they are 0, as beside other combinations of a scene.
+    also : frozenset of str
+        Kinds of fields that it has beside its own, as other combinations of a scene have them: forces along it are 0, and what
+        reactions balance is the shear.
 
     Raises
     ------
@@ -86,7 +87,7 @@ class Beam(Layout):
         The system gives no more memory.
     """
 
-    also_along = False
+    also: frozenset[str] = frozenset()
     __hash__ = None
 
     def __init__(self, columns: Columns, curves: tuple[tuple[int, Curve], ...] = ()):
@@ -146,7 +147,7 @@ class Beam(Layout):
 
     def _copy(self, handle: int, factors: np.ndarray | None) -> Beam:
         beam = object.__new__(type(self))
-        beam.columns, beam.curves, beam._factors, beam.also_along = self.columns, self.curves, factors, self.also_along
+        beam.columns, beam.curves, beam._factors, beam.also = self.columns, self.curves, factors, self.also
         beam._take(handle)
         return beam
 
@@ -176,7 +177,7 @@ class Beam(Layout):
     def __reduce__(self) -> tuple:
         """Pickle by what it is made of."""
         breakpoints = self.breakpoints if self.has_laws else None
-        return _made_of, (self.columns, self.curves, self._factors, breakpoints, self.also_along)
+        return _made_of, (self.columns, self.curves, self._factors, breakpoints, self.also)
 
     def __eq__(self, other: object) -> bool:
         """Whether they are made of the same numbers."""
@@ -291,17 +292,16 @@ class Beam(Layout):
     @property
     def fields(self) -> dict[str, int]:
         """Names of the fields that it has, and which of `FIELDS` they are."""
-        along = self.bars >= 0 or self.also_along
-        there = {"bending": True, "axial": along, "ground": self.ground_layers > 0, "second order": self.has_axial_force}
-        return {one.name: k for k, one in enumerate(QUANTITIES) if there[one.of]}
+        own = {"bending": True, "axial": self.bars >= 0, "ground": self.ground_layers > 0, "second order": self.has_axial_force}
+        return {one.name: k for k, one in enumerate(QUANTITIES) if own[one.of] or one.of in self.also}
 
 
 def _made_of(
     columns: Columns, curves: tuple[tuple[int, Curve], ...], factors: np.ndarray | None, breakpoints: np.ndarray | None,
-    also_along: bool,
+    also: frozenset[str],
 ) -> Beam:
     """Make a beam that was pickled again."""
     beam = Beam(columns, curves)
-    beam.also_along = also_along
+    beam.also = also
     beam = beam if factors is None else beam.with_factors(factors)
     return beam if breakpoints is None else beam.with_breakpoints(breakpoints)

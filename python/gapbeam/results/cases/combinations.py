@@ -13,6 +13,7 @@ from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, chec
 from ...base.records import Pickled
 from ...engine.beam import Beam, RefusalError
 from ...engine.combinations import Combined
+from ...engine.quantities import QUANTITIES
 from ...scene.combinations import Plan
 from ...scene.names import labels, names_in_errors
 from ...scene.reading import beam_of
@@ -176,7 +177,7 @@ class Combinations(Pickled, Mapping[str, Result]):
 
     def _like_others(self, beam: Beam) -> Beam:
         """Give it the fields that all combinations have, so that what is 0 in one of them counts in the envelope."""
-        beam.also_along = "axial_force" in self._beam.fields
+        beam.also = frozenset(QUANTITIES[k].of for k in self._beam.fields.values())
         return beam
 
     def _make(self, k: int) -> Result:

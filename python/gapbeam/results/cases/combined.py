@@ -86,7 +86,7 @@ class CombinedResult(Result):
     def __init__(self, scene: Scene, plan: Plan, beam: Beam, rule: str, start: np.ndarray, remarks: Sequence[str] = ()):
         super().__init__(scene, beam, rule)
         if plan.settlements[:, ~beam.bends].any():
-            beam.also_along = True
+            beam.also = frozenset({"axial"})
         self.names = plan.names
         self._plan = plan
         numbers = 4 * beam.scene_supports + beam.supports + len(scene.loads) + 40

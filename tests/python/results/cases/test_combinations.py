@@ -461,3 +461,21 @@ def test_an_axial_force_of_0_counts_in_the_envelope(stiffness):
     at = envelope.at(3.0)
     assert (at.largest["axial_force"], at.smallest["axial_force"]) == pytest.approx((0.0, -force), abs=1e-12)
     assert result.at(3.0, combination="cold").axial_force == 0.0
+
+
+def test_what_bends_the_beam_in_one_combination_only():
+    """Where nothing acts along it, what reactions balance is the shear."""
+    scene = {
+        "beam": {"spans": [3.0, 5.0], "EI": 3000.0}, "supports": [{"node": k} for k in range(3)],
+        "loads": [{"type": "uniform", "q": 5.0, "case": "dead"}, {"type": "axial", "node": 2, "F": -40.0}],
+        "combinations": [{"name": "A", "factors": {"dead": 1.2, "live": 1.2}},
+                         {"name": "B", "factors": {"dead": 1.0}, "limit_state": "SLS"}],
+    }  # fmt: skip
+    scene["supports"].append({"node": 0, "direction": "axial"})
+    result = gapbeam.solve(scene)
+    alone = gapbeam.solve({**scene, "combinations": [], "loads": scene["loads"][:1]})
+    extremes = result.combinations["B"].extremes
+    assert extremes["transverse"]["max"].value == extremes["shear"]["max"].value == alone.extremes["shear"]["max"].value
+    assert extremes["axial_force"]["min"].value == 0.0
+    assert result.to_dict()["envelope"]
+    assert result.report()

@@ -113,9 +113,25 @@ def test_a_path_ends_where_its_state_is_found_again():
     }  # fmt: skip
     path = gapbeam.solve(scene)
     assert path.status == "no-equilibrium"
-    assert "above a load factor between 0.13332" in path.reason
-    assert path.steps[-1].factor == pytest.approx(16.0 / 120.0, rel=1e-4)
+    assert "above a load factor between 0.13333333" in path.reason
+    assert path.steps[-1].factor == pytest.approx(16.0 / 120.0, rel=1e-9)
     assert path.steps[-1].reaction[2] == pytest.approx(10.0 * path.steps[-1].factor, rel=1e-13)
+    assert path.report()
+
+
+def test_a_path_under_a_given_force_ends_where_its_state_is_found_again():
+    """Some half a percent below the end that the path itself comes to."""
+    scene = {
+        "beam": {"spans": [4.0, 3.0], "EI": 2e4, "N": -30.0}, "analysis": {"follow": "events"},
+        "supports": [{"node": k, "side": "below", "settlement": -0.003 * (k == 1)} for k in range(3)],
+        "loads": [{"type": "uniform", "q": 2.5, "case": "dead"}, {"type": "force", "x": 0.8, "F": -72.0},
+                  {"type": "force", "x": 5.9, "F": -22.0}], "hinges": [{"x": 3.9, "stiffness": 0.0, "slack": 0.001}],
+    }  # fmt: skip
+    path = gapbeam.solve(scene)
+    assert path.status == "no-equilibrium"
+    last = path.steps[-1]
+    assert last.solution.status == 0
+    assert sum(last.reaction) == pytest.approx(7.0 * 2.5 - 94.0 * last.factor, rel=1e-12)
     assert path.report()
 
 
