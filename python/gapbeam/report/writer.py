@@ -114,19 +114,19 @@ def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[
     Examples
     --------
     >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 18)
-    [9, 5]
+    [8, 7]
     >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 80)
     [None, None]
     """
-    room = width - GAP * len(columns)
+    room = width - GAP * len(columns) + 1
     wanted = [max(map(cell_len, texts)) for texts in columns]
     least = [max((cell_len(word) for text in texts for word in text.split()), default=0) for texts in columns]
     if sum(wanted) <= room or sum(least) > room:
         return [None] * len(columns)
-    for _ in range(room - sum(least)):
-        missing = [most - there for most, there in zip(wanted, least, strict=True)]
-        least[missing.index(max(missing))] += 1
-    return least
+    while sum(wanted) > room:  # the widest one that can gives way
+        can = [most if most > word else 0 for most, word in zip(wanted, least, strict=True)]
+        wanted[can.index(max(can))] -= 1
+    return wanted
 
 
 def cut(rows: Sequence, longest: int = LONGEST) -> tuple[list, int]:
