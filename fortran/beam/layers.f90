@@ -6,7 +6,7 @@ module gapbeam_layers
     implicit none
     private
     public :: layer_type, law_piece_type, pieces_of_law, branches_of_law, law_piece, is_curve, has_curves, has_points, has_limit, &
-              falls, falls_on, hold_both_ways
+              falls, falls_on, other_way
 
     !> One foundation under one piece of the beam. It pushes back where side*(w - contact) > 0, by its modulus or by a law
     type :: layer_type
@@ -37,19 +37,21 @@ module gapbeam_layers
 
 contains
 
-    !> Do the last two of some layers hold both ways: one pushes down from where the other one pushes up, of the same ground
-    pure function hold_both_ways(layers) result(they_do)
-        !> Under one piece
+    !> The layer with which another one holds the beam both ways from one line, the same ground; 0: there is none
+    pure function other_way(layers, number) result(other)
+        !> Under one piece; which of them it is
         type(layer_type), intent(in) :: layers(:)
-        logical :: they_do
+        integer, intent(in) :: number
+        integer :: other
 
-        they_do = size(layers) > 1
-        if (.not. they_do) return
-        associate (up => layers(size(layers) - 1), down => layers(size(layers)))
-            they_do = up%foundation == down%foundation .and. up%side > 0 .and. down%side < 0 .and. &
-                .not. (abs(up%contact_a - down%contact_a) > 0.0_wp .or. abs(up%contact_b - down%contact_b) > 0.0_wp)
-        end associate
-    end function hold_both_ways
+        do other = max(1, number - 1), min(number + 1, size(layers))
+            associate (a => layers(number), b => layers(other))
+                if (a%foundation == b%foundation .and. a%side*b%side < 0 .and. &
+                    .not. (abs(a%contact_a - b%contact_a) > 0.0_wp .or. abs(a%contact_b - b%contact_b) > 0.0_wp)) return
+            end associate
+        end do
+        other = 0
+    end function other_way
 
     !> Number of pieces on which a layer acts
     elemental function pieces_of_law(layer) result(number)

@@ -10,7 +10,7 @@ module gapbeam_find_zones
     use gapbeam_foundation_roots, only: find_crossings, find_limits
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
-    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, hold_both_ways
+    use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, other_way
     use gapbeam_ground_laws, only: contact_line, breaks_on_line, line_of_breakpoint, distance_to_breakpoint, &
         piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
@@ -300,7 +300,7 @@ contains
             logical :: it_does
 
             associate (first => ground%first(piece), last => ground%first(piece + 1) - 1)
-                it_does = hold_both_ways(ground%layers(first:k)) .or. hold_both_ways(ground%layers(k:min(k + 1, last)))
+                it_does = other_way(ground%layers(first:last), k - first + 1) > 0
             end associate
         end function holds_both_ways
 

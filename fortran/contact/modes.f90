@@ -71,10 +71,9 @@ contains
         ! Modes know no loads, and equal steps are condensed once then
         changed%dead = no_load
         changed%live = no_load
-        call cut_zones(changed, zones, cut, parts)
+        call cut_zones(changed, ground, zones, cut, parts, factor)
         if (size(cut%piece) == 0) return
         if (present(factor)) then
-            call start_inside(ground, zones, factor, cut)
             call place_stretches(changed, cut, factor, grounded, ground)
         else
             call place_stretches(changed, cut, 0.0_wp, grounded)
@@ -127,15 +126,20 @@ contains
     end subroutine hold_on_rigid_ground
 
     !> Zones cut so that none of the stretches gives way by itself; of no size where there would be too many
-    subroutine cut_zones(ground, zones, cut, parts)
-        type(ground_type), intent(in) :: ground
+    subroutine cut_zones(ground, around, zones, cut, parts, factor)
+        !> The beam as its motions feel it, and as it stands, in whose fields curves are taken for straight
+        type(ground_type), intent(in) :: ground, around
         type(zones_type), intent(in) :: zones
         type(zones_type), intent(out) :: cut
         integer, intent(in), optional :: parts
+        !> As for count_modes
+        real(wp), intent(in), optional :: factor
         type(stretch_type) :: stretch
         type(stretch_load_type) :: dead, live
+        type(curved_type) :: curved
         real(wp) :: steps(size(zones%piece))
         integer :: i, k, m
+        logical :: lost
 
         do i = 1, size(zones%piece)
             call stretch_on_layers(ground, zones, i, stretch, dead, live)
@@ -156,6 +160,7 @@ contains
         end if
         m = 0
         do i = 1, size(zones%piece)
+            if (present(factor) .and. steps(i) > 1.0_wp) call curved_stretch(around, zones, factor, i, curved)
             do k = 1, ceiling(steps(i))
                 m = m + 1
                 cut%piece(m) = zones%piece(i)
@@ -163,40 +168,11 @@ contains
                 cut%to(m) = between(zones%from(i), zones%to(i), k, ceiling(steps(i)))
                 cut%acts(:, m) = zones%acts(:, i)
                 cut%start(:, m) = zones%start(:, i)
+                if (k == 1 .or. .not. allocated(curved%curves)) cycle
+                call advance_curved(curved, 0.0_wp, curved%left, real(k - 1, wp)/ceiling(steps(i)), cut%start(:, m), lost)
             end do
         end do
     end subroutine cut_zones
-
-    !> Fields at the left ends of the parts of zones on which ground acts by curves
-    pure subroutine start_inside(ground, zones, factor, cut)
-        !> The beam, its zones, and the load factor at which these are
-        type(ground_type), intent(in) :: ground
-        type(zones_type), intent(in) :: zones
-        real(wp), intent(in) :: factor
-        !> The same in parts, with the fields at the left ends of the zones in, those of the parts out
-        type(zones_type), intent(inout) :: cut
-        type(curved_type) :: curved
-        integer :: i, m
-        logical :: lost
-
-        i = 0
-        do m = 1, size(cut%piece)
-            ! The first part of a zone begins where that does
-            if (i < size(zones%piece)) then
-                associate (next => i + 1)
-                    if (cut%piece(m) == zones%piece(next) .and. .not. cut%from(m) < zones%from(next)) then
-                        i = next
-                        call curved_stretch(ground, zones, factor, i, curved)
-                        cycle
-                    end if
-                end associate
-            end if
-            if (.not. allocated(curved%curves)) cycle
-            associate (share => (cut%from(m) - zones%from(i))/(zones%to(i) - zones%from(i)))
-                call advance_curved(curved, 0.0_wp, zones%start(:, i), share, cut%start(:, m), lost)
-            end associate
-        end do
-    end subroutine start_inside
 
     !> The first values of modes, in rising order
     subroutine find_mode_values(ground, zones, acting, factor, what, first, values, found, lost, near)

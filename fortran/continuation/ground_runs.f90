@@ -4,7 +4,7 @@ module gapbeam_ground_runs
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
-    use gapbeam_layers, only: layer_type, branches_of_law, hold_both_ways
+    use gapbeam_layers, only: layer_type, branches_of_law, other_way
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_distance, only: largest_ways, is_shallow
@@ -155,13 +155,14 @@ contains
             !> Number of the stretch; layer among all
             integer, intent(in) :: stretch, layer
             logical :: it_does
+            integer :: other
 
-            it_does = .false.
-            associate (first => assembled%layer_first(solution%piece(stretch)))
-                if (hold_both_ways(assembled%layers(first:layer))) it_does = solution%acts(layer - first, stretch) > 0
-                if (layer == size(assembled%layers)) return
-                if (hold_both_ways(assembled%layers(layer:layer + 1))) it_does = solution%acts(layer - first + 2, stretch) > 0
+            associate (first => assembled%layer_first(solution%piece(stretch)), &
+                       next => assembled%layer_first(solution%piece(stretch) + 1))
+                other = other_way(assembled%layers(first:next - 1), layer - first + 1)
             end associate
+            it_does = other > 0
+            if (it_does) it_does = solution%acts(other, stretch) > 0
         end function holds_the_other_way
 
         !> Is a stretch in a zone

@@ -4,7 +4,7 @@ module gapbeam_ground_ties
     use gapbeam_tolerances, only: min_tied_zone, least_tied_share, no_tied_force
     use gapbeam_piece_quad, only: piece_load_type, combine_loads, greatest_softness
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
-    use gapbeam_layers_quad, only: hold_both_ways
+    use gapbeam_layers_quad, only: other_way
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
@@ -206,8 +206,8 @@ contains
             associate (first => ground%first(zones%piece(i)), last => ground%first(zones%piece(i) + 1) - 1)
                 do k = first, last
                     if (zones%acts(k - first + 1, i) == 0) cycle
-                    one_way = one_way .and. ground%layers(k)%side /= 0 .and. &
-                        .not. (hold_both_ways(ground%layers(first:k)) .or. hold_both_ways(ground%layers(k:min(k + 1, last))))
+                    one_way = ground%layers(k)%side /= 0 .and. other_way(ground%layers(first:last), k - first + 1) == 0
+                    if (.not. one_way) return
                 end do
             end associate
         end function acts_one_way
