@@ -50,7 +50,8 @@ class BranchPath(Pickled):
         Time of these.
     """
 
-    def __init__(self, scene: Scene, followed: Followed, seconds: float):
+    def __init__(self, scene: Scene, followed: Followed):
+        begin = perf_counter()
         self._followed, self._beam = followed, followed.beam
         self._history = history = followed.history()
         self._dead = self._beam.with_dead_loads_alone() if 0 in history.about[:, 0] else None
@@ -58,9 +59,10 @@ class BranchPath(Pickled):
         self._ways = np.sign(np.diff(scene.analysis.history, prepend=0.0)).tolist()
         self.ending = history.ending
         self.motion = history.motion
-        self.solves, self.nodes, self.seconds = history.solves, 0, seconds
+        self.solves, self.nodes = history.solves, 0
         self.segments = self._segments()
         self.events = self._events()
+        self.seconds = perf_counter() - begin
 
     def _segments(self) -> list[BranchSegment]:
         found: list[BranchSegment] = []
@@ -270,11 +272,10 @@ def follow_branches(result: Result) -> BranchPath:
     -------
     BranchPath
     """
-    begin = perf_counter()
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)
     followed = Followed(result._beam, factors, analysis.at_limit, MOST_PATH_SEGMENTS)
-    path = BranchPath(result.scene, followed, perf_counter() - begin)
+    path = BranchPath(result.scene, followed)
     if path.ending == "cut off":
         raise EngineError(
             f"the path has more than {len(path._history.about):,} stretches: shorten the history, or follow it in parts",
