@@ -5,23 +5,20 @@ module gapbeam_history
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_not_converged, gapbeam_indeterminate
     use gapbeam_words, only: shown
-    use gapbeam_memory, only: for_following_closely
     use gapbeam_laws, only: is_smooth
     use gapbeam_polyline, only: node_support_type
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_model, only: coarse_beam_type => beam_type
+    use gapbeam_history_beam, only: history_beam_type, make_history_beam
     use gapbeam_affine_response, only: drop_live_in_doubles => drop_live
     use gapbeam_affine_response_quad, only: drop_live
     use gapbeam_contact_state_quad, only: outcome_type
-    use gapbeam_refined, only: refine_beam
-    use gapbeam_extended_precision, only: reserve_for
     use gapbeam_region_responses, only: outgoing_type, rise, fall, turn
     use gapbeam_branch, only: branch_type, segment_type, start_branch, step_branch, laws_of, goes_on, no_way_on, &
         never_ends, not_told
     use gapbeam_scene, only: gapbeam_elastic
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
-    use gapbeam_state, only: detail_of
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
     use gapbeam_history_stretch, only: stretch_type, pieces_type, keep_pieces, enter_stretch
     use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, &
@@ -37,6 +34,7 @@ module gapbeam_history
     type :: walk_type
         !> The beam, how its supports unload, and whether laws change on the way
         type(assembled_type), pointer :: assembled => null()
+        type(history_beam_type) :: beam
         integer, allocatable :: unloading(:)
         logical :: keeps = .false.
         !> Stretches after which it is cut off
@@ -77,14 +75,14 @@ contains
         real(qp) :: factor
         integer :: leg
 
-        call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
+        call make_history_beam(assembled, walk%beam, error)
         if (allocated(error)) return
-        call refine_beam(assembled%beam, detail_of(assembled), beam)
+        beam = walk%beam%fine
         call new_history(at_limit, history)
-        call new_walk(assembled, beam, most, walk)
+        call new_walk(assembled, most, walk)
         if (has_dead_loads(beam) .or. any(abs(walk%settling) > 0.0_qp) .or. has_dead_along(assembled)) then
             call drop_live(beam, dead)
-            call drop_live_in_doubles(assembled%beam, dead_in_doubles)
+            call drop_live_in_doubles(walk%beam%coarse, dead_in_doubles)
             walk%laws%contact = walk%laws%contact - walk%settling
             call go_leg(walk, dead, dead_in_doubles, 0, 0.0_qp, 1.0_qp, history, error)
             call end_if_stopped(beam%watch, error)
@@ -95,7 +93,7 @@ contains
         factor = 0.0_qp
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
-            call go_leg(walk, beam, assembled%beam, leg, factor, real(factors(leg), qp), history, error)
+            call go_leg(walk, beam, walk%beam%coarse, leg, factor, real(factors(leg), qp), history, error)
             call end_if_stopped(beam%watch, error)
             if (allocated(error)) return
             if (history%ending /= no_limit) exit
@@ -111,19 +109,20 @@ contains
     end subroutine follow_history
 
     !> A beam at rest
-    subroutine new_walk(assembled, beam, most, walk)
+    subroutine new_walk(assembled, most, walk)
         type(assembled_type), intent(in), target :: assembled
-        !> The same in quadruple precision
-        type(beam_type), intent(in) :: beam
         integer, intent(in) :: most
-        type(walk_type), intent(out) :: walk
+        !> With its beam
+        type(walk_type), intent(inout) :: walk
 
         walk%assembled => assembled
         walk%most = most
-        allocate (walk%unloading(size(beam%supports)), walk%closed(size(beam%supports)), walk%settling(size(beam%supports)))
+        walk%laws = walk%beam%fine%supports
+        associate (m => size(walk%laws))
+            allocate (walk%unloading(m), walk%closed(m), walk%settling(m))
+        end associate
         walk%unloading(:) = assembled%model%supports(assembled%normal)%unloading
         walk%keeps = any(walk%unloading /= gapbeam_elastic)
-        walk%laws = beam%supports
         call find_rest(assembled, walk%closed)
         call find_movements(assembled, walk%settling)
     end subroutine new_walk
@@ -151,7 +150,7 @@ contains
             if (allocated(error)) return
             if (beginning%status /= gapbeam_solved) then
                 history%limits = [limit_type(mechanism, 0, 0.0_wp, 0)]
-                if (allocated(beginning%motion)) history%motion = real(beginning%motion, wp)
+                if (allocated(beginning%motion)) history%motion = motion_of_nodes(walk, beginning%motion)
                 history%ending = mechanism
                 return
             end if
@@ -249,7 +248,7 @@ contains
             call refuse_idle(walk, moves, error)
             if (allocated(error)) return
             if (outcome == never_ends) then
-                if (direction == turn) history%motion = real(branch%way%motion(0:size(branch%beam%links)), wp)
+                if (direction == turn) history%motion = motion_of_nodes(walk, branch%way%motion)
             else if (moves) then
                 if (outcome == goes_on .and. .not. walk%keeps) then
                     ! No cell is crossed twice, but a path without end may come round to where it began
@@ -275,6 +274,20 @@ contains
         end associate
         if (history%at_limit == at_limit_stop .and. size(history%limits) > 0 .and. .not. is_jumping(history)) history%ending = ended
     end subroutine pass_stretch
+
+    !> How the nodes of the beam as it was given move
+    pure function motion_of_nodes(walk, motion) result(moved)
+        type(walk_type), intent(in) :: walk
+        !> Of the nodes of its beam, and rotations that supports hold, shape (0:)
+        real(qp), intent(in) :: motion(0:)
+        real(wp) :: moved(size(walk%assembled%beam%links) + 1)
+
+        if (allocated(walk%beam%node)) then
+            moved(:) = real(motion(walk%beam%node), wp)
+        else
+            moved(:) = real(motion(:size(moved) - 1), wp)
+        end if
+    end function motion_of_nodes
 
     !> Note the pieces of the supports on the stretch that begins
     subroutine take_pieces(walk, stretch)

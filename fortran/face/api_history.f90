@@ -18,7 +18,7 @@ module gapbeam_api_history
     use gapbeam_released_energy, only: find_released_energy
     use gapbeam_query, only: node_places
     use gapbeam_api_objects, only: prepared_type, result_type, history_type, stretch_type, limit_type, require_beam, &
-        require_no_ground, bad_argument, make_state, summarise
+        bad_argument, make_state, summarise
     implicit none
     private
     public :: history_type, stretch_type, limit_type, follow_history, solve_on_path, get_released_energy
@@ -27,7 +27,8 @@ module gapbeam_api_history
 
 contains
 
-    !> Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, by the exact path
+    !> Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, by the exact path.
+    !> Foundations may hold both ways by k alone, and N may not grow; beside these no support softens or breaks
     subroutine follow_history(beam, factors, at_limit, history, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam
@@ -47,7 +48,6 @@ contains
 
         call hold_environment(environment)
         call require_beam(beam, error)
-        if (.not. allocated(error)) call require_no_ground(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
         if (.not. allocated(error)) then
             allocate (history%path, stat=stat)

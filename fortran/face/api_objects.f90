@@ -192,15 +192,9 @@ contains
         type(error_type), allocatable, intent(out) :: error
 
         if (.not. beam%lowered%depends_on_path) return
-        if (allocated(beam%lowered%layers)) then
-            call fatal_error(error, gapbeam_bad_input, "the law of a support falls, keeps a set, or may let go of the beam: "// &
-                             "beside "//trim(what_stretches(beam%lowered%model))//" that is not available in this version; "// &
-                             "give laws that rise")
-        else
-            call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
-                             "of a support falls, keeps a set, or may let go of the beam, or a load moves a support: use "// &
-                             "follow_history and solve_on_path")
-        end if
+        call fatal_error(error, gapbeam_bad_input, "the state of this beam depends on the loading history, since the law "// &
+                         "of a support falls, keeps a set, or may let go of the beam, or a load moves a support: use "// &
+                         "follow_history and solve_on_path")
     end subroutine require_no_path
 
     !> Refuse a beam with smooth laws of supports where these are not available

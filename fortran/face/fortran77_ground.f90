@@ -23,7 +23,8 @@
 !     ATAB(2, NTAB)     x, also beside the foundation; value there; straight in between, beyond its ends the last value; two points
 !                       at a place are a step
 !
-! Events are found by GHGEVT; GHEVNT and GHHIST are not for beams on foundations, nor for those of GHPRAF.
+! Events are found by GHGEVT; GHEVNT is not for beams on foundations, nor for those of GHPRAF. GHHIST takes foundations that hold
+! both ways by their modulus alone, and axial forces that do not grow.
 
 ! Prepare a beam on foundations, whose supports may follow laws
 subroutine ghprfd(nspan, span, nhinge, hinge, nsup, isup, sup, nload, iload, aload, nlaw, ilaw, alaw, iunl, nfound, ifound, found, &

@@ -63,7 +63,7 @@ contains
             if (assembled%model%stretching) then
                 call settle_stretched(assembled, rule, state, error)
             else
-                ground = ground_of(assembled, factor)
+                ground = ground_of(assembled, factor, state)
                 call check_tensions(assembled, ground, error)
                 if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
             end if
@@ -137,7 +137,7 @@ contains
             if (allocated(state%ground)) deallocate (state%ground)
             state%status = -1
             state%stretched = stretching%stretched
-            ground = ground_of(assembled, state%factor, state%stretched)
+            ground = ground_of(assembled, state%factor, state)
             call check_tensions(assembled, ground, error)
             if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
             if (allocated(state%ground)) solves = solves + state%ground%solves
@@ -159,7 +159,7 @@ contains
             if (allocated(state%ground)) deallocate (state%ground)
             deallocate (state%stretched)
             state%closed(:) = start
-            ground = ground_of(assembled, state%factor)
+            ground = ground_of(assembled, state%factor, state)
             call check_tensions(assembled, ground, error)
             if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
             return
@@ -242,16 +242,21 @@ contains
     end subroutine take_outcome
 
     !> The beam with the ground under it, where they are at a load factor
-    function ground_of(assembled, factor, stretched) result(ground)
+    function ground_of(assembled, factor, state) result(ground)
         type(assembled_type), intent(in) :: assembled
         real(wp), intent(in) :: factor
-        !> By what deflections lengthen the bars along the axis (state_type), if they do
-        real(wp), allocatable, intent(in), optional :: stretched(:)
+        !> In which deflections may lengthen the bars along the axis, and supports have laws of their own
+        type(state_type), intent(in), optional :: state
         type(ground_type) :: ground
         logical :: grows, stretches
         integer :: i
 
         ground%beam = assembled%beam
+        stretches = .false.
+        if (present(state)) then
+            stretches = allocated(state%stretched)
+            if (allocated(state%laws)) ground%beam%supports(:) = state%laws
+        end if
         associate (n => size(assembled%pieces))
             allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(assembled%layers)), &
                       ground%first(n + 1), ground%laws(size(assembled%law_pieces)))
@@ -291,10 +296,8 @@ contains
                     moving%tension(2, :) = assembled%tension_growth
                 end if
                 if (assembled%model%axial_loads_bend) then
-                    stretches = present(stretched)
-                    if (stretches) stretches = allocated(stretched)
                     if (stretches) then
-                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, stretched)
+                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, state%stretched)
                     else
                         moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
                     end if

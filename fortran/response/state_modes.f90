@@ -60,7 +60,7 @@ contains
         if (.not. has_any(assembled, what)) return
         call check_state(state, error)
         if (allocated(error)) return
-        ground = ground_of(assembled, state%factor, state%stretched)
+        ground = ground_of(assembled, state%factor, state)
         if (what == by_axial_force .and. .not. any(is_compressed(ground%pieces))) return
         call start_from(state%ground, state%closed, start)
         first = first_step(ground, what)
@@ -110,7 +110,7 @@ contains
                              trim(merge("mass       ", "compression", what == by_vibration)))
         end if
         if (allocated(error)) return
-        ground = ground_of(assembled, state%factor, state%stretched)
+        ground = ground_of(assembled, state%factor, state)
         call start_from(state%ground, state%closed, start)
         call refine_ground(ground, fine)
         call refine_zones(fine, start%zones, zones)

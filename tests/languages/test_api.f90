@@ -2,7 +2,7 @@
 program test_api
     use, intrinsic :: iso_fortran_env, only: wp => real64
     use testing, only: check, check_close, finish
-    use gapbeam, only: model_type, span_type, support_type, load_type, prepared_type, options_type, result_type, &
+    use gapbeam, only: model_type, span_type, support_type, load_type, foundation_type, prepared_type, options_type, result_type, &
         certificate_type, event_type, error_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
         axial_force, axial_uniform_load, support_movement, support_rotation, temperature_load, prepare_model, replace_loads, &
         solve_beam, follow_load, get_supports, get_fields, get_extremes, &
@@ -28,6 +28,7 @@ program test_api
     call brittle_law()
     call smooth_law()
     call plastic_law()
+    call plastic_law_under_tension()
     call mechanism_at_limit()
     call turned()
     call jacked_up()
@@ -566,6 +567,36 @@ contains
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(reaction(2), 0.5_wp, "on the way there it had none")
     end subroutine plastic_law
+
+    !> The same beam as a tensioned string that bends: c = (L/2 - tanh(v L/2)/v)/(2 N), v = sqrt(N/EI), in place of 1
+    subroutine plastic_law_under_tension()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(result_type) :: result
+        type(history_type) :: history
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(3), deflection(3), opening(3), couple(3)
+        real(wp), parameter :: c = (2 - tanh(3.0_wp)/1.5_wp)/6
+        integer :: condition(3)
+
+        call over_law(reshape([0.1_wp, 1.0_wp, 1.0_wp, 1.0_wp], [2, 2]), model)
+        model%supports(2)%unloading = gapbeam_plastic
+        model%spans%N = 3.0_wp
+        call prepare_model(model, beam, error)
+        call solve_beam(beam, 1.0_wp, options_type(), result, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "follow_history") > 0, "a path is needed")
+        call follow_history(beam, [1.0_wp, 0.0_wp], gapbeam_limit_stop, history, error)
+        call check(.not. allocated(error) .and. all(history%events%change == [gapbeam_yields, gapbeam_unloads, gapbeam_opens]), &
+                   "yields, unloads, opens")
+        call check_close(history%events%factor, [(1 + 0.1_wp/c)/2.2_wp, 1.0_wp, (1.2_wp - 0.1_wp/c)/2.2_wp], "at these factors")
+        call solve_on_path(beam, history, 0.0_wp, result, error)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(opening(2), 1.2_wp*c - 0.1_wp, "a gap is left")
+        model%foundations = [foundation_type(from=0.0_wp, to=1.0_wp, side=gapbeam_below, k=1.0_wp)]
+        call prepare_model(model, beam, error)
+        call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
+        call check(error%code == gapbeam_bad_input .and. index(error%message, "both ways") > 0, "ground that changes on the way")
+    end subroutine plastic_law_under_tension
 
     !> A support that is jacked up by twice what the load would lower the beam there: it closes at half of that
     subroutine jacked_up()

@@ -215,5 +215,7 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
     if status == Status.STOPPED:
         raise EngineError(f"{where}the call was ended before it was done: a signal has ended another call with this beam", status)
     if status not in (Status.SOLVED, *FALLEN):
-        words = re.sub(r"support (\d+) of \d+", lambda found: f"supports[{int(found[1]) - 1}]", message.decode().strip())
-        raise EngineError(where + re.sub(r"\]: (law|stiffness)\b", r"].\1", words), status)
+        tables = {"support": "supports", "foundation": "foundation"}
+        entry = r"(support|foundation) (\d+) of \d+"
+        words = re.sub(entry, lambda found: f"{tables[found[1]]}[{int(found[2]) - 1}]", message.decode().strip())
+        raise EngineError(where + re.sub(r"\]: (law|stiffness|unloading)\b", r"].\1", words), status)

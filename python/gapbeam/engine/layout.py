@@ -115,8 +115,11 @@ class Layout:
 
     @property
     def is_linear_between_events(self) -> bool:
-        """Whether values are linear in the loads from one event to the next: no zones that change, and no law that is a curve."""
-        return not (self.in_stretches or self.curves or self.is_on_axial_ground)
+        """Whether values are linear in the loads from one event to the next: no zones that change, and no law that is a curve.
+
+        Histories are followed in stretches only that stay as they are.
+        """
+        return not (self.curves or self.is_on_axial_ground or (self.in_stretches and not self.depends_on_path))
 
     @property
     def beyond_one_search(self) -> str | None:

@@ -186,8 +186,7 @@ def prepared_beam(scene: Scene) -> Beam:
             beam = beam_of(scene)
         except RefusalError as refused:
             raise refusal(scene, *refused.codes) from None
-    # On the ground there are no histories at all, which is said where it is solved
-    if scene.analysis.has_history and scene.analysis.follow == "steps" and not beam.in_stretches:
+    if scene.analysis.has_history and scene.analysis.follow == "steps":
         raise SceneError("analysis.history", 'a history needs follow = "events"')
     return beam
 

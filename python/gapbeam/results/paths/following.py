@@ -116,14 +116,13 @@ def _refuse_beyond_bounds(result: Result) -> None:
 
 def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
     """Refuse what cannot be had on a foundation, and with an axial force that bending feels."""
+    if beam.beyond_one_search != "curve":
+        return
     forced = "axial loads that bend it" if beam.feels_axial_loads else "an axial force N"
     rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over what takes stretches"
     there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else rest
-    if beam.beyond_one_search is not None:
-        what = "supports with laws whose state depends on the loading history cannot be combined with"
-        raise SceneError("supports", f"{what} {there} in this version; use non-decreasing polylines")
-    if scene.analysis.has_history:
-        raise SceneError("analysis.history", f"a beam with {there} unloads along its path; leave it out")
+    what = f"supports with smooth laws cannot be combined with {there} in this version"
+    raise SceneError("supports", f"{what}; use non-decreasing polylines")
 
 
 def follow_path(result: Result, closed: np.ndarray | None = None) -> None:

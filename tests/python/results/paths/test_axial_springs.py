@@ -170,7 +170,6 @@ def test_what_a_pile_in_ground_does_not_bear():
     [
         ({"axial_ground": [{"limit": 1.0}]}, "ground along the beam beside a foundation is not available"),
         ({"beam": {"spans": [20.0], "EI": 1e5, "EA": 8e6, "N": 3.0}}, r"axial_ground\[0\]\.limit: .*is not available"),
-        ({"analysis": {"history": [1.0, 0.0], "first_order": True}}, "a beam with a foundation unloads along its path"),
         ({"trains": [{"axles": [[0.0, 1.0]]}]}, "is not available in this version"),
     ],
 )

@@ -1,0 +1,147 @@
+!> The beam whose history is followed: its links, or the stretches that it is solved in on elastic ground and under axial forces.
+!>
+!> Ground that holds both ways by its modulus alone acts everywhere at all times, and axial forces that do not grow with the load
+!> only change how stiff the stretches are. Then what changes along the path are supports, as on a beam without these.
+module gapbeam_history_beam
+    use gapbeam_kinds, only: wp, qp
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_memory, only: reserve_memory, for_ground, for_following_closely
+    use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
+    use gapbeam_axial_force, only: what_stretches
+    use gapbeam_laws, only: is_smooth
+    use gapbeam_law, only: both
+    use gapbeam_layers, only: layer_type, has_points
+    use gapbeam_model, only: beam_type
+    use gapbeam_model_quad, only: fine_beam_type => beam_type
+    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, place_stretches
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
+        fine_grounded_type => grounded_type, full_fine_contact => full_contact, place_fine_stretches => place_stretches
+    use gapbeam_refined, only: refine_beam
+    use gapbeam_refined_ground, only: refine_ground
+    use gapbeam_extended_precision, only: reserve_for
+    use gapbeam_uniqueness, only: is_unique
+    use gapbeam_scene, only: gapbeam_broken
+    use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_state, only: detail_of, ground_of
+    implicit none
+    private
+    public :: history_beam_type, make_history_beam
+
+    !> A beam in quadruple and in double precision
+    type :: history_beam_type
+        type(fine_beam_type) :: fine
+        type(beam_type) :: coarse
+        !> Its node for every node of the beam as it was given, shape (0:n); not allocated where these are the same
+        integer, allocatable :: node(:)
+    end type history_beam_type
+
+contains
+
+    !> Make the beam of a history
+    subroutine make_history_beam(assembled, beam, error)
+        type(assembled_type), intent(in), target :: assembled
+        !> At load factor 0
+        type(history_beam_type), intent(out) :: beam
+        !> A beam in stretches that change along the path, or under which supports break; or no memory
+        type(error_type), allocatable, intent(out) :: error
+        type(ground_type) :: ground
+        type(zones_type) :: zones
+        type(grounded_type) :: grounded
+        type(fine_ground_type) :: fine
+        type(fine_zones_type) :: fine_zones
+        type(fine_grounded_type) :: fine_grounded
+
+        call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
+        if (allocated(error)) return
+        if (.not. allocated(assembled%layers)) then
+            beam%coarse = assembled%beam
+            call refine_beam(assembled%beam, detail_of(assembled), beam%fine)
+            return
+        end if
+        call check_supports(assembled, error)
+        if (.not. allocated(error)) call check_stretches(assembled, error)
+        if (.not. allocated(error)) call reserve_memory(for_ground, size(assembled%pieces), size(assembled%beam%supports), 0, error)
+        if (allocated(error)) return
+        ground = ground_of(assembled, 0.0_wp)
+        if (.not. is_unique(ground)) then
+            call fatal_error(error, gapbeam_bad_input, "a history is followed only where the compressed beam (N below 0) is "// &
+                             "stable with all supports that yield or act one way open; press less, or give it more supports "// &
+                             "that hold it both ways")
+            return
+        end if
+        call full_contact(ground, zones)
+        call place_stretches(ground, zones, 0.0_wp, grounded)
+        beam%coarse = grounded%beam
+        beam%node = grounded%node
+        call refine_ground(ground, fine)
+        call full_fine_contact(fine, fine_zones)
+        call place_fine_stretches(fine, fine_zones, 0.0_qp, fine_grounded)
+        beam%fine = fine_grounded%beam
+    end subroutine make_history_beam
+
+    !> Supports whose forces fall are refused in stretches: nothing there tells stable states from others
+    subroutine check_supports(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+
+        associate (given => assembled%model%supports, laws => assembled%beam%supports)
+            do k = 1, size(laws)
+                associate (number => assembled%normal(k))
+                    if (is_smooth(given(number)%law)) then
+                        call say("law", "a history with a smooth law", "give its points")
+                    else if (given(number)%unloading == gapbeam_broken) then
+                        call say("unloading", "a support that breaks", "give plastic or elastic")
+                    else if (laws(k)%breakpoint > 0 .and. min(laws(k)%stiffness, laws(k)%before) < 0.0_wp) then
+                        call say("law", "a law whose force falls", "give one that rises")
+                    end if
+                    if (allocated(error)) return
+                end associate
+            end do
+        end associate
+
+    contains
+
+        !> Refuse support k
+        subroutine say(key, what, remedy)
+            character(len=*), intent(in) :: key, what, remedy
+
+            call refuse(error, of_supports, assembled%normal(k), size(assembled%model%supports), bad_law, key, what//" beside "// &
+                        trim(what_stretches(assembled%model))//" is not available in this version; "//remedy)
+        end subroutine say
+
+    end subroutine check_supports
+
+    !> Ground and axial forces that change along the path are refused
+    subroutine check_stretches(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        type(error_type), allocatable, intent(out) :: error
+        integer :: k
+
+        if (allocated(assembled%tension_growth) .or. assembled%model%axial_loads_bend) then
+            call fatal_error(error, gapbeam_bad_input, "a history is followed beside axial forces only that do not grow with "// &
+                             "the load; give N with N_with dead, or first_order")
+            return
+        end if
+        do k = 1, size(assembled%layers)
+            if (is_steady(assembled%layers(k))) cycle
+            call refuse(error, of_foundations, assembled%layers(k)%foundation, size(assembled%model%foundations), bad_law, "", &
+                        "a history is followed beside ground only that holds the beam both ways by k alone, without gap, "// &
+                        "profile and law; give such ground, or leave out the history and what of the supports depends on it")
+            return
+        end do
+        if (.not. allocated(assembled%layer_growth)) return
+        call fatal_error(error, gapbeam_bad_input, "a load that moves a foundation beside a history is not available in this "// &
+                         "version; move supports, or leave out the history and what of the supports depends on it")
+    end subroutine check_stretches
+
+    !> Does ground do the same at all times
+    elemental function is_steady(layer) result(it_is)
+        type(layer_type), intent(in) :: layer
+        logical :: it_is
+
+        it_is = layer%side == both .and. has_points(layer) .and. layer%law_last < layer%law_first .and. .not. layer%rigid &
+            .and. .not. max(abs(layer%contact_a), abs(layer%contact_b)) > 0.0_wp
+    end function is_steady
+
+end module gapbeam_history_beam

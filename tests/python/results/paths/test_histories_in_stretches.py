@@ -1,0 +1,153 @@
+"""Histories of supports that keep a set, under axial forces and on ground that holds both ways.
+
+Random ones stand beside exact histories in `tests/attack/yielding.py`.
+"""
+
+import itertools
+import math
+import random
+
+import gapbeam
+import numpy as np
+import pytest
+
+from .test_axial_springs import pile
+from .test_rotation_histories import pair_of
+from .test_sliders import mixed_scene
+
+PROP = {"x": 0.5, "side": "below", "law": [[0.01, 1.0], [1.0, 1.0]], "unloading": "plastic"}
+
+
+def string(**keys):
+    """A beam of length 1 that is pulled by 9, on a plastic prop."""
+    return {"beam": {"spans": [1.0], "EI": 1.0, "N": 9.0}, "supports": [{"node": 0}, PROP, {"node": 1}],
+            "loads": [{"type": "force", "x": 0.5, "F": 4.0}],
+            "analysis": {"follow": "events", "history": [1.0, 0.0]}} | keys  # fmt: skip
+
+
+def moored(**keys):
+    """A compressed pile, whose tie and cap yield."""
+    tie = {"x": 0.0, "side": "both", "law": [[0.004, 60.0], [0.05, 80.0]], "unloading": "plastic"}
+    cap = {"x": 0.0, "direction": "rotational", "law": [[0.002, 90.0], [0.05, 110.0]], "unloading": "plastic"}
+    return {"beam": {"spans": [10.0], "EI": 3e4, "N": -400.0, "mass": 0.3}, "foundation": [{"k": [500.0, 9000.0]}],
+            "supports": [tie, cap], "loads": [{"type": "force", "x": 0.0, "F": 200.0}],
+            "analysis": {"follow": "events", "history": [1.0, 0.0, -0.6]}} | keys  # fmt: skip
+
+
+def test_a_string_on_a_prop():
+    """A force in its middle moves it by c = (1/2 - tanh(3/2)/3)/18 times that."""
+    c = (0.5 - math.tanh(1.5) / 3.0) / 18.0
+    result = gapbeam.solve(string())
+    assert [event.event for event in result.events] == ["yields", "unloads", "opens"]
+    right = [(1.0 + 0.01 / c) / 4.0, 1.0, (3.0 - 0.01 / c) / 4.0]
+    assert [event.factor for event in result.events] == pytest.approx(right, rel=1e-14)
+    assert result.steps[-1].set[1] == pytest.approx(3.0 * c - 0.01, rel=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_beside_a_lever_and_beside_half_the_beam(seed):
+    """A law of a rotation is that of a deflection of a lever, which the axial force does not reach."""
+    scene, other, ratio = pair_of(seed)
+    N = random.Random(seed).choice([0.3, 5.0, -0.4])
+    scene["beam"]["N"], spans = N, len(other["beam"]["spans"])
+    other["beam"]["N"] = [N, 0.0] if spans == 2 else N
+    turned, known = gapbeam.solve(scene), gapbeam.solve(other)
+    assert [event.event for event in turned.events] == [event.event for event in known.events]
+    for one, two in zip(turned.steps, known.steps, strict=True):
+        assert one.factor == pytest.approx(two.factor, abs=1e-13)
+        assert one.reaction[-1] == pytest.approx(two.reaction[-1], abs=1e-13)
+        assert one.set[-1] == pytest.approx(ratio * two.set[-1], abs=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stops_on_the_way_change_nothing(seed):
+    rng = random.Random(seed)
+    scene, ends = mixed_scene(rng)
+    EI, ends = scene["beam"]["EI"], [factor for factor, _ in itertools.groupby(ends)]
+    if seed % 3:
+        scene["beam"]["N"] = EI * rng.choice([1e-4, 0.1, 30.0])
+    if seed % 3 < 2:
+        scene["foundation"] = [{"k": EI * rng.choice([1e-3, 1.0, 100.0])}]
+    stops, numbers = [], []
+    for start, stop in itertools.pairwise([0.0, *ends]):
+        stops += [start + (stop - start) * share for share in (0.31, 0.77, 1.0)]
+        numbers.append(len(stops) - 1)
+    once, often = (gapbeam.solve(scene | {"analysis": {"history": history, "follow": "events"}}) for history in (ends, stops))
+    assert once.status == often.status == "solved"
+    for leg, number in enumerate(numbers):
+        one, other = once.state(ends[leg], leg=leg), often.state(ends[leg], leg=number)
+        for name in ("reaction", "deflection"):
+            right = getattr(one, name)
+            assert getattr(other, name) == pytest.approx(right, abs=1e-11 * max(1e-6, np.abs(right).max()))
+
+
+def test_values_are_linear_between_events():
+    result = gapbeam.solve(moored())
+    ends = [0.0, *(event.factor for event in result.events if event.factor <= 1.0)][:3]
+    for a, b in itertools.pairwise(ends):
+        one, middle, two = (result.at(3.0, factor=f, leg=0).moment for f in (a, (a + b) / 2, b))
+        assert middle == pytest.approx((one + two) / 2, rel=1e-13)
+    assert "curved between events" not in result.report()
+
+
+def test_modes_feel_the_segments_that_act():
+    asked = {"follow": "events", "frequencies": 2, "buckling": 1}
+    result = gapbeam.solve(moored(analysis=asked))
+    springs = [{"x": 0.0, "stiffness": 20.0 / 0.046}, {"x": 0.0, "direction": "rotational", "stiffness": 20.0 / 0.048}]
+    linear = gapbeam.solve(moored(supports=springs, analysis=asked | {"follow": "steps"}))
+    assert result.frequencies == pytest.approx(linear.frequencies, rel=1e-13)
+    assert result.buckling == pytest.approx(linear.buckling, rel=1e-13)
+
+
+def test_prepared_cases_and_combinations_are_put_on_once():
+    made = moored(analysis={})
+    for factor, reaction in zip((0.5, 1.0), gapbeam.prepare(made).solve([[0.5], [1.0]]).reaction, strict=True):
+        alone = gapbeam.solve(made | {"loads": [made["loads"][0] | {"F": 200.0 * factor}]})
+        assert reaction.tolist() == alone.steps[-1].reaction.tolist()
+    both = gapbeam.solve(made | {"combinations": [{"name": "half", "factors": {"live": 0.5}}]})
+    half = gapbeam.solve(made | {"loads": [made["loads"][0] | {"F": 100.0}]})
+    assert both.combinations["half"].steps[-1].reaction.tolist() == half.steps[-1].reaction.tolist()
+
+
+def test_what_is_along_the_beam_does_not_feel_it():
+    history = {"follow": "events", "history": [1.0, -0.4, 0.8], "first_order": True}
+    bearings = [*pile()["supports"], {"node": 0}, {"node": 1}]
+    known = gapbeam.solve(pile(supports=bearings, analysis=history))
+    tie = {"x": 0.0, "law": [[1e-4, 1.0], [1.0, 2.0]], "unloading": "plastic"}
+    loads = [*pile()["loads"], {"type": "force", "x": 0.0, "F": 50.0}]
+    made = pile(foundation=[{"k": 1e4}], supports=[*pile()["supports"], tie], loads=loads, analysis=history)
+    result = gapbeam.solve(made)
+    assert {event.support for event in result.events} == {1}
+    for leg, factor in enumerate(history["history"]):
+        one, other = (each.at(5.0, factor=factor, leg=leg) for each in (known, result))
+        assert one.axial_force == pytest.approx(other.axial_force, rel=1e-13)
+        assert one.axial_displacement == pytest.approx(other.axial_displacement, rel=1e-13)
+
+
+def test_a_part_that_tips_where_all_has_yielded():
+    """Beside its own stretches the ground cuts the beam where its series ask for that: nodes are those of the scene."""
+    prop = {"x": 0.0, "law": [[0.01, 60.0], [0.05, 60.0]], "unloading": "plastic"}
+    result = gapbeam.solve(moored(beam={"spans": [5.0, 50.0], "EI": 1e4, "hinges": [5.0]}, supports=[prop],
+                                  foundation=[{"k": 1e5, "from": 5.0, "to": 55.0}]))  # fmt: skip
+    assert result.status == "limit-load"
+    assert result.steps[-1].factor == pytest.approx(0.3, rel=1e-14)
+    assert result.motion == [(0.0, 1.0), (5.0, 0.0), (55.0, 0.0)]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"analysis": {"follow": "events", "N_with": "live"}}, "do not grow with the load; give N with N_with dead"),
+        ({"foundation": [{"k": 500.0, "side": "below"}]}, r"foundation\[0\]: .*both ways by k alone"),
+        ({"foundation": [{"k": 500.0, "gap": 0.01}]}, r"foundation\[0\]: .*both ways by k alone"),
+        ({"foundation": [{"law": {"type": "tanh", "stiffness": 500.0, "limit": 20.0}}]}, "both ways by k alone"),
+        ({"beam": {"spans": [10.0], "EI": 3e4, "N": -6e4}}, "is stable with all supports that yield or act one way open"),
+        ({"supports": [{"x": 0.0, "law": [[0.01, 60.0], [0.02, 30.0], [0.05, 30.0]]}]}, r"supports\[0\]\.law: .* falls"),
+        ({"supports": [{"x": 0.0, "side": "below", "law": [[0.01, 6.0], [0.01, 0.0], [0.05, 0.0]], "unloading": "broken"}]},
+         r"supports\[0\]\.unloading: a support that breaks"),
+        ({"loads": [{"type": "movement", "foundation": 0, "value": 0.01}]}, "a load that moves a foundation beside a history"),
+    ],
+)  # fmt: skip
+def test_refusals(change, message):
+    with pytest.raises(gapbeam.EngineError, match=message):
+        gapbeam.solve(moored(**change))
