@@ -74,11 +74,11 @@ module gapbeam_limits
     !> Stretches beyond which modes are not looked for: some 20,000 waves along a beam. Read by contact/modes,
     !> precision/compressed, precision/uniqueness
     integer, parameter :: most_mode_stretches = 100000
-    !> Halvings of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
-    !> contact/modes
+    !> Evaluations of a bracket of a mode, more than quadruple precision has digits; doublings until there is one. Read by
+    !> contact/mode_values
     integer, parameter :: most_halvings = 1000
     !> Places beside a value, each four times as far away as the one before, at which modes are counted instead; tuned: the last is
-    !> 0.2 per cent away in double precision. Read by contact/modes
+    !> 0.2 per cent away in double precision. Read by contact/mode_values
     integer, parameter :: most_asides = 20
     !> Steps in which axial forces grow where a state may not be the only one; tuned: such paths bend slowly. Read by
     !> precision/compressed

@@ -125,7 +125,7 @@ module gapbeam_tolerances
 
     !> Share by which lengths of equal steps may differ: rounding of the places of their ends. Read by beam/foundation_stretch
     real(wp), parameter :: same_length = 4*epsilon(1.0_wp)
-    !> Width of a bracket of a mode beside its value, below the rounding of a double. Read by contact/modes
+    !> Width of a bracket of a mode beside its value, below the rounding of a double. Read by contact/mode_values
     real(wp), parameter :: mode_width = epsilon(1.0d0)/32
     !> Part of a share of the axial forces to which is found when a beam buckles: rounding of states near there. Read by
     !> precision/compressed, precision/falling_way
@@ -142,7 +142,7 @@ module gapbeam_tolerances
     !> state is nearer. Read by precision/compressed, precision/falling_ground
     real(wp), parameter :: little_compression = 2.0_wp**(-14)
     !> Share of a value of a mode by which it is off in double precision, mostly: brackets widen where it is more; tuned. Read by
-    !> contact/modes
+    !> contact/mode_values
     real(wp), parameter :: mode_digits = 2.0_wp**(-36)
 
     !

@@ -1,15 +1,13 @@
 !> Motions that a beam with its acting scheme gives way to: under axial forces times a factor, or vibrating at a frequency.
 !>
 !> The number of negative eigenvalues of its stiffness comes from the pivots of its factor (Sylvester), for links so short that none
-!> gives way with both its ends pinned (Wittrick and Williams 1971). It never falls as the factor or the frequency grows, so the
-!> k-th value is where it reaches k: found by halving, and none is missed.
+!> gives way with both its ends pinned (Wittrick and Williams 1971).
 module gapbeam_modes
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: most_mode_stretches, most_halvings, most_asides
-    use gapbeam_tolerances, only: mode_digits, mode_width
+    use gapbeam_limits, only: most_mode_stretches
     use gapbeam_nodes, only: is_hinge, jointed
     use gapbeam_band, only: band_ok, count_unstable_pivots, node_type
-    use gapbeam_piece, only: no_load, is_compressed
+    use gapbeam_piece, only: no_load
     use gapbeam_foundation, only: stretch_type, stretch_load_type, decay_lengths
     use gapbeam_curved, only: curved_type, advance_curved
     use gapbeam_foundation_chain, only: factor_foundation_chain, solve_foundation_chain
@@ -23,7 +21,7 @@ module gapbeam_modes
     use gapbeam_system, only: complete_scheme
     implicit none
     private
-    public :: by_axial_force, by_vibration, mode_shape_type, count_modes, find_mode_values, find_mode_shape
+    public :: by_axial_force, by_vibration, mode_shape_type, count_modes, find_mode_shape
 
     !> What the value of a mode multiplies: the axial forces; the mass, and is the square of a circular frequency
     integer, parameter :: by_axial_force = 1, by_vibration = 2
@@ -173,125 +171,6 @@ contains
             end do
         end do
     end subroutine cut_zones
-
-    !> The first values of modes, in rising order
-    subroutine find_mode_values(ground, zones, acting, factor, what, first, values, found, lost, near)
-        !> As for count_modes
-        type(ground_type), intent(in) :: ground
-        type(zones_type), intent(in) :: zones
-        logical, intent(in) :: acting(:)
-        real(wp), intent(in) :: factor
-        integer, intent(in) :: what
-        !> With which step to begin to look, above 0
-        real(wp), intent(in) :: first
-        !> Those that there are, shape (number wanted)
-        real(wp), intent(out) :: values(:)
-        integer, intent(out) :: found
-        !> Are there more that cannot be counted; not of those that crowd where shear itself gives way
-        logical, intent(out) :: lost
-        !> Values known to some digits, if any: the others are not looked for
-        real(wp), intent(in), optional :: near(:)
-        real(wp) :: low, high, step, limit
-        integer :: k, doubling
-        logical :: stopped
-
-        found = 0
-        stopped = .false.
-        lost = .false.
-        limit = greatest_value(ground, what)
-        low = 0.0_wp
-        do k = 1, merge(size(near), size(values), present(near))
-            step = min(first, limit/2)
-            if (k > 1) step = low/2
-            if (present(near)) then
-                step = mode_digits*near(k)
-                low = near(k) - step
-            end if
-            do doubling = 1, most_halvings
-                if (.not. low > 0.0_wp) exit
-                if (number_at(low) < k) exit
-                ! Another mode has that value too, or a known one is farther off
-                if (.not. present(near)) exit
-                low = max(0.0_wp, low - 2*step)
-                step = 4*step
-            end do
-            high = low
-            do doubling = 1, most_halvings
-                if (high > 0.0_wp) then
-                    if (number_at(high) >= k .or. stopped) exit
-                end if
-                low = high
-                high = min(high + step, high + (limit - high)/2)
-                if (.not. high > low) return
-                step = 2*step
-            end do
-            lost = stopped .and. (what == by_vibration .or. .not. limit < huge(limit))
-            if (stopped .or. doubling > most_halvings) return
-            call halve(k)
-            found = k
-            low = high
-        end do
-
-    contains
-
-        !> Bring the bracket of mode k together
-        subroutine halve(k)
-            integer, intent(in) :: k
-            real(wp) :: middle
-            integer :: step
-
-            do step = 1, most_halvings
-                middle = low + (high - low)/2
-                if (.not. (middle > low .and. middle < high) .or. high - low <= mode_width*high) exit
-                if (number_at(middle) >= k) then
-                    high = middle
-                else
-                    low = middle
-                end if
-            end do
-            values(k) = high
-        end subroutine halve
-
-        !> Modes at a value, or beside it: where what holds the beam and what moves it nearly cancel, pivots are rounding far around
-        function number_at(value) result(number)
-            real(wp), intent(in) :: value
-            integer :: number
-            type(workspace_type) :: work
-            type(grounded_type) :: grounded
-            integer :: trial
-
-            do trial = 0, most_asides
-                call count_modes(ground, zones, acting, what, value*(1 + 8*(4.0_wp**trial - 1)*epsilon(value)), number, work, &
-                                 grounded, factor=factor)
-                if (number >= 0) return
-            end do
-            stopped = .true.
-            number = 0
-        end function number_at
-
-    end subroutine find_mode_values
-
-    !> Above which value a beam would give way by shear alone: where its axial force takes all of GA (Engesser)
-    pure function greatest_value(ground, what) result(limit)
-        type(ground_type), intent(in) :: ground
-        integer, intent(in) :: what
-        real(wp) :: limit
-        integer :: j
-
-        limit = huge(limit)
-        if (what == by_vibration .and. allocated(ground%mass)) then
-            ! Far beyond the last mode where there are lumped masses alone, and products of it are within range
-            limit = sqrt(sqrt(limit))/max(1.0_wp, maxval(ground%mass))
-        end if
-        if (what /= by_axial_force) return
-        do j = 1, size(ground%pieces)
-            associate (p => ground%pieces(j))
-                if (is_compressed(p) .and. p%shear_flexibility > 0.0_wp) then
-                    limit = min(limit, (1/p%shear_flexibility + p%slope_stiffness)/(p%slope_stiffness - p%tension))
-                end if
-            end associate
-        end do
-    end function greatest_value
 
     !> How the beam moves in a mode: what small forces near its value do (inverse iteration)
     subroutine find_mode_shape(ground, zones, acting, factor, what, value, parts, shape)

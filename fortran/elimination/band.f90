@@ -30,7 +30,7 @@ module gapbeam_band
         takes_left
     implicit none
     private
-    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, count_unstable_pivots
+    public :: node_type, rhs_type, pivot_type, answer_type, factor_chain, count_unstable_pivots, log_determinant
     public :: band_ok, band_mechanism, band_needs_pivoting, band_stopped
     public :: plain, hinge, restrained, jointed
     ! For gapbeam_band_substitution, and for gapbeam_foundation_chain, which eliminates likewise
@@ -246,5 +246,45 @@ contains
             end associate
         end do
     end function count_unstable_pivots
+
+    !> Logarithm to base 2 of the determinant of the mixed system but for its sign and constant factors, from the same pivots
+    pure function log_determinant(nodes, pivots) result(size)
+        !> As for factor_chain, factored, shape (0:n)
+        type(node_type), intent(in) :: nodes(0:)
+        type(pivot_type), intent(in) :: pivots(0:)
+        real(wp) :: size
+        integer :: i
+
+        size = 0.0_wp
+        do i = 0, ubound(nodes, 1)
+            associate (node => nodes(i), p => pivots(i))
+                if (takes_left(node%kind) .and. .not. p%floating) then
+                    size = size + log_of(p%phi + node%compliance + merge(node%joint, 0.0_wp, node%kind == joint_right))
+                end if
+                select case (p%kind)
+                case (full)
+                    size = size - log_of(p%reciprocal)
+                case (w_known)
+                    size = size + log_of(p%a)
+                case (m_known)
+                    size = size + log_of(p%c)
+                case (end_of_beam)
+                    if (.not. node%held) size = size + log_of(p%c)
+                case default
+                end select
+            end associate
+        end do
+
+    contains
+
+        !> Of the size of a number, whatever its range
+        elemental function log_of(number) result(logarithm)
+            real(wp), intent(in) :: number
+            real(wp) :: logarithm
+
+            logarithm = exponent(number) + log(max(abs(fraction(number)), tiny(number)))/log(2.0_wp)
+        end function log_of
+
+    end function log_determinant
 
 end module gapbeam_band

@@ -10,9 +10,10 @@ module gapbeam_state_modes
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_refined_ground, only: refine_ground, refine_zones
     use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type
-    use gapbeam_modes, only: by_axial_force, by_vibration, find_mode_values
-    use gapbeam_modes_quad, only: fine_shape_type => mode_shape_type, find_fine_values => find_mode_values, &
-        find_fine_shape => find_mode_shape
+    use gapbeam_modes, only: by_axial_force, by_vibration
+    use gapbeam_mode_values, only: find_mode_values
+    use gapbeam_mode_values_quad, only: find_fine_values => find_mode_values
+    use gapbeam_modes_quad, only: fine_shape_type => mode_shape_type, find_fine_shape => find_mode_shape
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: ground_of
