@@ -23,12 +23,13 @@ from . import (
     roads,
     signs,
     trains,
+    yielding,
 )  # fmt: skip
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, doubled, ground, falling, layers, trains, combinations, batches, roads, axial_force,
-    mutants, models, memory,
+    enumeration, events, signs, hinges, laws, yielding, doubled, ground, falling, layers, trains, combinations, batches, roads,
+    axial_force, mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 

@@ -91,9 +91,9 @@ def state_faults(step, state, which, where):
     return faults
 
 
-def judge_history(made):
-    """A history of load factors, at the end of every leg."""
-    exact = history(made)
+def judge_history(made, problem=None):
+    """A history of load factors, at the end of every leg; `problem` is the condensed scene, if that is known."""
+    exact = history(problem or made)
     verdict = Verdict(exact.status)
     if exact.status != "solved":
         verdict.outcome = f"no exact history: {exact.status}"

@@ -1,13 +1,17 @@
 """Random scenes with supports that follow laws, for comparison with `oracle/laws.py` and `oracle/history.py`.
 
 All numbers are multiples of 1/8 (exact as doubles) and small, so the oracle reads what the engine reads. Scenes are
-drawn from a `random.Random`; nothing here solves anything. No two supports share a place, and no two pieces of a law
-that follow one another lie on one line, so every branch is a branch of its own.
+drawn from a `random.Random`; nothing here solves anything, but that compressions are parts of a buckling factor, which the
+oracle is asked for. No two supports share a place, and no two pieces of a law that follow one another lie on one line, so
+every branch is a branch of its own.
 """
 
 import itertools
 import random
 
+import oracle.axial_modes as modes
+
+from .foundation import digits
 from .plain import force, moment, nodes_of, place, scene, uniform
 
 FAMILIES = ("hardening", "softening", "plastic", "broken")
@@ -141,6 +145,43 @@ def law_scene(rng, family, *, laws=None, alone=True):
     if history:
         made["analysis"]["history"] = list(HISTORY)
     return made
+
+
+def in_stretches(seed):
+    """A scene as of `law_scene`, with plastic or elastic unloading, under an axial force or on two-sided ground.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    kind : {"tension", "compression", "ground", "both"}
+    made : dict
+    """
+    rng = random.Random(f"in stretches {seed}")
+    made = law_scene(rng, rng.choice(("plastic", "plastic", "plastic", "hardening")))
+    made["analysis"] = {"follow": "events", "history": list(HISTORY)}
+    beam, length = made["beam"], nodes_of(made)[-1]
+    EI = min(beam["EI"]) if isinstance(beam["EI"], list) else beam["EI"]
+    kind = rng.choice(("tension", "compression", "ground", "both"))
+    if kind == "compression":
+        held = [s for s in made["supports"] if "law" not in s and s.get("side", "both") == "both"]
+        first = modes.buckling({**made, "supports": held, "beam": {**beam, "N": -1.0}})[0]
+        beam["N"] = digits(-float(first) * rng.uniform(0.1, 0.95))
+        return kind, made
+    if kind != "ground":
+        pull = 10.0 ** rng.uniform(-6, 3) * EI / length**2
+        beam["N"] = digits(pull) if rng.random() < 0.5 else [digits(pull * rng.uniform(0.2, 2)) for _ in beam["spans"]]
+    if kind != "tension":
+        k = EI / length**4 * 10.0 ** rng.uniform(-1, 5)
+        ground = {"k": digits(k) if rng.random() < 0.6 else [digits(k), digits(k * rng.uniform(0.1, 4))]}
+        if rng.random() < 0.4:
+            ground |= {"from": eighths(rng, 0, 0.4 * length), "to": eighths(rng, 0.6 * length, length)}
+        if rng.random() < 0.3:
+            ground["shear"] = digits(EI / length**2 * 10.0 ** rng.uniform(-1, 1))
+        made["foundation"] = [ground]
+    return kind, made
 
 
 def symmetric_scene(rng, family):
