@@ -29,9 +29,10 @@ end subroutine gbtole
 subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, mmass, span, hinge, sect, isup, sup, ilaw, &
                   alaw, iload, aload, ifound, found, iprof, aprof, iflaw, aflaw, amass, forces, thread, &
                   beam, status, reason, table, entry, partner, key, message)
-    use gapbeam_python_handles, only: error_type, handle_type, number_of, keep_beam, listen, report
-    use gapbeam_scene, only: model_type
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, new_beam, listen, report
+    use gapbeam_handles, only: finish_handle
     use gapbeam_arrays, only: model_from_arrays, foundations_from_arrays
+    use gapbeam_assemble, only: assemble_model
     implicit none
     ! One more than there are
     integer, intent(in) :: mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw, mmass
@@ -56,26 +57,31 @@ subroutine gbmake(mspan, mhinge, msect, msup, mlaw, mload, mfound, mprof, mflaw,
     character(len=240), intent(out) :: message
     !f2py threadsafe
     type(handle_type), pointer :: handle
-    type(model_type) :: model
     type(error_type), allocatable :: error
 
-    nullify (handle)
     reason = 0
     table = 0
     entry = 0
     partner = 0
     key = " "
-    call model_from_arrays(span(:, :mspan - 1), hinge(:, :mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), sup(:, :msup - 1), &
-                           ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), aload(:, :mload - 1), model, error)
-    if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), iprof(:mprof - 1), &
-                                                             aprof(:, :mprof - 1), iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), &
-                                                             model, error)
-    model%masses = amass(:, :mmass - 1)
-    model%N_grows = forces(1) /= 0
-    model%first_order = forces(2) /= 0
-    model%stretching = forces(3) /= 0
-    model%with_trains = forces(4) /= 0
-    if (.not. allocated(error)) call keep_beam(model, handle, error)
+    call new_beam(handle, error)
+    if (.not. allocated(error)) then
+        associate (model => handle%beam%lowered%model)
+            call model_from_arrays(span(:, :mspan - 1), hinge(:, :mhinge - 1), sect(:, :msect - 1), isup(:, :msup - 1), &
+                                   sup(:, :msup - 1), ilaw(:mlaw - 1), alaw(:, :mlaw - 1), iload(:, :mload - 1), &
+                                   aload(:, :mload - 1), model, error)
+            if (.not. allocated(error)) call foundations_from_arrays(ifound(:mfound - 1), found(:, :mfound - 1), &
+                                                                     iprof(:mprof - 1), aprof(:, :mprof - 1), &
+                                                                     iflaw(:mflaw - 1), aflaw(:, :mflaw - 1), model, error)
+            model%masses = amass(:, :mmass - 1)
+            model%N_grows = forces(1) /= 0
+            model%first_order = forces(2) /= 0
+            model%stretching = forces(3) /= 0
+            model%with_trains = forces(4) /= 0
+        end associate
+        if (.not. allocated(error)) call assemble_model(handle%beam%lowered, error)
+    end if
+    call finish_handle(handle, error)
     beam = number_of(handle)
     call report(error, status, message)
     if (.not. allocated(error)) then

@@ -7,10 +7,8 @@ module gapbeam_python_handles
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_watch, only: begin_watch
-    use gapbeam_scene, only: model_type
     use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_assemble, only: assemble_model
     use gapbeam_state, only: solve_state
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_path_states, only: audit_lines, by_tangents, with_lines, on_polylines
@@ -24,7 +22,7 @@ module gapbeam_python_handles
         number_of, address_numbered
     implicit none
     private
-    public :: error_type, handle_type, number_of, behind, keep_beam, copy_beam, keep_state, keep_fields, keep_train
+    public :: error_type, handle_type, number_of, behind, new_beam, copy_beam, keep_state, keep_fields, keep_train
     public :: listen, report, pack_extremes, laws_given, put_laws
 
     interface
@@ -56,38 +54,6 @@ contains
         handle%thread = thread
         call begin_watch(handle%watch, c_funloc(hear_signals), transfer(thread, c_null_ptr), real(huge(thread), wp))
     end subroutine listen
-
-    !> Assemble a model and keep it
-    subroutine keep_beam(model, handle, error)
-        !> Moved away
-        type(model_type), intent(inout) :: model
-        type(handle_type), pointer, intent(out) :: handle
-        !> As for assemble_model
-        type(error_type), allocatable, intent(out) :: error
-
-        call new_beam(handle, error)
-        if (.not. allocated(error)) then
-            associate (kept => handle%beam%lowered%model)
-                call move_alloc(model%spans, kept%spans)
-                call move_alloc(model%hinges, kept%hinges)
-                call move_alloc(model%hinge_stiffness, kept%hinge_stiffness)
-                call move_alloc(model%sections, kept%sections)
-                call move_alloc(model%masses, kept%masses)
-                call move_alloc(model%supports, kept%supports)
-                call move_alloc(model%law, kept%law)
-                call move_alloc(model%foundations, kept%foundations)
-                call move_alloc(model%ground, kept%ground)
-                call move_alloc(model%ground_law, kept%ground_law)
-                call move_alloc(model%loads, kept%loads)
-                kept%N_grows = model%N_grows
-                kept%first_order = model%first_order
-                kept%stretching = model%stretching
-                kept%with_trains = model%with_trains
-            end associate
-            call assemble_model(handle%beam%lowered, error)
-        end if
-        call finish_handle(handle, error)
-    end subroutine keep_beam
 
     !> A place for a beam
     subroutine new_beam(handle, error)
