@@ -98,11 +98,9 @@ contains
         type(model_type), intent(out) :: model
         !> Wrong size, a negative number of entries, a missing array, or no memory
         type(error_type), allocatable, intent(out) :: error
-        real(c_double), pointer :: reals(:)
-        integer(c_int), pointer :: integers(:)
         integer(c_size_t) :: sizes(3)
         logical :: with_laws, with_all
-        integer :: i, points, stat
+        integer :: k, points, stat
 
         call check_size(c, error)
         if (allocated(error)) return
@@ -113,22 +111,18 @@ contains
         points = 0
         if (with_laws) then
             points = c%law_points
-            call check_array("law points", c%law_points, c_associated(c%law_support) .and. c_associated(c%law_displacement) &
-                             .and. c_associated(c%law_force), "law_support, law_displacement and law_force are needed", error)
+            call check_array("law points", points, have([c%law_support, c%law_displacement, c%law_force]), &
+                             "law_support, law_displacement and law_force are needed", error)
         end if
-        if (.not. allocated(error)) call check_array("spans", c%spans, c_associated(c%length) .and. c_associated(c%EI), &
-                                                     "length and EI are needed", error)
-        if (.not. allocated(error)) call check_array("hinges", c%hinges, c_associated(c%hinge_x), "hinge_x is needed", error)
-        if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_x) &
-                                                     .or. c_associated(c%support_node), "support_x or support_node is needed", &
-                                                     error)
+        call check_array("spans", c%spans, have([c%length, c%EI]), "length and EI are needed", error)
+        call check_array("hinges", c%hinges, have([c%hinge_x]), "hinge_x is needed", error)
+        call check_array("supports", c%supports, have([c%support_x]) .or. have([c%support_node]), &
+                         "support_x or support_node is needed", error)
         if (.not. allocated(error)) call loads_from_c(c, model%loads, error)
         if (.not. allocated(error) .and. with_all) then
-            call check_array("masses", c%masses, c_associated(c%mass_x) .and. c_associated(c%lumped_mass), &
-                             "mass_x and lumped_mass are needed", error)
-            if (.not. allocated(error)) call check_array("supports", c%supports, c_associated(c%support_law) &
-                                                         .eqv. c_associated(c%support_parameter), &
-                                                         "support_law and support_parameter need each other", error)
+            call check_array("masses", c%masses, have([c%mass_x, c%lumped_mass]), "mass_x and lumped_mass are needed", error)
+            call check_array("supports", c%supports, have([c%support_law]) .eqv. have([c%support_parameter]), &
+                             "support_law and support_parameter need each other", error)
             call check_flag("model: N_grows", c%N_grows, error)
             call check_flag("model: first_order", c%first_order, error)
             call check_flag("model: stretching", c%stretching, error)
@@ -143,52 +137,50 @@ contains
             call no_memory(error)
             return
         end if
-        associate (s => model%spans, n => c%spans)
-            if (has_reals(c%length, n, reals)) s%length = reals
-            if (has_reals(c%EI, n, reals)) s%EI = reals
-            if (has_reals(c%GA, n, reals)) s%GA = reals
-            if (has_reals(c%EA, n, reals)) s%EA = reals
+        associate (s => model%spans)
+            call copy_reals(c%length, s%length)
+            call copy_reals(c%EI, s%EI)
+            call copy_reals(c%GA, s%GA)
+            call copy_reals(c%EA, s%EA)
         end associate
-        if (has_reals(c%hinge_x, c%hinges, reals)) model%hinges(:) = reals
+        call copy_reals(c%hinge_x, model%hinges)
         if (with_all) then
-            if (has_reals(c%N, c%spans, reals)) model%spans%N = reals
-            if (has_reals(c%mass, c%spans, reals)) model%spans%mass = reals
+            call copy_reals(c%N, model%spans%N)
+            call copy_reals(c%mass, model%spans%mass)
             model%N_grows = c%N_grows == 1
             model%first_order = c%first_order == 1
             model%stretching = c%stretching == 1
             model%with_trains = c%with_trains == 1
             allocate (model%masses(2, c%masses))
-            if (has_reals(c%mass_x, c%masses, reals)) model%masses(1, :) = reals
-            if (has_reals(c%lumped_mass, c%masses, reals)) model%masses(2, :) = reals
+            call copy_reals(c%mass_x, model%masses(1, :))
+            call copy_reals(c%lumped_mass, model%masses(2, :))
             allocate (model%hinge_stiffness(c%hinges), source=0.0_c_double)
-            if (has_reals(c%hinge_stiffness, c%hinges, reals)) model%hinge_stiffness(:) = reals
+            call copy_reals(c%hinge_stiffness, model%hinge_stiffness)
         end if
-        associate (s => model%supports, n => c%supports)
-            if (has_reals(c%support_x, n, reals)) s%x = reals
-            if (has_integers(c%support_node, n, integers)) s%node = integers
-            if (has_integers(c%support_side, n, integers)) s%side = integers
-            if (has_reals(c%support_stiffness, n, reals)) s%stiffness = reals
-            if (has_reals(c%support_gap, n, reals)) s%gap = reals
-            if (has_reals(c%support_settlement, n, reals)) s%settlement = reals
-            if (has_reals(c%support_rotation, n, reals)) s%rotation = reals
-            if (has_integers(c%support_direction, n, integers)) s%direction = integers
+        associate (s => model%supports)
+            call copy_reals(c%support_x, s%x)
+            call copy_integers(c%support_node, s%node)
+            call copy_integers(c%support_side, s%side)
+            call copy_reals(c%support_stiffness, s%stiffness)
+            call copy_reals(c%support_gap, s%gap)
+            call copy_reals(c%support_settlement, s%settlement)
+            call copy_reals(c%support_rotation, s%rotation)
+            call copy_integers(c%support_direction, s%direction)
             if (.not. with_laws) return
-            if (has_integers(c%support_unloading, n, integers)) s%unloading = integers
+            call copy_integers(c%support_unloading, s%unloading)
             if (with_all) then
-                if (has_integers(c%support_law, n, integers)) s%law = integers
-                if (has_reals(c%support_friction, n, reals)) s%friction = reals
-                if (has_reals(c%support_parameter, n*parameters_of_law, reals)) then
-                    do i = 1, n
-                        s(i)%parameter = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
-                    end do
-                end if
+                call copy_integers(c%support_law, s%law)
+                call copy_reals(c%support_friction, s%friction)
+                do k = 1, parameters_of_law
+                    call copy_reals(c%support_parameter, s%parameter(k), k)
+                end do
             end if
         end associate
-        if (points == 0) return
-        associate (law => model%law, n => c%law_points)
-            if (has_integers(c%law_support, n, integers)) law%support = integers + 1
-            if (has_reals(c%law_displacement, n, reals)) law%displacement = reals
-            if (has_reals(c%law_force, n, reals)) law%force = reals
+        associate (law => model%law)
+            call copy_integers(c%law_support, law%support)
+            law%support = law%support + 1
+            call copy_reals(c%law_displacement, law%displacement)
+            call copy_reals(c%law_force, law%force)
         end associate
     end subroutine model_from_c
 
@@ -200,27 +192,20 @@ contains
         type(model_type), intent(inout) :: model
         !> As for model_from_c
         type(error_type), allocatable, intent(out) :: error
-        real(c_double), pointer :: reals(:)
-        integer(c_int), pointer :: integers(:)
-        integer :: i, stat
+        integer :: k, stat
 
-        call check_array("foundations", c%foundations, c_associated(c%foundation_law) .eqv. c_associated(c%foundation_parameter), &
+        call check_array("foundations", c%foundations, have([c%foundation_law]) .eqv. have([c%foundation_parameter]), &
                          "foundation_law and foundation_parameter need each other", error)
-        if (.not. allocated(error)) call check_array("foundations", c%foundations, c_associated(c%foundation_parameter) &
-                                                     .or. .not. c_associated(c%foundation_parameter_to), &
-                                                     "foundation_parameter is needed with foundation_parameter_to", error)
-        if (.not. allocated(error)) call check_array("profile points", c%profile_points, c_associated(c%profile_foundation) &
-                                                     .and. c_associated(c%profile_x) .and. c_associated(c%profile_gap), &
-                                                     "profile_foundation, profile_x and profile_gap are needed", error)
-        if (.not. allocated(error)) call check_array("table points", c%table_points, c_associated(c%table_foundation) &
-                                                     .and. c_associated(c%table_quantity) .and. c_associated(c%table_x) &
-                                                     .and. c_associated(c%table_value), "table_foundation, table_quantity, "// &
-                                                     "table_x and table_value are needed", error)
-        if (.not. allocated(error)) call check_array("ground law points", c%ground_law_points, &
-                                                     c_associated(c%ground_law_foundation) .and. &
-                                                     c_associated(c%ground_law_displacement) .and. &
-                                                     c_associated(c%ground_law_force), "ground_law_foundation, "// &
-                                                     "ground_law_displacement and ground_law_force are needed", error)
+        call check_array("foundations", c%foundations, have([c%foundation_parameter]) &
+                         .or. .not. have([c%foundation_parameter_to]), &
+                         "foundation_parameter is needed with foundation_parameter_to", error)
+        call check_array("profile points", c%profile_points, have([c%profile_foundation, c%profile_x, c%profile_gap]), &
+                         "profile_foundation, profile_x and profile_gap are needed", error)
+        call check_array("table points", c%table_points, have([c%table_foundation, c%table_quantity, c%table_x, c%table_value]), &
+                         "table_foundation, table_quantity, table_x and table_value are needed", error)
+        call check_array("ground law points", c%ground_law_points, &
+                         have([c%ground_law_foundation, c%ground_law_displacement, c%ground_law_force]), &
+                         "ground_law_foundation, ground_law_displacement and ground_law_force are needed", error)
         if (allocated(error)) return
         stat = merge(1, 0, c%profile_points > huge(c%table_points) - c%table_points)
         if (stat == 0) allocate (model%foundations(c%foundations), model%ground(c%profile_points + c%table_points), &
@@ -229,42 +214,39 @@ contains
             call no_memory(error)
             return
         end if
-        associate (f => model%foundations, n => c%foundations)
-            if (has_reals(c%foundation_from, n, reals)) f%from = reals
-            if (has_reals(c%foundation_to, n, reals)) f%to = reals
-            if (has_integers(c%foundation_side, n, integers)) f%side = integers
-            if (has_reals(c%foundation_k, n, reals)) f%k = reals
-            if (has_reals(c%foundation_k_to, n, reals)) f%k_to = reals
-            if (has_reals(c%foundation_gap, n, reals)) f%gap = reals
-            if (has_reals(c%foundation_gap_to, n, reals)) f%gap_to = reals
-            if (has_reals(c%foundation_shear, n, reals)) f%shear = reals
-            if (has_integers(c%foundation_law, n, integers)) f%law = integers
-            if (has_reals(c%foundation_parameter, n*parameters_of_law, reals)) then
-                do i = 1, n
-                    f(i)%parameter = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
-                end do
-            end if
-            if (has_reals(c%foundation_parameter_to, n*parameters_of_law, reals)) then
-                do i = 1, n
-                    f(i)%parameter_to = reals((i - 1)*parameters_of_law + 1:i*parameters_of_law)
-                end do
-            end if
+        associate (f => model%foundations)
+            call copy_reals(c%foundation_from, f%from)
+            call copy_reals(c%foundation_to, f%to)
+            call copy_integers(c%foundation_side, f%side)
+            call copy_reals(c%foundation_k, f%k)
+            call copy_reals(c%foundation_k_to, f%k_to)
+            call copy_reals(c%foundation_gap, f%gap)
+            call copy_reals(c%foundation_gap_to, f%gap_to)
+            call copy_reals(c%foundation_shear, f%shear)
+            call copy_integers(c%foundation_law, f%law)
+            do k = 1, parameters_of_law
+                call copy_reals(c%foundation_parameter, f%parameter(k), k)
+                call copy_reals(c%foundation_parameter_to, f%parameter_to(k), k)
+            end do
         end associate
-        associate (points => model%ground(:c%profile_points), n => c%profile_points)
-            if (has_integers(c%profile_foundation, n, integers)) points%foundation = integers + 1
-            if (has_reals(c%profile_x, n, reals)) points%x = reals
-            if (has_reals(c%profile_gap, n, reals)) points%value = reals
+        associate (points => model%ground(:c%profile_points))
+            call copy_integers(c%profile_foundation, points%foundation)
+            points%foundation = points%foundation + 1
+            call copy_reals(c%profile_x, points%x)
+            call copy_reals(c%profile_gap, points%value)
         end associate
-        associate (points => model%ground(c%profile_points + 1:), n => c%table_points)
-            if (has_integers(c%table_foundation, n, integers)) points%foundation = integers + 1
-            if (has_integers(c%table_quantity, n, integers)) points%quantity = integers
-            if (has_reals(c%table_x, n, reals)) points%x = reals
-            if (has_reals(c%table_value, n, reals)) points%value = reals
+        associate (points => model%ground(c%profile_points + 1:))
+            call copy_integers(c%table_foundation, points%foundation)
+            points%foundation = points%foundation + 1
+            call copy_integers(c%table_quantity, points%quantity)
+            call copy_reals(c%table_x, points%x)
+            call copy_reals(c%table_value, points%value)
         end associate
-        associate (points => model%ground_law, n => c%ground_law_points)
-            if (has_integers(c%ground_law_foundation, n, integers)) points%foundation = integers + 1
-            if (has_reals(c%ground_law_displacement, n, reals)) points%displacement = reals
-            if (has_reals(c%ground_law_force, n, reals)) points%force = reals
+        associate (points => model%ground_law)
+            call copy_integers(c%ground_law_foundation, points%foundation)
+            points%foundation = points%foundation + 1
+            call copy_reals(c%ground_law_displacement, points%displacement)
+            call copy_reals(c%ground_law_force, points%force)
         end associate
     end subroutine foundations_from_c
 
@@ -275,8 +257,6 @@ contains
         type(section_type), allocatable, intent(out) :: sections(:)
         !> As for model_from_c
         type(error_type), allocatable, intent(out) :: error
-        real(c_double), pointer :: reals(:)
-        integer(c_int), pointer :: integers(:)
         integer :: stat
 
         call check_array("sections", c%sections, .true., "", error)
@@ -286,22 +266,22 @@ contains
             call no_memory(error)
             return
         end if
-        associate (s => sections, n => c%sections)
-            if (has_reals(c%section_from, n, reals)) s%from = reals
-            if (has_reals(c%section_to, n, reals)) s%to = reals
-            if (has_reals(c%section_EI, n, reals)) s%EI = reals
-            if (has_reals(c%section_GA, n, reals)) s%GA = reals
-            if (has_reals(c%section_EA, n, reals)) s%EA = reals
-            if (has_reals(c%section_EI_to, n, reals)) s%EI_to = reals
-            if (has_reals(c%section_GA_to, n, reals)) s%GA_to = reals
-            if (has_reals(c%section_EA_to, n, reals)) s%EA_to = reals
-            if (has_integers(c%section_EI_power, n, integers)) s%EI_power = integers
-            if (has_integers(c%section_GA_power, n, integers)) s%GA_power = integers
-            if (has_integers(c%section_EA_power, n, integers)) s%EA_power = integers
-            if (has_reals(c%section_friction, n, reals)) s%friction = reals
-            if (has_reals(c%section_N, n, reals)) s%N = reals
-            if (has_reals(c%section_friction_to, n, reals)) s%friction_to = reals
-            if (has_reals(c%section_bedding, n, reals)) s%bedding = reals
+        associate (s => sections)
+            call copy_reals(c%section_from, s%from)
+            call copy_reals(c%section_to, s%to)
+            call copy_reals(c%section_EI, s%EI)
+            call copy_reals(c%section_GA, s%GA)
+            call copy_reals(c%section_EA, s%EA)
+            call copy_reals(c%section_EI_to, s%EI_to)
+            call copy_reals(c%section_GA_to, s%GA_to)
+            call copy_reals(c%section_EA_to, s%EA_to)
+            call copy_integers(c%section_EI_power, s%EI_power)
+            call copy_integers(c%section_GA_power, s%GA_power)
+            call copy_integers(c%section_EA_power, s%EA_power)
+            call copy_reals(c%section_friction, s%friction)
+            call copy_reals(c%section_N, s%N)
+            call copy_reals(c%section_friction_to, s%friction_to)
+            call copy_reals(c%section_bedding, s%bedding)
         end associate
     end subroutine sections_from_c
 
@@ -311,34 +291,28 @@ contains
         type(load_type), allocatable, intent(out) :: loads(:)
         !> As for model_from_c
         type(error_type), allocatable, intent(out) :: error
-        real(c_double), pointer :: reals(:)
-        integer(c_int), pointer :: integers(:)
         integer :: i, stat
 
         call check_size(c, error)
-        if (.not. allocated(error)) call check_array("loads", c%loads, c_associated(c%load_kind) .and. &
-                                                     c_associated(c%load_value) .and. (c_associated(c%load_x) .or. &
-                                                                                       c_associated(c%load_node)), &
-                                                     "load_kind, load_value, and load_x or load_node are needed", error)
+        call check_array("loads", c%loads, have([c%load_kind, c%load_value]) .and. (have([c%load_x]) .or. have([c%load_node])), &
+                         "load_kind, load_value, and load_x or load_node are needed", error)
         if (allocated(error)) return
         allocate (loads(c%loads), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
-        associate (n => c%loads)
-            if (has_integers(c%load_kind, n, integers)) loads%kind = integers
-            if (has_integers(c%load_case, n, integers)) loads%case = integers
-            if (has_reals(c%load_x, n, reals)) loads%x = reals
-            if (has_integers(c%load_node, n, integers)) loads%node = integers &
-                + merge(1, 0, is_of_support(loads) .or. is_movement(loads))
-            if (has_reals(c%load_to, n, reals)) loads%to = reals
-            if (has_reals(c%load_value, n, reals)) loads%value = reals
-            do i = 1, n
-                if (loads(i)%kind /= gapbeam_temperature) loads(i)%value_to = loads(i)%value
-            end do
-            if (has_reals(c%load_value_to, n, reals)) loads%value_to = reals
-        end associate
+        call copy_integers(c%load_kind, loads%kind)
+        call copy_integers(c%load_case, loads%case)
+        call copy_reals(c%load_x, loads%x)
+        call copy_integers(c%load_node, loads%node)
+        if (have([c%load_node])) loads%node = loads%node + merge(1, 0, is_of_support(loads) .or. is_movement(loads))
+        call copy_reals(c%load_to, loads%to)
+        call copy_reals(c%load_value, loads%value)
+        do i = 1, size(loads)
+            if (loads(i)%kind /= gapbeam_temperature) loads(i)%value_to = loads(i)%value
+        end do
+        call copy_reals(c%load_value_to, loads%value_to)
     end subroutine loads_from_c
 
     !> Is the structure the library's
@@ -356,8 +330,10 @@ contains
         character(len=*), intent(in) :: name, problem
         integer(c_int), intent(in) :: number
         logical, intent(in) :: given
-        type(error_type), allocatable, intent(out) :: error
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
 
+        if (allocated(error)) return
         if (number < 0) then
             call fatal_error(error, gapbeam_bad_input, "model: the number of "//name//" is negative")
         else if (number > 0 .and. .not. given) then
@@ -365,28 +341,43 @@ contains
         end if
     end subroutine check_array
 
-    !> Is there an array of reals
-    function has_reals(address, number, array) result(given)
+    !> Are all of some arrays there
+    pure function have(arrays)
+        type(c_ptr), intent(in) :: arrays(:)
+        logical :: have
+        integer :: i
+
+        have = all([(c_associated(arrays(i)), i=1, size(arrays))])
+    end function have
+
+    !> Copy an array of reals, if it is there
+    subroutine copy_reals(address, values, parameter)
         type(c_ptr), intent(in) :: address
-        integer(c_int), intent(in) :: number
-        real(c_double), pointer, intent(out) :: array(:)
-        logical :: given
+        !> Left as they are if it is not
+        real(c_double), intent(inout) :: values(:)
+        !> Where the array has all parameters of a law for every value: which one of them
+        integer, intent(in), optional :: parameter
+        real(c_double), pointer :: array(:)
 
-        nullify (array)
-        given = c_associated(address)
-        if (given) call c_f_pointer(address, array, [number])
-    end function has_reals
+        if (.not. c_associated(address)) return
+        if (present(parameter)) then
+            call c_f_pointer(address, array, [parameters_of_law*size(values)])
+            values(:) = array(parameter::parameters_of_law)
+        else
+            call c_f_pointer(address, array, [size(values)])
+            values(:) = array
+        end if
+    end subroutine copy_reals
 
-    !> Is there an array of integers
-    function has_integers(address, number, array) result(given)
+    !> The same with integers
+    subroutine copy_integers(address, values)
         type(c_ptr), intent(in) :: address
-        integer(c_int), intent(in) :: number
-        integer(c_int), pointer, intent(out) :: array(:)
-        logical :: given
+        integer, intent(inout) :: values(:)
+        integer(c_int), pointer :: array(:)
 
-        nullify (array)
-        given = c_associated(address)
-        if (given) call c_f_pointer(address, array, [number])
-    end function has_integers
+        if (.not. c_associated(address)) return
+        call c_f_pointer(address, array, [size(values)])
+        values(:) = array
+    end subroutine copy_integers
 
 end module gapbeam_capi_model
