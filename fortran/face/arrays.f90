@@ -2,7 +2,8 @@
 module gapbeam_arrays
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory
-    use gapbeam_scene, only: law_point_type, ground_point_type, ground_law_point_type, load_type, model_type
+    use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, foundation_type, ground_point_type, &
+        ground_law_point_type, load_type, model_type
     implicit none
     private
     public :: model_from_arrays, foundations_from_arrays, loads_from_arrays
@@ -41,25 +42,16 @@ contains
             return
         end if
         do i = 1, size(model%spans)
-            associate (s => model%spans(i))
-                s%length = span(1, i)
-                s%EI = span(2, i)
-                s%GA = span(3, i)
-                s%EA = span(4, i)
-                if (size(span, 1) > 4) s%N = span(5, i)
-                if (size(span, 1) > 5) s%mass = span(6, i)
-            end associate
+            model%spans(i) = span_type(length=span(1, i), EI=span(2, i), GA=span(3, i), EA=span(4, i))
+            if (size(span, 1) > 4) model%spans(i)%N = span(5, i)
+            if (size(span, 1) > 5) model%spans(i)%mass = span(6, i)
         end do
         model%hinges(:) = hinge(1, :)
         model%hinge_stiffness(:) = 0.0_wp
         if (size(hinge, 1) > 1) model%hinge_stiffness(:) = hinge(2, :)
         do i = 1, size(model%sections)
             associate (s => model%sections(i))
-                s%from = sect(1, i)
-                s%to = sect(2, i)
-                s%EI = sect(3, i)
-                s%GA = sect(4, i)
-                s%EA = sect(5, i)
+                s = section_type(from=sect(1, i), to=sect(2, i), EI=sect(3, i), GA=sect(4, i), EA=sect(5, i))
                 if (size(sect, 1) == 5) cycle
                 s%EI_to = sect(6, i)
                 s%GA_to = sect(7, i)
@@ -76,14 +68,8 @@ contains
         end do
         do i = 1, size(model%supports)
             associate (s => model%supports(i))
-                s%side = isup(1, i)
-                s%direction = isup(2, i)
-                s%node = isup(3, i)
-                s%x = sup(1, i)
-                s%stiffness = sup(2, i)
-                s%gap = sup(3, i)
-                s%settlement = sup(4, i)
-                s%rotation = sup(5, i)
+                s = support_type(side=isup(1, i), direction=isup(2, i), node=isup(3, i), x=sup(1, i), stiffness=sup(2, i), &
+                                 gap=sup(3, i), settlement=sup(4, i), rotation=sup(5, i))
                 if (size(isup, 1) > 3) s%unloading = isup(4, i)
                 if (size(isup, 1) > 4) then
                     s%law = isup(5, i)
@@ -124,13 +110,8 @@ contains
         end if
         do i = 1, size(model%foundations)
             associate (f => model%foundations(i))
-                f%side = side(i)
-                f%from = found(1, i)
-                f%to = found(2, i)
-                f%k = found(3, i)
-                f%k_to = found(4, i)
-                f%gap = found(5, i)
-                f%gap_to = found(6, i)
+                f = foundation_type(side=side(i), from=found(1, i), to=found(2, i), k=found(3, i), k_to=found(4, i), &
+                                    gap=found(5, i), gap_to=found(6, i))
                 if (size(found, 1) == 6) cycle
                 f%law = nint(found(7, i))
                 f%parameter = found(8:10, i)
@@ -164,15 +145,8 @@ contains
             return
         end if
         do i = 1, size(loads)
-            associate (load => loads(i))
-                load%kind = iload(1, i)
-                load%case = iload(2, i)
-                load%node = iload(3, i)
-                load%x = aload(1, i)
-                load%to = aload(2, i)
-                load%value = aload(3, i)
-                load%value_to = aload(4, i)
-            end associate
+            loads(i) = load_type(kind=iload(1, i), case=iload(2, i), node=iload(3, i), x=aload(1, i), to=aload(2, i), &
+                                 value=aload(3, i), value_to=aload(4, i))
         end do
     end subroutine loads_from_arrays
 

@@ -124,22 +124,10 @@ contains
         integer :: i
 
         do i = 1, size(sections)
-            associate (s => sections(i), a => sec(:, i))
-                s%from = a(1)
-                s%to = a(2)
-                s%EI = a(3)
-                s%EI_to = a(4)
-                s%GA = a(5)
-                s%GA_to = a(6)
-                s%EA = a(7)
-                s%EA_to = a(8)
-                s%N = a(9)
-                s%friction = a(10)
-                s%friction_to = a(11)
-                s%bedding = a(12)
-                s%EI_power = isec(1, i)
-                s%GA_power = isec(2, i)
-                s%EA_power = isec(3, i)
+            associate (a => sec(:, i), powers => isec(:, i))
+                sections(i) = section_type(from=a(1), to=a(2), EI=a(3), EI_to=a(4), GA=a(5), GA_to=a(6), EA=a(7), EA_to=a(8), &
+                                           N=a(9), friction=a(10), friction_to=a(11), bedding=a(12), EI_power=powers(1), &
+                                           GA_power=powers(2), EA_power=powers(3))
             end associate
         end do
     end function sections_of
