@@ -223,79 +223,53 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
         integer, allocatable :: piece(:)
-        real(wp), allocatable :: distance(:), found(:, :, :, :), found_at(:, :, :, :)
-        integer :: i, k, side, stat
+        !> Right of the places, and left of them
+        real(wp), allocatable, target :: found(:, :, :, :), found_at(:, :, :, :)
+        real(wp), pointer :: of_all(:, :, :), at_all(:, :, :)
+        real(wp), allocatable :: distance(:), curves(:, :, :), curves_at(:, :, :)
+        integer :: i, k, m, n, side, stat
 
         call require_passing(beam, passing, error)
         if (.not. allocated(error)) call require_fields(beam, quantities, error)
         if (.not. allocated(error)) call require_size(size(quantities), [size(value, 2), size(position, 2)], error)
         if (.not. allocated(error)) call require_size(size(x), [size(value, 3), size(position, 3)], error)
         if (allocated(error)) return
-        if (allocated(passing%runs)) then
-            call curves_of_runs(beam, passing, quantities, x, value, position, error)
-            return
-        end if
-        allocate (found(2, bending_count, size(x), 2), found_at(2, bending_count, size(x), 2), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
-        call hold_environment(environment)
-        passing%track%beam%watch = beam%lowered%beam%watch
-        do side = 1, 2
-            if (.not. allocated(error)) call find_pieces(beam%lowered, x, side == 2, piece, distance, error)
-            if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, &
-                                                         distance, found(:, :, :, side), found_at(:, :, :, side), error)
-        end do
-        if (allocated(error)) return
-        do k = 1, size(quantities)
-            associate (j => place_of(quantities(k)))
-                do i = 1, 2
-                    value(i, k, :) = found(i, j, :, 1)
-                    position(i, k, :) = found_at(i, j, :, 1)
-                    where (merge(1.0_wp, -1.0_wp, i == 1)*(found(i, j, :, 2) - found(i, j, :, 1)) > 0.0_wp)
-                        value(i, k, :) = found(i, j, :, 2)
-                        position(i, k, :) = found_at(i, j, :, 2)
-                    end where
-                end do
-            end associate
-        end do
-    end subroutine get_train_quantity_curves
-
-    !> The same on the ground, or with smooth laws
-    subroutine curves_of_runs(beam, passing, quantities, x, value, position, error)
-        !> As for get_train_quantity_curves
-        type(prepared_type), intent(in) :: beam
-        type(passing_type), intent(inout) :: passing
-        integer, intent(in) :: quantities(:)
-        real(wp), intent(in) :: x(:)
-        real(wp), intent(out) :: value(:, :, :), position(:, :, :)
-        type(error_type), allocatable, intent(out) :: error
-        type(environment_type) :: environment
-        integer, allocatable :: piece(:)
-        real(wp), allocatable :: distance(:), found(:, :, :), found_at(:, :, :)
-        integer :: i, k, n, stat
-
+        m = size(quantities)
         n = size(x)
-        call find_pieces(beam%lowered, x, .false., piece, distance, error)
-        if (allocated(error)) return
-        allocate (found(2, size(quantities), 2*n), found_at(2, size(quantities), 2*n), stat=stat)
+        allocate (found(2, m, n, 2), found_at(2, m, n, 2), curves(2, bending_count, n), curves_at(2, bending_count, n), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
             return
         end if
         call hold_environment(environment)
-        call find_lines(beam%lowered, passing%runs, quantities, [x, x], [(k > n, k=1, 2*n)], found, found_at, error)
+        if (allocated(passing%runs)) then
+            ! On the ground, or with smooth laws
+            call find_pieces(beam%lowered, x, .false., piece, distance, error)
+            of_all(1:2, 1:m, 1:2*n) => found
+            at_all(1:2, 1:m, 1:2*n) => found_at
+            if (.not. allocated(error)) call find_lines(beam%lowered, passing%runs, quantities, [x, x], [(k > n, k=1, 2*n)], &
+                                                        of_all, at_all, error)
+        else
+            passing%track%beam%watch = beam%lowered%beam%watch
+            do side = 1, 2
+                call find_pieces(beam%lowered, x, side == 2, piece, distance, error)
+                if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, &
+                                                             distance, curves, curves_at, error)
+                if (allocated(error)) return
+                found(:, :, :, side) = curves(:, place_of(quantities), :)
+                found_at(:, :, :, side) = curves_at(:, place_of(quantities), :)
+            end do
+        end if
         if (allocated(error)) return
-        value(:, :, :) = found(:, :, :n)
-        position(:, :, :) = found_at(:, :, :n)
+        value(:, :, :) = found(:, :, :, 1)
+        position(:, :, :) = found_at(:, :, :, 1)
         do i = 1, 2
-            where (merge(1.0_wp, -1.0_wp, i == 1)*(found(i, :, n + 1:) - found(i, :, :n)) > 0.0_wp)
-                value(i, :, :) = found(i, :, n + 1:)
-                position(i, :, :) = found_at(i, :, n + 1:)
+            where (merge(1.0_wp, -1.0_wp, i == 1)*(found(i, :, :, 2) - found(i, :, :, 1)) > 0.0_wp)
+                value(i, :, :) = found(i, :, :, 2)
+                position(i, :, :) = found_at(i, :, :, 2)
             end where
         end do
-    end subroutine curves_of_runs
+    end subroutine get_train_quantity_curves
 
     !> Refuse quantities that trains do not have: those along the axis, and of the ground where there is none
     subroutine require_fields(beam, quantities, error)
