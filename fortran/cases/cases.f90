@@ -4,7 +4,7 @@ module gapbeam_cases
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
     use gapbeam_link, only: link_type, piece_load_type, condense_loads, no_load
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, drop_loads
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: decide_scheme, detail_type
@@ -197,20 +197,10 @@ contains
         type(detail_type) :: links_only
         type(outcome_type) :: outcome
         type(error_type), allocatable :: error
-        integer :: i, k
+        integer :: k
 
-        do i = 1, size(beam%links)
-            associate (link => beam%links(i))
-                link%turn_a = 0.0_wp
-                link%turn_b = 0.0_wp
-                link%shear_a = 0.0_wp
-                link%shear_b = 0.0_wp
-                link%load_sum = 0.0_wp
-                link%turn_sum = 0.0_wp
-            end associate
-        end do
-        beam%force = 0.0_wp
-        beam%couple = 0.0_wp
+        call drop_loads(beam, 1)
+        call drop_loads(beam, 2)
         do k = 1, size(loads%of_links)
             associate (s => loads%of_links(k))
                 associate (link => beam%links(s%link), factor => factors(s%load))

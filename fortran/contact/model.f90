@@ -10,6 +10,7 @@ module gapbeam_model
     implicit none
     private
     public :: beam_type, new_beam, order_supports, take_supports, last_place, node_of_support, has_other_supports, softest
+    public :: drop_loads, drop_loads_of_link
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
     public :: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
@@ -74,6 +75,29 @@ contains
         beam%couple(:, :) = couple
         call order_supports(supports, beam)
     end subroutine new_beam
+
+    !> Leave out the loads of a beam that are dead (1) or live (2)
+    pure subroutine drop_loads(beam, k)
+        type(beam_type), intent(inout) :: beam
+        integer, intent(in) :: k
+
+        beam%force(k, :) = 0.0_wp
+        beam%couple(k, :) = 0.0_wp
+        call drop_loads_of_link(beam%links, k)
+    end subroutine drop_loads
+
+    !> The same of a link
+    elemental subroutine drop_loads_of_link(link, k)
+        type(link_type), intent(inout) :: link
+        integer, intent(in) :: k
+
+        link%turn_a(k) = 0.0_wp
+        link%turn_b(k) = 0.0_wp
+        link%shear_a(k) = 0.0_wp
+        link%shear_b(k) = 0.0_wp
+        link%load_sum(k) = 0.0_wp
+        link%turn_sum(k) = 0.0_wp
+    end subroutine drop_loads_of_link
 
     !> Give a beam its supports, and put them in order from left to right, those at the same node in the caller's order
     pure subroutine order_supports(supports, beam)

@@ -4,7 +4,7 @@ module gapbeam_affine_response
     use gapbeam_kinds, only: wp
     use gapbeam_law_margins, only: margin_in_scheme
     use gapbeam_law_adapters, only: drop_level
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, drop_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_tolerances, only: sign_width, rounding_unit
     implicit none
@@ -47,22 +47,10 @@ contains
         type(beam_type), intent(in) :: beam
         !> The same without them
         type(beam_type), intent(out) :: incremental
-        integer :: i
 
         incremental = beam
         call drop_level(incremental%supports)
-        incremental%force(1, :) = 0.0_wp
-        incremental%couple(1, :) = 0.0_wp
-        do i = 1, size(beam%links)
-            associate (link => incremental%links(i))
-                link%turn_a(1) = 0.0_wp
-                link%turn_b(1) = 0.0_wp
-                link%shear_a(1) = 0.0_wp
-                link%shear_b(1) = 0.0_wp
-                link%load_sum(1) = 0.0_wp
-                link%turn_sum(1) = 0.0_wp
-            end associate
-        end do
+        call drop_loads(incremental, 1)
     end subroutine without_dead_loads
 
     !> The beam while its dead loads are put on: they grow with the factor, and there is no other load
@@ -71,23 +59,19 @@ contains
         type(beam_type), intent(in) :: beam
         !> The same with its dead loads as live ones
         type(beam_type), intent(out) :: growing
-        integer :: i
 
         growing = beam
         growing%force(2, :) = beam%force(1, :)
-        growing%force(1, :) = 0.0_wp
         growing%couple(2, :) = beam%couple(1, :)
-        growing%couple(1, :) = 0.0_wp
-        do i = 1, size(beam%links)
-            associate (link => growing%links(i), from => beam%links(i))
-                link%turn_a = [0.0_wp, from%turn_a(1)]
-                link%turn_b = [0.0_wp, from%turn_b(1)]
-                link%shear_a = [0.0_wp, from%shear_a(1)]
-                link%shear_b = [0.0_wp, from%shear_b(1)]
-                link%load_sum = [0.0_wp, from%load_sum(1)]
-                link%turn_sum = [0.0_wp, from%turn_sum(1)]
-            end associate
-        end do
+        associate (links => growing%links, from => beam%links)
+            links%turn_a(2) = from%turn_a(1)
+            links%turn_b(2) = from%turn_b(1)
+            links%shear_a(2) = from%shear_a(1)
+            links%shear_b(2) = from%shear_b(1)
+            links%load_sum(2) = from%load_sum(1)
+            links%turn_sum(2) = from%turn_sum(1)
+        end associate
+        call drop_loads(growing, 1)
     end subroutine drop_live
 
     !> The line of a support

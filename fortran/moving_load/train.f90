@@ -9,7 +9,7 @@ module gapbeam_train
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, recover_link
-    use gapbeam_model, only: beam_type
+    use gapbeam_model, only: beam_type, drop_loads
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_tolerances, only: position_tolerance
     implicit none
@@ -77,23 +77,22 @@ contains
         end do
         associate (beam => track%beam)
             beam%force(1, :) = beam%force(1, :) + beam%force(2, :)
-            beam%force(2, :) = 0.0_wp
             beam%couple(1, :) = beam%couple(1, :) + beam%couple(2, :)
-            beam%couple(2, :) = 0.0_wp
             first = 1
             do i = 1, size(beam%links)
                 associate (link => beam%links(i), last => assembled%node_point(i))
-                    link%turn_a = [sum(link%turn_a), 0.0_wp]
-                    link%turn_b = [sum(link%turn_b), 0.0_wp]
-                    link%shear_a = [sum(link%shear_a), 0.0_wp]
-                    link%shear_b = [sum(link%shear_b), 0.0_wp]
-                    link%load_sum = [sum(link%load_sum), 0.0_wp]
-                    link%turn_sum = [sum(link%turn_sum), 0.0_wp]
+                    link%turn_a(1) = sum(link%turn_a)
+                    link%turn_b(1) = sum(link%turn_b)
+                    link%shear_a(1) = sum(link%shear_a)
+                    link%shear_b(1) = sum(link%shear_b)
+                    link%load_sum(1) = sum(link%load_sum)
+                    link%turn_sum(1) = sum(link%turn_sum)
                     track%link(first:last) = i
                     call find_turns(assembled, i, first, last, track)
                     first = last + 1
                 end associate
             end do
+            call drop_loads(beam, 2)
         end associate
     end subroutine new_track
 

@@ -7,6 +7,7 @@ module gapbeam_train_influence
     use gapbeam_element, only: field_type
     use gapbeam_law_adapters, only: drop_level
     use gapbeam_link, only: piece_load_type
+    use gapbeam_model, only: drop_loads
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_system, only: solve_and_refine
     use gapbeam_fields, only: bending_values
@@ -58,20 +59,10 @@ contains
         empty%dead(:) = piece_load_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
         empty%live(:) = empty%dead
         call drop_level(bare%beam%supports)
-        bare%beam%force(:, :) = 0.0_wp
-        bare%beam%couple(:, :) = 0.0_wp
+        call drop_loads(bare%beam, 1)
+        call drop_loads(bare%beam, 2)
         bare%loaded = 0
         bare%is_loaded(:) = .false.
-        do j = 1, size(bare%beam%links)
-            associate (link => bare%beam%links(j))
-                link%turn_a(:) = 0.0_wp
-                link%turn_b(:) = 0.0_wp
-                link%shear_a(:) = 0.0_wp
-                link%shear_b(:) = 0.0_wp
-                link%load_sum(:) = 0.0_wp
-                link%turn_sum(:) = 0.0_wp
-            end associate
-        end do
         allocate (unit%offset(1), unit%force(1), unit%uniform(0))
         unit%offset(:) = 0.0_wp
         unit%force(:) = 1.0_wp

@@ -1,6 +1,7 @@
 !> Loads of a train on the links of a beam at one position.
 module gapbeam_train_loads
     use gapbeam_kinds, only: wp
+    use gapbeam_model, only: drop_loads_of_link
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: interval_type
     implicit none
@@ -19,15 +20,8 @@ contains
         integer :: i, j
 
         do i = 1, track%loaded
-            associate (link => track%beam%links(track%with_load(i)))
-                link%turn_a(2) = 0.0_wp
-                link%turn_b(2) = 0.0_wp
-                link%shear_a(2) = 0.0_wp
-                link%shear_b(2) = 0.0_wp
-                link%load_sum(2) = 0.0_wp
-                link%turn_sum(2) = 0.0_wp
-                track%is_loaded(track%with_load(i)) = .false.
-            end associate
+            call drop_loads_of_link(track%beam%links(track%with_load(i)), 2)
+            track%is_loaded(track%with_load(i)) = .false.
         end do
         track%loaded = 0
         do i = 1, size(train%offset)
