@@ -10,6 +10,7 @@ module gapbeam_ground_limit
     use gapbeam_tolerances, only: no_ground_work, fine_rounding, near_motion
     use gapbeam_watch, only: is_stopped
     use gapbeam_nodes, only: hinge, restrained
+    use gapbeam_line_search_quad, only: bracket_type, place_inside, narrow
     use gapbeam_ground_quad, only: ground_type
     use gapbeam_layers_quad, only: layer_type, has_limit, has_points
     use gapbeam_kinematics_quad, only: work_of_loads
@@ -163,42 +164,38 @@ contains
     end subroutine keep_off
 
     !> Where between two t the work of the loads is greatest beside what is resisted: a concave function, whose slope is continuous,
-    !> so its zero is searched for (regula falsi, with the weights of Illinois)
+    !> so its zero is searched for
     pure function most_work(ground, share, work, start, way, low, high) result(t)
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: share(0:)
         !> Work of the loads as the left, and the right end goes down
         real(qp), intent(in) :: work(2)
         real(qp), intent(in) :: start(2), way(2), low, high
-        real(qp) :: t, ends(2), slopes(2), slope
-        integer :: step, last, side
+        real(qp) :: t, excess
+        type(bracket_type) :: bracket
+        integer :: step
 
-        ends = [low, high]
-        slopes = [slope_at(low), slope_at(high)]
+        bracket = bracket_type(low, high, excess_at(low), excess_at(high))
         t = low
-        if (slopes(1) <= 0.0_qp) return
+        if (bracket%at_low >= 0.0_qp) return
         t = high
-        if (slopes(2) >= 0.0_qp) return
-        last = 0
+        if (bracket%at_high <= 0.0_qp) return
         do step = 1, most_motion_steps
-            t = (ends(2)*slopes(1) - ends(1)*slopes(2))/(slopes(1) - slopes(2))
-            slope = slope_at(t)
-            side = merge(1, 2, slope > 0.0_qp)
-            if (abs(t - ends(side)) <= near_motion .or. .not. abs(slope) > 0.0_qp) exit
-            ends(side) = t
-            slopes(side) = slope
-            if (side == last) slopes(3 - side) = slopes(3 - side)/2
-            last = side
+            t = place_inside(bracket)
+            excess = excess_at(t)
+            if (abs(t - merge(bracket%low, bracket%high, excess < 0.0_qp)) <= near_motion .or. .not. abs(excess) > 0.0_qp) exit
+            call narrow(bracket, t, excess)
         end do
 
     contains
 
-        pure function slope_at(t) result(slope)
+        !> What more displacement takes beside the work of the loads
+        pure function excess_at(t) result(excess)
             real(qp), intent(in) :: t
-            real(qp) :: slope
+            real(qp) :: excess
 
-            slope = dot_product(way, work - resistance(ground, share, start + t*way))
-        end function slope_at
+            excess = dot_product(way, resistance(ground, share, start + t*way) - work)
+        end function excess_at
 
     end function most_work
 
