@@ -105,7 +105,6 @@ contains
         !> Is the function positive at the left place
         logical, intent(in) :: falling
         type(zeros_type), intent(inout) :: zeros
-        real(wp), allocatable :: more(:, :)
         real(wp) :: low, high, t, f, slope, next, xi
         integer :: step, k
 
@@ -139,11 +138,7 @@ contains
             if (next >= piece%middle + piece%half*left .and. next <= piece%middle + piece%half*right) xi = next
         end if
         if (.not. allocated(zeros%list)) allocate (zeros%list(3, 8))
-        if (zeros%number == size(zeros%list, 2)) then
-            allocate (more(3, 2*zeros%number))
-            more(:, 1:zeros%number) = zeros%list
-            call move_alloc(more, zeros%list)
-        end if
+        if (zeros%number == size(zeros%list, 2)) zeros%list = reshape([zeros%list, zeros%list], [3, 2*zeros%number])
         zeros%number = zeros%number + 1
         zeros%list(:, zeros%number) = [xi, slope, piece%noise]
     end subroutine add_zero

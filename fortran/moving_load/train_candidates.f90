@@ -57,7 +57,6 @@ contains
         type(cell_type), intent(in) :: cell
         !> The stretch, and the last one on which it stays the same
         integer, intent(in) :: stretch, last
-        type(candidate_type), allocatable :: longer(:)
         integer :: count, q
 
         candidates%largest = max(candidates%largest, maxval(abs(patch%b(0:patch%along, 0:patch%across))))
@@ -76,11 +75,7 @@ contains
                 if (count < q) candidates%list(count) = candidates%list(q)
             end do
             candidates%number = count
-            if (2*count > size(candidates%list)) then
-                allocate (longer(2*size(candidates%list)))
-                longer(:count) = candidates%list(:count)
-                call move_alloc(longer, candidates%list)
-            end if
+            if (2*count > size(candidates%list)) candidates%list = [candidates%list, candidates%list]
         end if
         if (candidates%number > 0 .and. cell%piece == 0) then
             associate (before => candidates%list(candidates%number))
