@@ -247,9 +247,8 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (allocated(error)) return
-        call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), size(couple), &
-                                                 size(condition)], error)
+        if (.not. allocated(error)) call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), &
+                                                                             size(couple), size(condition)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
@@ -270,8 +269,7 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (allocated(error)) return
-        call require_size(count_supports(beam), [size(force), size(slip), size(slides)], error)
+        if (.not. allocated(error)) call require_size(count_supports(beam), [size(force), size(slip), size(slides)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call friction_values(beam%lowered, result%state, force, slip, slides)
@@ -324,8 +322,7 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_no_equilibrium, error)
-        if (allocated(error)) return
-        call require_size(count_nodes(beam), [size(x), size(motion)], error)
+        if (.not. allocated(error)) call require_size(count_nodes(beam), [size(x), size(motion)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call motion_of_nodes(beam%lowered, result%state, x, motion)
@@ -347,8 +344,7 @@ contains
         type(found_type) :: found
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (allocated(error)) return
-        call require_size(count_supports(beam), [size(undecided)], error)
+        if (.not. allocated(error)) call require_size(count_supports(beam), [size(undecided)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call certify_state(beam%lowered, result%state, found, error)
