@@ -193,7 +193,7 @@ contains
             now(which) = .not. now(which)
             after = now_acts(assembled, which, now)
             path%condition(number) = after%condition
-            if (assembled%beam%supports(which)%breakpoint > 0) change = what_happens(before, after)
+            change = what_happens(before, after)
             if (.not. curved .or. change == no_change .or. .not. path%factor(number) > 0.0_wp) return
             now(which) = .not. now(which)
             call find_on_laws(assembled, now, which, path%factor(number), error)

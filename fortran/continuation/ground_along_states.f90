@@ -2,14 +2,14 @@
 module gapbeam_ground_along_states
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: slip_audited
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
-    use gapbeam_words, only: shown
+    use gapbeam_error, only: error_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_ground_along, only: ground_along_type, rates_type, first_parts, length_of, force_in
     use gapbeam_ground_along_slip, only: find_motion
     use gapbeam_ground_along_path, only: go_to_change
     use gapbeam_history_record, only: history_type
     use gapbeam_solution, only: state_type
+    use gapbeam_bedding_state, only: refuse_misfit
     implicit none
     private
     public :: take_ground_along
@@ -30,7 +30,7 @@ contains
         type(ground_along_type) :: ground
         type(rates_type) :: rates
         real(wp), allocatable :: longer(:)
-        real(wp) :: way, gone, worst
+        real(wp) :: way, gone
         integer :: first(size(beam%axial%limit) + 1), i, k, idle
         logical :: settled
 
@@ -66,13 +66,9 @@ contains
             end associate
             allocate (longer(size(axial%limit)), source=0.0_wp)
             if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + factor*axial%elongation(2, :)
-            worst = misfit(ground, longer, state%axial_reaction)
+            call refuse_misfit(misfit(ground, longer, state%axial_reaction), slip_audited, factor, error)
         end associate
         state%along_ground = ground
-        if (worst <= slip_audited) return
-        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
-                         "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(factor))// &
-                         "; report the scene")
     end subroutine take_ground_along
 
     !> Smallest axial force of every bar

@@ -3,8 +3,8 @@ module gapbeam_history_events
     use gapbeam_kinds, only: wp
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_opens, &
-        gapbeam_closes, gapbeam_slips, gapbeam_sticks
+    use gapbeam_pieces, only: acting_type, acting_piece, acts_in, what_happens, no_change, gapbeam_turns, &
+        gapbeam_slips, gapbeam_sticks
     use gapbeam_events, only: event_type, add_event
     use gapbeam_history_stretch, only: stretch_type, pieces_type, enter_stretch
     use gapbeam_history_record, only: history_type, find_pieces
@@ -151,13 +151,7 @@ contains
         do i = 1, size(which)
             if (stat /= 0) exit
             after = acts_in(assembled, which(i), pieces%closed, pieces%laws)
-            associate (first => assembled%beam_support(which(i)))
-                if (assembled%beam%supports(first)%breakpoint > 0) then
-                    change = what_happens(before(i), after)
-                else
-                    change = merge(gapbeam_closes, gapbeam_opens, pieces%closed(first))
-                end if
-            end associate
+            change = what_happens(before(i), after)
             if (change == no_change) cycle
             call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number, stat)
         end do
@@ -227,10 +221,8 @@ contains
                     end associate
                     if (axial%rubs(k)) then
                         change = merge(gapbeam_sticks, gapbeam_slips, b(k) .neqv. b(last))
-                    else if (axial%laws(k)%breakpoint > 0) then
-                        change = what_happens(before, after)
                     else
-                        change = merge(gapbeam_closes, gapbeam_opens, b(k))
+                        change = what_happens(before, after)
                     end if
                     if (change /= no_change) then
                         call add_event(event_type(path%stretches(other)%from, axial%support(k), after%condition, change, other), &

@@ -76,11 +76,7 @@ contains
             type(acting_type), intent(in) :: before, after
             integer :: change
 
-            if (assembled%with_law(support)) then
-                change = what_happens(before, after)
-            else
-                change = after%condition
-            end if
+            change = what_happens(before, after)
             if (change == no_change) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)

@@ -12,7 +12,7 @@ module gapbeam_bedding_state
     use gapbeam_solution, only: state_type
     implicit none
     private
-    public :: put_bedding, solve_bedding
+    public :: put_bedding, solve_bedding, refuse_misfit
 
 contains
 
@@ -52,7 +52,6 @@ contains
         !> It does not stand its audit
         type(error_type), allocatable, intent(out) :: error
         real(qp) :: reaction(0:size(state%tension))
-        real(wp) :: worst
 
         state%displacement(:) = real(bedding%displacement, wp)
         state%tension(:) = least_forces(bedding)
@@ -60,12 +59,22 @@ contains
         state%axial_reaction(:) = merge(real(reaction, wp), 0.0_wp, bedding%support > 0.0_wp)
         if (.not. allocated(state%along_ground)) allocate (state%along_ground)
         state%along_ground%springs = bedding
-        worst = misfit(bedding, reaction)
-        if (worst <= bedding_audited) return
-        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
-                         "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(state%factor))// &
-                         "; report the scene")
+        call refuse_misfit(misfit(bedding, reaction), bedding_audited, state%factor, error)
     end subroutine put_bedding
+
+    !> Refuse a state that is off along the ground
+    pure subroutine refuse_misfit(worst, audited, factor, error)
+        !> By how much of its size, and how much may be rounding
+        real(wp), intent(in) :: worst, audited
+        !> Load factor
+        real(wp), intent(in) :: factor
+        type(error_type), allocatable, intent(out) :: error
+
+        if (worst <= audited) return
+        call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: along the ground the beam "// &
+                         "is off by "//trim(shown(worst))//" of its size at load factor "//trim(shown(factor))// &
+                         "; report the scene")
+    end subroutine refuse_misfit
 
     !> Smallest axial force of every bar
     pure function least_forces(bedding) result(least)

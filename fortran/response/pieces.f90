@@ -102,7 +102,7 @@ contains
                           acting%way)
     end function as_one_piece
 
-    !> The event between two pieces of a law, or none
+    !> The event between two pieces of a law, or between no contact and contact, or none
     pure function what_happens(before, after) result(event)
         type(acting_type), intent(in) :: before, after
         !> gapbeam_opens, gapbeam_closes, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, gapbeam_unloads or
