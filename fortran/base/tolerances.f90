@@ -67,7 +67,7 @@ module gapbeam_tolerances
     real(wp), parameter :: settled_on_laws = 4*epsilon(1.0_wp)
 
     !> Powers of two of the units of a case up to which its numbers stay doubles: their range is 2**1023. Read by
-    !> cases/case_extremes, cases/lane_cases, cases/segment_cases
+    !> cases/case_extremes, cases/lane_cases
     integer, parameter :: most_unit_power = 1000
 
     !

@@ -17,7 +17,7 @@ module gapbeam_lane_cases
     use gapbeam_lane_blocks, only: block_type, make_block, take_cases
     implicit none
     private
-    public :: lane_room_type, fits_lanes, solve_in_lanes, find_contact_states
+    public :: lane_room_type, fits_lanes, fits_side_by_side, solve_in_lanes, find_contact_states
 
     !> Ways in which schemes are solved
     integer, parameter :: ways = 3
@@ -36,15 +36,22 @@ module gapbeam_lane_cases
 
 contains
 
-    !> Do lanes hold a beam: several links that bend, no ground and laws
+    !> Do lanes hold a beam with all its links
     pure function fits_lanes(assembled) result(fits)
         type(assembled_type), intent(in) :: assembled
         logical :: fits
-        integer :: n
+
+        fits = size(assembled%beam%links) <= most_lane_links
+        if (fits) fits = fits_side_by_side(assembled)
+    end function fits_lanes
+
+    !> Is a beam such as lanes are made for: several links that bend, no ground and laws
+    pure function fits_side_by_side(assembled) result(fits)
+        type(assembled_type), intent(in) :: assembled
+        logical :: fits
 
         associate (beam => assembled%beam, units => assembled%units)
-            n = size(beam%links)
-            fits = n > 1 .and. n <= most_lane_links .and. .not. allocated(beam%ground)
+            fits = size(beam%links) > 1 .and. .not. allocated(beam%ground)
             if (.not. fits) return
             fits = all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
                 .and. .not. has_other_supports(beam) .and. all(is_prismatic(assembled%pieces)) &
@@ -52,7 +59,7 @@ contains
                 .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units)), abs(stiffness_unit(units))) &
                 < most_unit_power
         end associate
-    end function fits_lanes
+    end function fits_side_by_side
 
     !> Solve cases of a beam that fits
     subroutine solve_in_lanes(assembled, loads, numbers, which, room, solutions, done)

@@ -3,20 +3,18 @@
 !> cases that are doubtful here
 module gapbeam_segment_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_piece, only: is_prismatic
     use gapbeam_limits, only: least_segment_links
-    use gapbeam_tolerances, only: most_unit_power
     use gapbeam_watch, only: is_stopped
     use gapbeam_band, only: plain
     use gapbeam_law, only: both
-    use gapbeam_model, only: has_other_supports
     use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: moment_unit
-    use gapbeam_assembled_model, only: assembled_type, is_alone
+    use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_units, only: support_in_units
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
+    use gapbeam_lane_cases, only: fits_side_by_side
     use gapbeam_segment_types, only: segment_beam_type, segment_room_type, new_segments, node_of
     use gapbeam_lane_compiled, only: compiled_type
     use gapbeam_cpu_dispatch, only: compiled_at
@@ -38,21 +36,15 @@ module gapbeam_segment_cases
 
 contains
 
-    !> Is a beam such: long, of links that bend, without ground, hinges, restraints and laws, one support at a node
+    !> Is a beam such: long, without hinges and restraints, one support at a node
     pure function fits_segments(assembled) result(fits)
         type(assembled_type), intent(in) :: assembled
         logical :: fits
-        integer :: n
 
-        associate (beam => assembled%beam, units => assembled%units)
-            n = size(beam%links)
-            fits = n >= least_segment_links .and. .not. allocated(beam%ground)
-            if (.not. fits) return
-            fits = all(beam%kind == plain) .and. all(beam%links%faa > 0.0_wp .and. beam%links%fbb > 0.0_wp) &
-                .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1) &
-                .and. .not. has_other_supports(beam) &
-                .and. all(is_prismatic(assembled%pieces)) .and. .not. any(is_alone(assembled%model%loads)) &
-                .and. max(abs(units%deflection), abs(units%force), abs(moment_unit(units))) < most_unit_power
+        associate (beam => assembled%beam, n => size(assembled%beam%links))
+            fits = n >= least_segment_links
+            if (fits) fits = fits_side_by_side(assembled)
+            if (fits) fits = all(beam%kind == plain) .and. all(beam%first(1:n + 1) - beam%first(0:n) <= 1)
         end associate
     end function fits_segments
 
