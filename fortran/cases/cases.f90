@@ -57,10 +57,8 @@ contains
             return
         end if
         allocate (on_pieces(size(assembled%pieces)), work(size(assembled%pieces)), link_of(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         on_pieces(:) = no_load
         do i = 1, size(assembled%beam%links)
             link_of(assembled%node_point(i - 1) + 1:assembled%node_point(i)) = i
@@ -73,10 +71,8 @@ contains
             if (node >= 0) at_nodes = at_nodes + 1
         end do
         allocate (loads%of_links(shares), loads%of_nodes(at_nodes), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         shares = 0
         at_nodes = 0
         do k = 1, size(assembled%model%loads)

@@ -64,10 +64,8 @@ contains
         else if (.not. allocated(combined%assembled)) then
             allocate (combined%assembled, source=base, stat=stat)
         end if
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         associate (assembled => combined%assembled, loads => base%model%loads)
             assembled%model%loads%value = factors*loads%value
             assembled%model%loads%value_to = factors*loads%value_to

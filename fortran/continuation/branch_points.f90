@@ -68,10 +68,8 @@ contains
                 call move_alloc(longer, branch%points)
             end if
         end if
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         branch%number = branch%number + 1
         branch%points(:, branch%number) = point
     end subroutine add_point

@@ -63,10 +63,8 @@ contains
 
         number = 0
         allocate (events(2*size(state%closed) + 8), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call close_all(assembled, state%closed)
         call solve_state(assembled, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return

@@ -60,10 +60,8 @@ contains
         most = 0
         if (size(runs) > 0) most = sum(max(runs%acts, 0))
         allocate (found(most), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         number = 0
         last = 0
         do while (last < size(runs))
@@ -80,10 +78,8 @@ contains
             end do
         end do
         allocate (zones(number), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         zones(:) = found(:number)
     end subroutine find_zones
 

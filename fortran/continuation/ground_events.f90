@@ -150,10 +150,8 @@ contains
 
         if (path%number == size(path%events)) then
             allocate (longer(2*path%number), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             longer(:path%number) = path%events
             call move_alloc(longer, path%events)
         end if
@@ -179,10 +177,8 @@ contains
 
         if (path%segments == size(path%segment)) then
             allocate (longer(2*path%segments), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             do k = 1, path%segments
                 longer(k)%from = path%segment(k)%from
                 call move_alloc(path%segment(k)%closed, longer(k)%closed)

@@ -77,10 +77,8 @@ contains
         associate (keys => 2*size(assembled%model%foundations))
             if (stat == 0) allocate (found(total), key(total), last_run(keys), last_stretch(keys), last_touch(keys), stat=stat)
         end associate
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         supported(:) = .false.
         do k = 1, size(assembled%beam%supports)
             associate (s => assembled%beam%supports(k))
@@ -115,10 +113,8 @@ contains
             end associate
         end do
         allocate (runs(n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call sort(found(:n), key(:n), last_run, runs)
 
     contains

@@ -53,10 +53,8 @@ contains
         call ground_runs(assembled, solution, runs, error)
         if (allocated(error)) return
         allocate (zones(count(runs%acts > 0 .or. runs%touches)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         n = 0
         do i = 1, size(runs)
             associate (run => runs(i))
@@ -110,10 +108,8 @@ contains
                 .and. assembled%model%foundations(runs%foundation)%side /= gapbeam_both
             allocate (spans(count(free)), stat=stat)
         end if
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         n = 0
         do i = 1, size(runs)
             if (.not. free(i)) cycle

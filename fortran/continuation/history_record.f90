@@ -139,10 +139,8 @@ contains
 
         if (history%number == size(history%stretches)) then
             allocate (longer(2*history%number), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             do i = 1, history%number
                 call hand_over(history%stretches(i), longer(i))
             end do

@@ -36,10 +36,8 @@ contains
 
         energy = 0.0_wp
         allocate (starts(size(assembled%pieces)), starts_of_other(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         beam => assembled
         allocate (runs, source=runs_of(path))
         associate (limit => path%limits(number))

@@ -93,10 +93,8 @@ contains
         m = size(laws)
         allocate (arc%closed(m), arc%laws(m), arc%numbers(n), arc%ends(n + 1, 2), arc%weights(n + 1), arc%along(n + 1), &
                   arc%springs(n), arc%flexibility(n, n), arc%under_load(n), arc%known(16), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         arc%assembled => assembled
         arc%closed(:) = closed
         arc%laws(:) = laws

@@ -106,10 +106,8 @@ contains
         integer :: stat
 
         allocate (before(size(loads)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         before(:) = lowered%model%loads
         lowered%model%loads(:) = loads
         call assemble_loads(lowered, error)

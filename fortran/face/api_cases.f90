@@ -44,10 +44,8 @@ contains
             allocate (cases%start(m), cases%closed(m, case_batch), cases%solves(case_batch), cases%w(n, case_batch), &
                       cases%ml(n, case_batch), cases%mr(n, case_batch), cases%reaction(m, case_batch), &
                       cases%values(3, size(lowered%model%supports), case_batch), cases%loads, stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call hold_environment(environment)
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)

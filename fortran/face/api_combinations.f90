@@ -44,10 +44,8 @@ contains
             end if
             if (allocated(error)) return
             allocate (moves(size(model%supports)), loads(size(model%loads)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             moves(:) = 0.0_wp
             if (present(settlements)) moves(:) = settlements
             call require_finite(factors, "factors", error)

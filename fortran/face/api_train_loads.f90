@@ -86,10 +86,8 @@ contains
         associate (n => size(given%force))
             allocate (train%offset(n), train%force(n), train%uniform(merge(1, 0, abs(given%q) > 0.0_wp)), stat=stat)
         end associate
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         longest = maxval(given%distance)
         train%offset(:) = merge(given%distance, -given%distance, given%to_the_left)
         train%force(:) = given%force
@@ -122,10 +120,8 @@ contains
             last = k
         end do
         allocate (gaps(number), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         gaps(:) = found(:number)
         if (backwards) gaps(:) = found(number:1:-1)
     end subroutine find_gaps

@@ -237,10 +237,8 @@ contains
         m = size(quantities)
         n = size(x)
         allocate (found(2, m, n, 2), found_at(2, m, n, 2), curves(2, bending_count, n), curves_at(2, bending_count, n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call hold_environment(environment)
         if (allocated(passing%runs)) then
             ! On the ground, or with smooth laws

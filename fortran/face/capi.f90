@@ -151,10 +151,8 @@ contains
 
         m = count_supports(beam)
         allocate (values(m, 4), conditions(m), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call get_supports(beam, result, values(:, 1), values(:, 2), values(:, 3), values(:, 4), conditions, error)
         if (allocated(error)) return
         if (present(reaction)) reaction(1:m) = values(:, 1)

@@ -133,10 +133,8 @@ contains
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
                   stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         associate (s => model%spans)
             call copy_reals(c%length, s%length)
             call copy_reals(c%EI, s%EI)
@@ -210,10 +208,8 @@ contains
         stat = merge(1, 0, c%profile_points > huge(c%table_points) - c%table_points)
         if (stat == 0) allocate (model%foundations(c%foundations), model%ground(c%profile_points + c%table_points), &
                                  model%ground_law(c%ground_law_points), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         associate (f => model%foundations)
             call copy_reals(c%foundation_from, f%from)
             call copy_reals(c%foundation_to, f%to)
@@ -262,10 +258,8 @@ contains
         call check_array("sections", c%sections, .true., "", error)
         if (allocated(error)) return
         allocate (sections(c%sections), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         associate (s => sections)
             call copy_reals(c%section_from, s%from)
             call copy_reals(c%section_to, s%to)
@@ -298,10 +292,8 @@ contains
                          "load_kind, load_value, and load_x or load_node are needed", error)
         if (allocated(error)) return
         allocate (loads(c%loads), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call copy_integers(c%load_kind, loads%kind)
         call copy_integers(c%load_case, loads%case)
         call copy_reals(c%load_x, loads%x)

@@ -58,10 +58,8 @@ contains
         n = size(track%link)
         x = track%x(piece - 1) + distance
         allocate (ends(0:n + 1), places(size(share)*(n + 1)), value(bending_count + 2, size(share)*(n + 1)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         ends(:n) = track%x
         if (x > track%x(piece - 1) .and. x < track%x(piece)) then
             ends(piece) = x

@@ -63,10 +63,8 @@ contains
         n = size(assembled%pieces)
         allocate (track%x(0:n), track%link(n), track%before(n), track%length(n), track%turn_a(0:3, n), track%turn_b(0:3, n), &
                   track%with_load(size(assembled%beam%links)), track%is_loaded(size(assembled%beam%links)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         track%beam = assembled%beam
         track%is_loaded(:) = .false.
         track%length_unit = assembled%units%length

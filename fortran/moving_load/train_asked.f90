@@ -77,10 +77,8 @@ contains
             associate (n => size(kept%placed%model%supports))
                 allocate (rows(n, rows_of_support), condition(n), stat=stat)
             end associate
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call support_values(kept%placed, kept%state, rows(:, 1), rows(:, 2), rows(:, 3), rows(:, 4), condition)
             value = rows(asked%number, asked%row)
         case (of_resultant)

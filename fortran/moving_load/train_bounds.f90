@@ -77,10 +77,8 @@ contains
         if (stat == 0) allocate (bounds%at_most(2, bending_count, traversal%number), &
                                  bounds%of_supports(traversal%number), parts(256), start(n), begin(n), touched(n), &
                                  first_at_link(n), slopes(n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         bounds%at_most(:, :, :) = -huge(1.0_wp)
         bounds%of_supports(:) = .false.
         count = 0
@@ -98,10 +96,8 @@ contains
             end if
             if (bounds%view%new_scheme) call watch_scheme(assembled, traversal%closed(:, k), bounds%view%columns, bounds%supports)
             call bound_supports(track, k, bounds%view%columns, bounds%supports, stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call find_touched(k)
             do i = 1, n
                 call go_on(i, k)
@@ -271,10 +267,8 @@ contains
                 call drop_parts()
                 if (2*count > size(parts)) then
                     allocate (longer(2*size(parts)), stat=stat)
-                    if (stat /= 0) then
-                        call no_memory(error)
-                        return
-                    end if
+                    if (stat /= 0) call no_memory(error)
+                    if (allocated(error)) return
                     longer(:count) = parts(:count)
                     call move_alloc(longer, parts)
                 end if

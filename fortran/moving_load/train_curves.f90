@@ -59,10 +59,8 @@ contains
         call new_screen(assembled, track, train, screen, stat)
         if (stat == 0) call new_places(track, piece, distance, screen%view%columns%to_length, places, stat)
         if (stat == 0) allocate (wanted(size(piece)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         ! First what is reached at the ends of stretches, so that then there is little left to look into
         near = least_distance(track, train)
         told = .true.

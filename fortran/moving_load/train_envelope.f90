@@ -71,10 +71,8 @@ contains
                   matrix(0:n, 0:n), of_nodes(0:degree_of(train), 0:degree_of(train)), &
                   starts(0:n, bending_count, size(samples%starts, 2)), stays(at_support, m), &
                   wanted(traversal%number), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         matrix(:, :) = to_coefficients(n)
         of_nodes(:, :) = to_coefficients(degree_of(train))
         sampled = 0

@@ -40,10 +40,8 @@ contains
         integer :: first, i, k, last, number, stat, step
 
         allocate (events(64), now(size(assembled%beam%supports)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         number = 0
         first = 0
         do step = 1, traversal%number
@@ -80,10 +78,8 @@ contains
             if (change == no_change) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
+                if (stat /= 0) call no_memory(error)
+                if (allocated(error)) return
                 longer(:number) = events
                 call move_alloc(longer, events)
             end if

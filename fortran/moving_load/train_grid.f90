@@ -83,10 +83,8 @@ contains
         end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         step = grid_step(assembled, deflection)
         count = sum(max(real(least_parts, wp), aint((borders(2:) - borders(:n))/step) + 1))
         if (count > most_train_states) then

@@ -68,10 +68,8 @@ contains
         unit%force(:) = 1.0_wp
         call new_workspace(bare%beam, work)
         call new_cells(bare, unit, cells, stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         powers(:) = quantity_unit(assembled%units, bending)
         do k = 1, size(places)
             call find_intervals(bare, unit, places(k), places(k), intervals, error)

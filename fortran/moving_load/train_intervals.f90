@@ -41,10 +41,8 @@ contains
 
         allocate (place(2 + (size(train%offset) + 2*size(train%uniform))*size(track%x)), stat=stat)
         if (stat == 0) allocate (found(2*size(place)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         near = least_distance(track, train)
         count = 1
         place(1) = from

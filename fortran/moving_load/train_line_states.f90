@@ -134,10 +134,8 @@ contains
         ruler = ruler_of(assembled, runs, runs%runs(run))
         n = size(table%at) + count(wanted < not_wanted)
         allocate (longer%value(size(lines%quantities), size(lines%x), n), longer%at(n), longer%cuts(n - 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         n = 0
         do i = 1, size(table%at)
             n = n + 1

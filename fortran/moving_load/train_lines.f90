@@ -95,10 +95,8 @@ contains
             allocate (lines%quantities(q), lines%x(n), lines%left(n), lines%on_jump(n), lines%best(2, q, n), lines%at(2, q, n), &
                       lines%scale_of(q), stat=stat)
         end associate
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         lines%quantities(:) = quantities
         lines%shear = findloc(quantities, of_shear, 1)
         lines%x(:) = x
@@ -126,10 +124,8 @@ contains
             associate (states => runs%runs(i)%states, table => tables(i))
                 allocate (table%value(size(lines%quantities), size(lines%x), size(states)), table%at(size(states)), &
                           table%cuts(size(states) - 1), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
+                if (stat /= 0) call no_memory(error)
+                if (allocated(error)) return
                 table%cuts(:) = 0
                 do k = 1, size(states)
                     table%at(k) = runs%boxes(states(k))%of%position

@@ -62,10 +62,8 @@ contains
         call copy_given(assembled, placed%model, stat)
         n = size(assembled%model%loads)
         if (stat == 0) allocate (loads(n + count(acts) + size(train%uniform)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         loads(:n) = placed%model%loads
         do i = 1, size(acts)
             if (.not. acts(i)) cycle
@@ -84,10 +82,8 @@ contains
         end do
         deallocate (placed%model%loads)
         allocate (placed%model%loads(n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         placed%model%loads(:) = loads(:n)
         call assemble_model(placed, error)
         placed%beam%watch = assembled%beam%watch

@@ -82,10 +82,8 @@ contains
             if (interval%to - to <= least_distance(track, train)) to = interval%to
             stat = 0
             if (traversal%number == size(traversal%from)) call lengthen(traversal, size(closed), 2*traversal%number, stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             traversal%number = traversal%number + 1
             k = traversal%number
             traversal%from(k) = now

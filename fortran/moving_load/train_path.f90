@@ -53,10 +53,8 @@ contains
         allocate (passage%closed(m), passage%at_end(m), passage%margins%b(0:highest_degree, max(m, 1)), &
                   passage%margins%slack(max(m, 1)), traversal%motion(0:size(track%beam%links), 0), stat=stat)
         if (stat == 0) call lengthen(traversal, m, size(traversal%intervals) + 64, stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call close_all(assembled, passage%closed)
         call new_state(assembled, along, error)
         if (allocated(error)) return

@@ -97,10 +97,8 @@ contains
         number = problem%states + 1
         if (number > size(problem%boxes)) then
             allocate (more(2*number), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             do i = 1, problem%states
                 call move_alloc(problem%boxes(i)%of, more(i)%of)
             end do

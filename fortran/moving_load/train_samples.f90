@@ -79,10 +79,8 @@ contains
                                  samples%loads(0:degree, most), samples%supports(0:degree_of(train), 4, &
                                                                             size(assembled%model%supports)), &
                                  stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call new_workspace(track%beam, samples%work)
         call new_state(assembled, samples%state, error)
         if (allocated(error)) return

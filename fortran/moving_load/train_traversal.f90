@@ -50,10 +50,8 @@ contains
             end if
         end if
         allocate (longer(0:ubound(motion, 1), count + 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         longer(:, :count) = traversal%motion
         longer(:, count + 1) = motion
         call move_alloc(longer, traversal%motion)

@@ -55,10 +55,8 @@ contains
 
         if (problem%length == size(problem%way)) then
             allocate (longer(2*problem%length), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             longer(:problem%length) = problem%way
             call move_alloc(longer, problem%way)
         end if
@@ -75,10 +73,8 @@ contains
         integer :: stat
 
         allocate (longer(size(problem%crossings) + 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         longer(:size(problem%crossings)) = problem%crossings
         longer(size(longer)) = crossing
         call move_alloc(longer, problem%crossings)

@@ -31,10 +31,8 @@ contains
         integer :: i, stat
 
         allocate (found(size(piece)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call ground_pressure(assembled, solution, piece, scale(distance, -assembled%units%length), found)
         found(:) = scale(found, quantity_unit(assembled%units, of_pressure))
         i = findloc(abs(found) <= huge(found), .false., 1)

@@ -117,10 +117,8 @@ contains
             return
         end do
         allocate (piece(size(x)), distance(size(x)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         do i = 1, size(x)
             call find_piece(assembled, x(i), from_left, piece(i), distance(i))
         end do
@@ -153,10 +151,8 @@ contains
 
         allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), across(size(piece)), &
                   stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         powers = units_of_fields(assembled, quantities)
         pressure(:) = scale(distance, -assembled%units%length)
         if (present(ground)) then

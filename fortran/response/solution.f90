@@ -80,10 +80,8 @@ contains
         allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:last_place(assembled%beam)), &
                   state%moment_left(0:n), state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
                   state%axial_reaction(0:bars), state%tension(bars), state%starts(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         call close_all(assembled, state%closed)
         state%displacement(:) = 0.0_wp
         state%axial_reaction(:) = 0.0_wp

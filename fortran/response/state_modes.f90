@@ -124,10 +124,8 @@ contains
         end if
         associate (n => size(found%piece), units => assembled%units)
             allocate (shape%x(n), shape%deflection(n), shape%moment(2, n), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             shape%x(:) = places_of(assembled, found%piece, real(found%distance, wp))
             shape%deflection(:) = real(found%deflection, wp)
             shape%moment(:, :) = scale(real(found%moment, wp), units%force + units%length - units%deflection)
@@ -183,10 +181,8 @@ contains
 
         associate (ground => state%ground)
             allocate (x(size(ground%mode_piece)), deflection(size(ground%mode_piece)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             x(:) = places_of(assembled, ground%mode_piece, ground%mode_distance)
             deflection(:) = ground%mode_deflection
         end associate

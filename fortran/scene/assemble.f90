@@ -86,10 +86,8 @@ contains
             if (allocated(error)) return
             n = size(model%spans)
             allocate (assembled%ends(0:n), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call place_span_ends(model%spans, assembled%ends)
             call gather_points(model, assembled%law, error)
             if (.not. allocated(error)) then
@@ -99,17 +97,13 @@ contains
             if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
             allocate (assembled%with_law(size(model%supports)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             assembled%with_law(:) = have_laws(model, assembled%law)
             model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
             if (model%axial_loads_bend) call copy_model(model, given, stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call check_rest(model, assembled%with_law, assembled%ends, error)
             if (.not. allocated(error)) call check_along(model, assembled%law, assembled%with_law, error)
             if (allocated(error)) return
@@ -151,10 +145,8 @@ contains
                                      assembled%foundation_to(size(model%foundations)), &
                                      assembled%mass_point(size(model%masses, 2)), &
                                      assembled%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             call list_places(assembled, places)
             at = 1 + n + size(model%supports) + size(model%hinges)
             call merge_stations(assembled%ends, places%span, places%offset, at, order, chosen, point, number)
@@ -162,10 +154,8 @@ contains
         allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
                   assembled%joint(0:number - 1), assembled%pieces(number - 1), assembled%dead(number - 1), &
                   assembled%live(number - 1), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         do i = 1, number
             assembled%point_span(i - 1) = places%span(chosen(i))
             assembled%point_offset(i - 1) = places%offset(chosen(i))

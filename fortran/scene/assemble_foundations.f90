@@ -44,17 +44,13 @@ contains
         pieces = size(assembled%pieces)
         if (.not. allocated(assembled%layers)) then
             allocate (assembled%layer_first(pieces + 1), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
         end if
         allocate (first(quantities, m), last(quantities, m), laws(m), next(pieces), here(pieces), values(quantities, 2, pieces), &
                   stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         associate (model => assembled%model, layers => assembled%layers, from => assembled%foundation_from, &
                    to => assembled%foundation_to)
             call find_tables(model%ground, first, last)
@@ -72,10 +68,8 @@ contains
             if (.not. allocated(assembled%layers)) then
                 stat = merge(1, 0, total >= huge(m))
                 if (stat == 0) allocate (assembled%layers(total), stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
+                if (stat /= 0) call no_memory(error)
+                if (allocated(error)) return
             end if
             assembled%layer_first(1) = 1
             do j = 1, pieces

@@ -59,10 +59,8 @@ contains
 
         if (.not. any(assembled%model%supports%direction == gapbeam_relative)) return
         allocate (made(0:ubound(assembled%point_span, 1)), source=.false., stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         do k = 1, size(assembled%model%supports)
             if (assembled%model%supports(k)%direction /= gapbeam_relative) cycle
             associate (at => assembled%support_point(k), m => size(assembled%model%supports))

@@ -32,10 +32,8 @@ contains
         integer :: i, first, stat
 
         allocate (work(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         assembled%fingerprint = fingerprint(assembled%model)
         call sum_loads(assembled)
         call assemble_foundations(assembled, error)

@@ -22,10 +22,8 @@ contains
         associate (model => assembled%model)
             if (.not. any(model%loads%kind == gapbeam_movement .and. abs(model%loads%value) > 0.0_wp)) return
             allocate (assembled%given_settlement(size(model%supports)), assembled%growth(size(model%supports)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-                return
-            end if
+            if (stat /= 0) call no_memory(error)
+            if (allocated(error)) return
             assembled%given_settlement(:) = model%supports%settlement
             assembled%growth(:) = 0.0_wp
             do i = 1, size(model%loads)
@@ -61,10 +59,8 @@ contains
             if (any(loads%kind == gapbeam_ground_movement .and. loads%case /= gapbeam_dead .and. &
                     (abs(loads%value) > 0.0_wp .or. abs(loads%value_to) > 0.0_wp))) then
                 allocate (assembled%layer_growth(2, size(assembled%layers)), source=0.0_wp, stat=stat)
-                if (stat /= 0) then
-                    call no_memory(error)
-                    return
-                end if
+                if (stat /= 0) call no_memory(error)
+                if (allocated(error)) return
             end if
             do i = 1, size(loads)
                 if (loads(i)%kind == gapbeam_ground_movement) call move_foundation(assembled, i)

@@ -43,10 +43,8 @@ contains
         integer :: k, stat
 
         call find_falling(law, size(model%supports), falls, stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         curved = any(is_smooth(model%supports%law))
         stiff = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
         do k = 1, size(model%supports)

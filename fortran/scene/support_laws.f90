@@ -47,10 +47,8 @@ contains
             n = n + size(made(k)%points, 2)
         end do
         allocate (points(n), stat=stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (stat /= 0) call no_memory(error)
+        if (allocated(error)) return
         n = size(model%law)
         points(:n) = model%law
         do k = 1, size(made)
