@@ -245,8 +245,8 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (.not. allocated(error)) call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), &
-                                                                             size(couple), size(condition)], error)
+        call require_size(count_supports(beam), [size(reaction), size(deflection), size(opening), size(couple), &
+                                                 size(condition)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call support_values(beam%lowered, result%state, reaction, deflection, opening, couple, condition)
@@ -267,7 +267,7 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (.not. allocated(error)) call require_size(count_supports(beam), [size(force), size(slip), size(slides)], error)
+        call require_size(count_supports(beam), [size(force), size(slip), size(slides)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call friction_values(beam%lowered, result%state, force, slip, slides)
@@ -320,7 +320,7 @@ contains
         type(environment_type) :: environment
 
         call require_result(beam, result, gapbeam_no_equilibrium, error)
-        if (.not. allocated(error)) call require_size(count_nodes(beam), [size(x), size(motion)], error)
+        call require_size(count_nodes(beam), [size(x), size(motion)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call motion_of_nodes(beam%lowered, result%state, x, motion)
@@ -342,7 +342,7 @@ contains
         type(found_type) :: found
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (.not. allocated(error)) call require_size(count_supports(beam), [size(undecided)], error)
+        call require_size(count_supports(beam), [size(undecided)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call certify_state(beam%lowered, result%state, found, error)

@@ -171,9 +171,7 @@ contains
         if (allocated(error)) return
         associate (lowered => beam%lowered)
             call require_size(size(lowered%node_point), [size(x)], error)
-            if (present(support_node) .and. .not. allocated(error)) then
-                call require_size(size(lowered%model%supports), [size(support_node)], error)
-            end if
+            if (present(support_node)) call require_size(size(lowered%model%supports), [size(support_node)], error)
             if (allocated(error)) return
             call node_places(lowered, x)
             if (present(support_node)) support_node(:) = lowered%node_of_point(lowered%support_point) + 1
@@ -228,7 +226,7 @@ contains
         integer :: i, k
 
         call require_size(loads, [size(factors, 1)], error)
-        if (.not. allocated(error)) call require_size(cases, [size(factors, 2)], error)
+        call require_size(cases, [size(factors, 2)], error)
         if (allocated(error)) return
         do i = 1, cases
             if (all(abs(factors(:, i)) <= huge(1.0_wp))) cycle
@@ -319,7 +317,7 @@ contains
         integer :: k
 
         do k = 1, size(expected)
-            if (.not. allocated(error)) call require_size(expected(k), given(k:k), error)
+            call require_size(expected(k), given(k:k), error)
         end do
     end subroutine check_shape
 

@@ -39,9 +39,7 @@ contains
         if (allocated(error)) return
         associate (model => beam%lowered%model)
             call require_size(size(model%loads), [size(factors)], error)
-            if (present(settlements) .and. .not. allocated(error)) then
-                call require_size(size(model%supports), [size(settlements)], error)
-            end if
+            if (present(settlements)) call require_size(size(model%supports), [size(settlements)], error)
             if (allocated(error)) return
             allocate (moves(size(model%supports)), loads(size(model%loads)), stat=stat)
             if (stat /= 0) call no_memory(error)

@@ -148,7 +148,7 @@ contains
         logical :: left
 
         call require_result(beam, result, gapbeam_solved, error)
-        if (.not. allocated(error)) call require_size(size(x), [size(pressure)], error)
+        call require_size(size(x), [size(pressure)], error)
         if (allocated(error)) return
         left = .false.
         if (present(from_left)) left = from_left

@@ -254,9 +254,10 @@ contains
     !> Refuse arrays of another size than expected
     subroutine require_size(expected, found, error)
         integer, intent(in) :: expected, found(:)
-        type(error_type), allocatable, intent(out) :: error
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
 
-        if (all(found == expected)) return
+        if (allocated(error) .or. all(found == expected)) return
         call fatal_error(error, gapbeam_bad_input, "an array has "//trim(whole(found(findloc(found /= expected, .true., 1))))// &
                          " entries, expected "//trim(whole(expected)))
     end subroutine require_size

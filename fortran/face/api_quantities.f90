@@ -46,8 +46,8 @@ contains
 
         call require_result(beam, result, gapbeam_solved, error)
         if (.not. allocated(error)) call require_quantities(quantities, quantity_count, error)
-        if (.not. allocated(error)) call require_size(size(quantities), [size(values, 1)], error)
-        if (.not. allocated(error)) call require_size(size(x), [size(values, 2)], error)
+        call require_size(size(quantities), [size(values, 1)], error)
+        call require_size(size(x), [size(values, 2)], error)
         if (allocated(error)) return
         left = .false.
         if (present(from_left)) left = from_left
@@ -68,8 +68,8 @@ contains
 
         call require_result(beam, result, gapbeam_solved, error)
         if (.not. allocated(error)) call require_quantities(quantities, quantity_count, error)
-        if (.not. allocated(error)) call require_size(2, [size(value, 1), size(x, 1)], error)
-        if (.not. allocated(error)) call require_size(size(quantities), [size(value, 2), size(x, 2)], error)
+        call require_size(2, [size(value, 1), size(x, 1)], error)
+        call require_size(size(quantities), [size(value, 2), size(x, 2)], error)
         if (allocated(error)) return
         call hold_environment(environment)
         call extremes_of_fields(beam%lowered, result%state, quantities, value, x, error)

@@ -147,7 +147,7 @@ contains
 
         call require_passing(beam, passing, error)
         if (.not. allocated(error)) call require_fields(beam, quantities, error)
-        if (.not. allocated(error)) call require_size(size(quantities), [size(values, 2)], error)
+        call require_size(size(quantities), [size(values, 2)], error)
         if (allocated(error)) return
         if (allocated(passing%runs)) then
             allocate (found(2, size(quantities)))
@@ -231,8 +231,8 @@ contains
 
         call require_passing(beam, passing, error)
         if (.not. allocated(error)) call require_fields(beam, quantities, error)
-        if (.not. allocated(error)) call require_size(size(quantities), [size(value, 2), size(position, 2)], error)
-        if (.not. allocated(error)) call require_size(size(x), [size(value, 3), size(position, 3)], error)
+        call require_size(size(quantities), [size(value, 2), size(position, 2)], error)
+        call require_size(size(x), [size(value, 3), size(position, 3)], error)
         if (allocated(error)) return
         m = size(quantities)
         n = size(x)

@@ -59,7 +59,7 @@ contains
         type(options_type) :: chosen
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call read_options(options, chosen, error)
+        call read_options(options, chosen, error)
         if (.not. allocated(error)) call solve_beam(prepared%beam, factor, chosen, solved%result, error)
         call forget(solved, error)
         call report(error, status, message, message_size)
@@ -86,7 +86,7 @@ contains
         integer :: n
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call read_options(options, chosen, error)
+        call read_options(options, chosen, error)
         if (.not. allocated(error)) call follow_load(prepared%beam, factor, chosen, events, solved%result, error)
         call forget(solved, error)
         call report(error, status, message, message_size)
@@ -204,7 +204,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), "x or fields", error)
+        call check_points(count, present(x) .and. present(fields), "x or fields", error)
         call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
             call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left == 1)
@@ -299,8 +299,8 @@ contains
         else
             call model_from_c(model, plain, error)
         end if
-        if (.not. allocated(error)) call read_options(options, chosen, error)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(fields), "x or fields", error)
+        call read_options(options, chosen, error)
+        call check_points(count, present(x) .and. present(fields), "x or fields", error)
         if (.not. allocated(error)) call prepare_model(plain, beam, error)
         if (.not. allocated(error)) call solve_beam(beam, factor, chosen, result, error)
         solved = .not. allocated(error) .and. result%status == gapbeam_solved

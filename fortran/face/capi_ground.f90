@@ -33,7 +33,7 @@ contains
         integer :: n
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call read_options(options, chosen, error)
+        call read_options(options, chosen, error)
         if (.not. allocated(error)) call follow_ground(prepared%beam, factor, chosen, events, solved%result, error)
         call forget(solved, error)
         call report(error, status, message, message_size)
@@ -116,7 +116,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(pressure), "x or pressure", error)
+        call check_points(count, present(x) .and. present(pressure), "x or pressure", error)
         call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
             call get_pressure(prepared%beam, solved%result, x(1:count), pressure(1:count), error, from_left == 1)

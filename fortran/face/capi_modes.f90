@@ -26,7 +26,7 @@ contains
         integer :: known, stat
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_points(count, present(values), "values", error)
+        call check_points(count, present(values), "values", error)
         if (.not. allocated(error)) then
             allocate (found(count), stat=stat)
             if (stat /= 0) call no_memory(error)

@@ -57,9 +57,10 @@ contains
     subroutine read_options(options, chosen, error)
         type(c_options), intent(in), optional :: options
         type(options_type), intent(out) :: chosen
-        type(error_type), allocatable, intent(out) :: error
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
 
-        if (.not. present(options)) return
+        if (allocated(error) .or. .not. present(options)) return
         if (options%size /= c_sizeof(options)) then
             call fatal_error(error, gapbeam_other_version, "options: size is not the library's; use gapbeam_options_init")
         else
@@ -73,8 +74,10 @@ contains
         !> Are the arrays there, and their names
         logical, intent(in) :: given
         character(len=*), intent(in) :: what
-        type(error_type), allocatable, intent(out) :: error
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
 
+        if (allocated(error)) return
         if (count < 0) then
             call fatal_error(error, gapbeam_bad_input, "count is negative")
         else if (count > 0 .and. .not. given) then

@@ -30,8 +30,8 @@ contains
         type(error_type), allocatable :: error
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
-        if (.not. allocated(error)) call check_points(count, present(x) .and. present(values), "x or values", error)
+        call check_quantities(quantities, present(quantity), error, quantity)
+        call check_points(count, present(x) .and. present(values), "x or values", error)
         call check_flag("from_left", from_left, error)
         if (.not. allocated(error) .and. count > 0) then
             call get_quantities(prepared%beam, solved%result, quantity(1:quantities) + 1, x(1:count), values(:, 1:count), error, &
@@ -55,7 +55,7 @@ contains
         real(c_double) :: values(2, max(quantities, 0)), places(2, max(quantities, 0))
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
+        call check_quantities(quantities, present(quantity), error, quantity)
         if (.not. allocated(error)) then
             call get_quantity_extremes(prepared%beam, solved%result, quantity(1:quantities) + 1, values, places, error)
         end if
@@ -80,7 +80,7 @@ contains
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity) .and. present(values), error, quantity)
+        call check_quantities(quantities, present(quantity) .and. present(values), error, quantity)
         if (.not. allocated(error)) then
             call get_train_quantity_extremes(prepared%beam, handle%passing, quantity(1:quantities) + 1, found, error)
         end if
@@ -104,10 +104,8 @@ contains
         type(error_type), allocatable :: error
 
         call get_train(beam, passing, prepared, handle, error)
-        if (.not. allocated(error)) call check_quantities(quantities, present(quantity), error, quantity)
-        if (.not. allocated(error)) then
-            call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
-        end if
+        call check_quantities(quantities, present(quantity), error, quantity)
+        call check_points(count, present(x) .and. present(value) .and. present(position), "x, value or position", error)
         if (.not. allocated(error) .and. count > 0) then
             call get_train_quantity_curves(prepared%beam, handle%passing, quantity(1:quantities) + 1, x(1:count), &
                                            value(:, :, 1:count), position(:, :, 1:count), error)
@@ -120,10 +118,12 @@ contains
         integer(c_int), intent(in) :: quantities
         !> Are they given
         logical, intent(in) :: given
-        type(error_type), allocatable, intent(out) :: error
+        !> What was wrong before stays
+        type(error_type), allocatable, intent(inout) :: error
         integer(c_int), intent(in), optional :: quantity(*)
         integer :: k
 
+        if (allocated(error)) return
         if (quantities < 1) then
             call fatal_error(error, gapbeam_bad_input, "quantities: expected 1 or more")
         else if (.not. given) then
