@@ -68,21 +68,16 @@ contains
         real(wp), intent(inout) :: value(:, :)
         type(error_type), allocatable, intent(out) :: error
         real(wp), allocatable :: found(:, :)
-        integer :: k, n, side
-        logical :: at_left
+        integer, allocatable :: which(:)
+        integer :: k, side
 
         do side = 1, 2
-            at_left = side == 2
-            if (.not. any(left .eqv. at_left)) cycle
-            allocate (found(size(quantities), count(left .eqv. at_left)))
-            call fields_at_places(kept%placed, kept%state, quantities, pack(x, left .eqv. at_left), at_left, found, error)
+            which = pack([(k, k=1, size(x))], left .eqv. side == 2)
+            if (size(which) == 0) cycle
+            allocate (found(size(quantities), size(which)))
+            call fields_at_places(kept%placed, kept%state, quantities, x(which), side == 2, found, error)
             if (allocated(error)) return
-            n = 0
-            do k = 1, size(x)
-                if (left(k) .neqv. at_left) cycle
-                n = n + 1
-                value(:, k) = found(:, n)
-            end do
+            value(:, which) = found
             deallocate (found)
         end do
     end subroutine values_at
