@@ -69,7 +69,7 @@ contains
                                                           "this version only where it is stable off the ground, on supports "// &
                                                           "that hold it both ways; press less, add such supports, or give "// &
                                                           "the ground a stiffness")
-            if (.not. allocated(error)) call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error)
+            if (.not. allocated(error)) call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
             return
         end if
         first(:) = closed
