@@ -67,7 +67,8 @@ contains
         end associate
     end function supports_move
 
-    !> The beam while its dead loads are put on: they grow with the factor, and there is no other load; in the same units
+    !> The beam while its dead loads are put on: they grow with the factor, as movements of supports do, and there is no other load;
+    !> in the same units
     pure subroutine grow_dead_loads(assembled, dead)
         type(assembled_type), intent(in) :: assembled
         type(assembled_type), intent(out) :: dead
@@ -76,7 +77,7 @@ contains
         call drop_live(assembled%beam, dead%beam)
         dead%live(:) = assembled%dead
         dead%dead(:) = no_load
-        if (allocated(dead%growth)) deallocate (dead%growth)
+        call let_supports_move(assembled, dead)
         if (allocated(dead%axial%force)) then
             dead%axial%force(2, :) = dead%axial%force(1, :)
             dead%axial%force(1, :) = 0.0_wp
@@ -96,6 +97,23 @@ contains
             dead%model%loads%value_to = 0.0_wp
         end where
     end subroutine grow_dead_loads
+
+    !> What supports move by themselves grows with the dead loads, from where they stand without it
+    pure subroutine let_supports_move(assembled, dead)
+        type(assembled_type), intent(in) :: assembled
+        !> The same beam in
+        type(assembled_type), intent(inout) :: dead
+        real(qp) :: movement(size(assembled%normal))
+
+        if (allocated(dead%growth)) deallocate (dead%growth)
+        if (.not. supports_move(assembled)) return
+        call find_movements(assembled, movement)
+        dead%beam%supports%contact = real(assembled%beam%supports%contact - movement, wp)
+        associate (s => assembled%model%supports)
+            dead%growth = s%settlement + s%side*min(s%gap, 0.0_wp)
+            dead%model%supports%settlement = s%settlement - dead%growth
+        end associate
+    end subroutine let_supports_move
 
     !> Let the live loads act the other way
     subroutine reverse_live(beam)

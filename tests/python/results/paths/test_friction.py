@@ -65,6 +65,20 @@ def test_two_that_rub_at_one_place_hold_together():
     assert result.state(0.0, leg=1).slip[1] == pytest.approx(4.0 * limit / EA, rel=1e-13)
 
 
+def test_reactions_of_settlements_grow_with_them_beside_a_law_that_yields():
+    """Uneven supports press a bar against one that rubs, while its anchor is moved: along it all is in balance, with any law."""
+    pressed = {"node": 1, "friction": 0.3}
+    springs = [{"law": [[0.004, 20.0], [0.03, 20.0]], "unloading": "plastic"}, {"stiffness": 5000.0}]
+    found = []
+    for spring in springs:
+        supports = [at(0), at(2, settlement=0.01), pressed | spring, along(0, stiffness=500.0, settlement=0.05)]
+        step = solve({"spans": [4.0, 4.0]}, supports, [], [1.0]).steps[-1]
+        assert step.reaction[3] == pytest.approx(-step.friction[2], rel=1e-13)
+        assert abs(step.friction[2]) == pytest.approx(0.3 * abs(step.reaction[2]), rel=1e-13)
+        found.append([*step.reaction, *step.deflection])
+    assert found[0] == pytest.approx(found[1], rel=1e-12)
+
+
 def test_many_supports_slip_from_the_ends_in():
     """Between equal supports in the middle of a long beam the force is that without any slip."""
     count = 60
