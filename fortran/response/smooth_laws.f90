@@ -3,12 +3,12 @@ module gapbeam_smooth_laws
     use gapbeam_kinds, only: wp
     use gapbeam_laws, only: is_smooth, law_force, law_slope
     use gapbeam_scene, only: support_type, gapbeam_both
-    use gapbeam_polyline, only: node_support_type, last_breakpoint
+    use gapbeam_polyline, only: node_support_type, last_breakpoint, piece_that_acts
     use gapbeam_units, only: stiffness_unit
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line, put_pieces
 
 contains
 
@@ -97,5 +97,32 @@ contains
             s%passed = s%breakpoint > 0
         end associate
     end subroutine put_line
+
+    !> Put the pieces that act in a scheme in place of their laws, as lines: the scheme may be that of another load factor, and
+    !> pieces near the origin are narrower than the places of their ends are exact
+    pure subroutine put_pieces(assembled, supports, closed, lines)
+        type(assembled_type), intent(in) :: assembled
+        !> Of the model, with smooth laws
+        integer, intent(in) :: supports(:)
+        logical, intent(in) :: closed(:)
+        !> The beam's supports
+        type(node_support_type), intent(inout) :: lines(:)
+        real(wp) :: slope
+        logical :: acts
+        integer :: first, last, k, j
+
+        do j = 1, size(supports)
+            first = assembled%beam_support(supports(j))
+            last = last_breakpoint(lines, first)
+            k = max(first, first - 1 + count(closed(first:last)))
+            call piece_that_acts(lines, closed, k, acts, slope)
+            if (.not. acts .or. abs(slope) > huge(slope)) cycle
+            lines(first:last)%contact = lines(k)%contact
+            lines(first:last)%force = lines(k)%force
+            lines(first:last)%stiffness = slope
+            lines(first:last)%before = slope
+            lines(first:last)%passed = .true.
+        end do
+    end subroutine put_pieces
 
 end module gapbeam_smooth_laws

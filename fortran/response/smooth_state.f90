@@ -17,7 +17,8 @@ module gapbeam_smooth_state
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_law_energy, only: new_line, go_towards, way_to_rest
     use gapbeam_smooth_energy, only: smooth_line_type
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line, &
+        put_pieces
     use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
@@ -76,6 +77,10 @@ contains
                 deallocate (state%laws)
                 state%closed(:) = start
             end if
+        end if
+        if (how == rule_extended) then
+            state%laws = assembled%beam%supports
+            call put_pieces(assembled, numbers, state%closed, state%laws)
         end if
         call solve_state(assembled, factor, how, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return

@@ -39,6 +39,22 @@ def test_a_curve_beside_a_beam(name, load, side, sign, gap):
         assert step.certificate["error_bound"] < 1e-11
 
 
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("place", [{"settlement": 0.003}, {"settlement": -0.003}, {"gap": -0.003, "side": "below"}])
+def test_a_curve_that_begins_away_from_the_straight_beam(name, place):
+    """A simple beam, one end of which is such a support: it has half of the load, at any factor."""
+    law, curve = CURVES[name]
+    supports = [{"node": 0, "law": law, **place}, {"node": 1}]
+    made = {"beam": {"spans": [6.0], "EI": 3000.0}, "supports": supports, "loads": [{"type": "uniform", "q": 0.5}]}
+    result = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+    for factor in (1e-3, 0.5, 1.0):
+        step = result.state(factor)
+        expected = 1.5 * factor
+        assert step.reaction.tolist() == pytest.approx([expected, expected], rel=1e-14)
+        past = root(lambda d, load=expected: curve(d) - load, 0.25)
+        assert step.deflection[0] == pytest.approx(float(past) + place.get("settlement", -0.003), rel=1e-13)
+
+
 def test_factors_of_events_are_those_on_the_curve():
     """A rigid stop at 0.01 beside a spring that is a curve: only contact is an event."""
     law, curve = CURVES["tanh"]
