@@ -8,7 +8,8 @@ module gapbeam_smooth_laws
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line, put_pieces
+    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, reaction_at, put_line, &
+        put_pieces
 
 contains
 
@@ -62,6 +63,16 @@ contains
 
         value = scale(deflection(assembled%beam%supports(assembled%beam_support(support))%node), assembled%units%deflection)
     end function deflection_at
+
+    !> The largest deflection of the beam at its nodes, either way
+    pure function largest_deflection(assembled, deflection) result(value)
+        type(assembled_type), intent(in) :: assembled
+        !> As for deflection_at
+        real(wp), intent(in) :: deflection(0:)
+        real(wp) :: value
+
+        value = scale(maxval(abs(deflection(:size(assembled%beam%links)))), assembled%units%deflection)
+    end function largest_deflection
 
     !> Reaction of a support, up
     pure function reaction_at(assembled, reaction, support) result(value)

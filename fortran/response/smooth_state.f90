@@ -9,7 +9,7 @@ module gapbeam_smooth_state
     use gapbeam_tolerances, only: settled_on_laws
     use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
-    use gapbeam_laws, only: is_smooth, law_bound
+    use gapbeam_laws, only: is_smooth, law_bound, law_slope
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
@@ -17,8 +17,8 @@ module gapbeam_smooth_state
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_law_energy, only: new_line, go_towards, way_to_rest
     use gapbeam_smooth_energy, only: smooth_line_type
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line, &
-        put_pieces
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, &
+        reaction_at, put_line, put_pieces
     use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
@@ -158,7 +158,7 @@ contains
                 if (searching .and. any(places%steep .and. places%reached > 0.0_wp)) then
                     searching = .false.  ! the last digits come from the forces
                 else
-                    call audit_laws(assembled, numbers, places, maxval(places%size), error)
+                    call audit_laws(assembled, numbers, places, largest_deflection(assembled, line%deflection), error)
                     if (.not. allocated(error) .or. searching) then
                         if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
                         state%solves = solves
@@ -279,19 +279,24 @@ contains
         type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: numbers(:)
         type(place_type), intent(in) :: places(:)
-        !> The largest displacement, of which the others are known to rounding
+        !> The largest deflection of the beam, of which the others are known to rounding
         real(wp), intent(in) :: most
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: force, slope, off
+        real(wp) :: force, slope, off, least
         integer :: j
 
         do j = 1, size(numbers)
             if (places(j)%by_force) cycle
-            call force_and_slope(assembled%model%supports(numbers(j)), places(j)%past, force, slope)
-            if (slope > huge(slope)) cycle
+            associate (s => assembled%model%supports(numbers(j)))
+                call force_and_slope(s, places(j)%past, force, slope)
+                least = 0.0_wp
+                ! One that only touches is where rounding of the largest has it
+                if (abs(places(j)%past) <= rounding*most) least = rounding*most*law_slope(s%law, s%parameter, 0.0_wp)
+            end associate
+            if (max(slope, least) > huge(slope)) cycle
             off = abs(force - places(j)%reached)
-            ! What rounding makes of the largest may be at one that only touches
-            if (off <= audited*(rounding*(abs(force) + slope*most) + last_digit*maxval(abs(places%reached)))) cycle
+            least = least + rounding*(abs(force) + slope*maxval(places%size)) + last_digit*maxval(abs(places%reached))
+            if (off <= audited*least) cycle
             call fatal_error(error, gapbeam_not_converged, &
                              trim(named(of_supports, numbers(j), size(assembled%model%supports)))//": law: the result does "// &
                              "not stand its own audit: the force is not that of the law at the deflection; give the law as a "// &

@@ -87,6 +87,21 @@ def test_a_pile_on_curves_of_growing_strength():
     assert (step.reaction * np.arange(10)).sum() == pytest.approx(0.0, abs=1e-11)
 
 
+@pytest.mark.parametrize("name", ["cubic", "hyperbolic", "tanh"])
+def test_a_curve_that_is_just_touched(name):
+    """Where an overhang lifts off from it: no force there, and deflections elsewhere."""
+    supports = [{"node": 0, "side": "below", "law": CURVES[name][0]}, {"node": 2}, {"node": 3, "side": "below", "gap": 0.002}]
+    loads = [{"type": "uniform", "q": 1.7}, {"type": "force", "node": 3, "F": 40.0}]
+    made = {"beam": {"spans": [2.8, 4.45, 2.05], "EI": 3140.0}, "supports": supports, "loads": loads}
+    result = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+    (closes,) = [one.factor for one in result.events if one.event == "closes"]
+    for segment in result.segments:
+        if closes in (segment.start, segment.stop):
+            step = result.path.step(segment, closes)
+            assert abs(step.reaction[0]) < 1e-12 * np.abs(step.reaction).max()
+            assert abs(step.deflection[0]) < 1e-12
+
+
 def test_a_support_that_opens_on_the_curve_only():
     """On the polyline of the law the end is still held; on the curve it would pull by 0.006, so it is open."""
     scene = {
