@@ -71,7 +71,7 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
         table = "LawAt" if isinstance(law, list) else type(law).__name__
     elif table == "Support" and turning:
         table, keys = "Rotation", ["slack" if keys[-1] in ("gap", "settlement") else keys[-1]]
-    if table == "Section" and len(keys) == 2 and keys[1] != "power":  # of a taper
+    if table == "Combination" or (table == "Section" and len(keys) == 2 and keys[1] != "power"):  # by name; of a taper
         keys = keys[:1]
     pair = _units().get((table, keys[-1] if keys else ""), ())
     if not pair:

@@ -258,3 +258,7 @@ def test_units_of_laws_tables_and_tapers():
     ground = {"foundation": [{"law": clay}, {"k": [[0.0, 1e3], [8.0, 2e3]]}, {"law": layer}]}
     found = gapbeam.function({**scene, **ground, "supports": [], "hinges": []}, list(units), ["moment.max"]).units
     assert {name: found[name] for name in units} == units
+    sinks = [{"name": "sinks", "factors": {"live": 1.0}, "settlements": {"0": 0.01}}]
+    units = {"combinations.sinks.settlements.0": "m", "combinations.sinks.factors.live": ""}
+    found = gapbeam.function({**scene, "combinations": sinks}, list(units), ["moment.max"]).units
+    assert {name: found[name] for name in units} == units
