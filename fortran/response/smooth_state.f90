@@ -279,23 +279,23 @@ contains
         type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: numbers(:)
         type(place_type), intent(in) :: places(:)
-        !> The largest deflection of the beam, of which the others are known to rounding
+        !> The largest deflection of the beam, of which the others are known to its last digit
         real(wp), intent(in) :: most
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: force, slope, off, least
+        real(wp) :: force, slope, steep, off, least
         integer :: j
 
         do j = 1, size(numbers)
             if (places(j)%by_force) cycle
-            associate (s => assembled%model%supports(numbers(j)))
-                call force_and_slope(s, places(j)%past, force, slope)
-                least = 0.0_wp
-                ! One that only touches is where rounding of the largest has it
-                if (abs(places(j)%past) <= rounding*most) least = rounding*most*law_slope(s%law, s%parameter, 0.0_wp)
+            associate (s => assembled%model%supports(numbers(j)), past => places(j)%past)
+                call force_and_slope(s, past, force, slope)
+                steep = law_slope(s%law, s%parameter, max(past, 0.0_wp))
             end associate
-            if (max(slope, least) > huge(slope)) cycle
+            if (slope > huge(slope)) cycle
+            ! One that only touches may be open by rounding
+            if (steep > huge(steep)) steep = 0.0_wp
             off = abs(force - places(j)%reached)
-            least = least + rounding*(abs(force) + slope*maxval(places%size)) + last_digit*maxval(abs(places%reached))
+            least = rounding*(abs(force) + slope*maxval(places%size)) + last_digit*(steep*most + maxval(abs(places%reached)))
             if (off <= audited*least) cycle
             call fatal_error(error, gapbeam_not_converged, &
                              trim(named(of_supports, numbers(j), size(assembled%model%supports)))//": law: the result does "// &
