@@ -14,7 +14,7 @@ module gapbeam_axial_loads
     use gapbeam_path_states, only: solve_on_path
     implicit none
     private
-    public :: make_chain, movement_of, set_loads, set_limits, find_reactions, zeros_between
+    public :: make_chain, movement_of, set_loads, set_limits, find_reactions, drop_rounding, zeros_between
 
 contains
 
@@ -127,6 +127,7 @@ contains
         integer :: l, j
 
         reaction(:) = 0.0_wp
+        if (at_rest()) return
         call new_state(beam, state, error)
         if (.not. allocated(error)) call solve_on_path(beam, history, k, factor, state, error)
         if (allocated(error)) return
@@ -141,7 +142,30 @@ contains
         end associate
         call make_ties(reaction)
         reaction(:) = scale(reaction, beam%units%force - beam%axial%units%force)
+
+    contains
+
+        !> A path begins at rest: there, and so near that its first events are told by rounding, nothing acts
+        pure function at_rest() result(it_is)
+            logical :: it_is
+
+            associate (s => history%stretches(:history%number))
+                it_is = s(k)%leg == s(1)%leg
+                if (it_is) it_is = abs(factor) <= no_friction*maxval(abs(s%to), s%leg == s(1)%leg)
+            end associate
+        end function at_rest
+
     end subroutine find_reactions
+
+    !> Reactions at one end of a stretch that are rounding beside those at the other are none: they change no sign on the way
+    pure subroutine drop_rounding(at_from, at_to)
+        real(wp), intent(inout) :: at_from(:), at_to(:)
+        real(wp) :: least
+
+        least = no_friction*max(maxval(abs(at_from)), maxval(abs(at_to)))
+        where (abs(at_from) <= least) at_from = 0.0_wp
+        where (abs(at_to) <= least) at_to = 0.0_wp
+    end subroutine drop_rounding
 
     !> Reactions that differ by no more than rounding are the same: it must not tell which of two supports slips, and how far
     pure subroutine make_ties(reaction)

@@ -8,7 +8,7 @@ module gapbeam_axial_path
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_axial_loads, only: make_chain, movement_of, set_loads, set_limits, find_reactions, zeros_between
+    use gapbeam_axial_loads, only: make_chain, movement_of, set_loads, set_limits, find_reactions, drop_rounding, zeros_between
     use gapbeam_axial_chain, only: chain_type, next_change, find_reach, stays_at_rest
     use gapbeam_axial_progress, only: advance, change_pieces, settle, settle_link, note_rates, values_of
     use gapbeam_axial_rates, only: moves_at_once, not_told
@@ -134,6 +134,7 @@ contains
                     call find_reactions(beam, history, k, s%to, walk%support, chain%rubs, to_force, error)
                 end if
                 if (allocated(error)) return
+                call drop_rounding(from_force, to_force)
                 ends = [zeros_between(s%from, s%to, from_force, to_force), ends]
             end if
             at = s%from

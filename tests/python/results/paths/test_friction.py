@@ -79,6 +79,35 @@ def test_reactions_of_settlements_grow_with_them_beside_a_law_that_yields():
     assert found[0] == pytest.approx(found[1], rel=1e-12)
 
 
+LAW = [[0.005, 20.0], [0.02, 20.0]]
+AT_REST = {
+    "a law both ways": (12.0, 3000.0, [at(0, side="below"), {"x": 10.0, "law": LAW, "settlement": -0.004}, at(1, friction=0.3)],
+                        [{"type": "uniform", "q": 3.0, "case": "dead"}, warm(60.0)]),
+    "one that lifts off": (20.0, 9000.0, [at(1, settlement=0.01), {"x": 10.0, "law": LAW, "settlement": 0.0021},
+                                          at(0, side="below", friction=0.3)], [warm(60.0, case="dead")]),
+    "one that does not act": (10.8, 9040.0, [at(1, side="below", rotation="fixed", settlement=0.003), {"x": 8.0, "side": "above"},
+                                             at(0, friction=0.3, settlement=0.003), along(1, stiffness=1000.0)],
+                              [{"type": "uniform", "q": 3.0}, {"type": "axial", "F": 3.0, "x": 10.8}]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", AT_REST)
+def test_paths_begin_at_rest(name):
+    """Rounding of what does not act yet tells no limits of friction, and makes no events; all that is followed can be shown."""
+    length, EI, supports, loads = AT_REST[name]
+    beam = {"spans": [length], "EI": EI, "alpha": 1e-5}
+    stiffer = [{"to": 7.0, "EI": 25800.0}] if name == "one that does not act" else []
+    result = gapbeam.solve({"beam": beam, "supports": supports, "loads": loads, "sections": stiffer})
+    assert result.status == "solved"
+    assert all(event.factor > 1e-9 for event in result.path.events)
+    step = result.steps[-1]
+    across = np.array([one.direction == "normal" for one in result.scene.supports])
+    along_it = sum(load["F"] for load in loads if load["type"] == "axial")
+    assert step.reaction[~across].sum() + step.friction.sum() == pytest.approx(-along_it, abs=1e-13)
+    assert step.reaction[across].sum() == pytest.approx(length * sum(load.get("q", 0.0) for load in loads), rel=1e-12, abs=1e-9)
+    assert len(result.to_dict()["steps"]) == 1
+
+
 def test_many_supports_slip_from_the_ends_in():
     """Between equal supports in the middle of a long beam the force is that without any slip."""
     count = 60
