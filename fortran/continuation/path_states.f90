@@ -5,14 +5,15 @@ module gapbeam_path_states
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: named, of_supports
-    use gapbeam_laws, only: law_force, law_scale
+    use gapbeam_laws, only: law_force, law_scale, law_displacement, begins_steep
     use gapbeam_polyline, only: node_support_type
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_laws, only: depends_on_path
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: solve_state
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, &
+        reaction_at, put_line
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_smooth_arc, only: arc_type, springs_at, is_lost
     use gapbeam_smooth_branches, only: tracer_at, point_at_factor
@@ -254,7 +255,7 @@ contains
         !> Which support, and both forces
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: numbers(:)
-        real(wp) :: past, force, slope, off, most, least, largest, found, given
+        real(wp) :: past, force, slope, off, most, least, largest, closest, pushes, found, given
         integer :: i, j, way, worst
 
         allocate (numbers, source=smooth_supports(beam))
@@ -263,6 +264,7 @@ contains
             if (beam%beam_support(i) > 0) largest = max(largest, abs(reaction_at(beam, state%reaction, i)))
         end do
         largest = largest*merge(off_its_polyline, off_its_law, rough)
+        closest = arc_settled*largest_deflection(beam, state%deflection)
         worst = 0
         most = 0.0_wp
         found = 0.0_wp
@@ -275,6 +277,11 @@ contains
                 ! Nothing where nothing acts: rounding of what the law gives
                 least = arc_settled*law_force(s%law, s%parameter, law_scale(s%law, s%parameter))
                 if (off <= largest + least .or. off <= most) cycle
+                ! Where it begins steep, rounding of the deflection makes much of the force
+                if (begins_steep(s%law, s%parameter)) then
+                    pushes = max(0.0_wp, way*reaction_at(beam, state%reaction, numbers(j)))
+                    if (abs(max(past, 0.0_wp) - law_displacement(s%law, s%parameter, pushes)) <= closest) cycle
+                end if
                 most = off
                 worst = numbers(j)
                 found = reaction_at(beam, state%reaction, worst)

@@ -332,3 +332,16 @@ def test_a_path_that_does_not_begin():
     assert (result.status, [limit.kind for limit in result.limits], len(result.steps)) == ("limit-load", ["mechanism"], 0)
     assert result.reason.startswith("limit load: nothing more resists the load beyond load factor 0")
     assert result.limits[0].exact
+
+
+def test_a_steep_curve_that_just_begins_to_act():
+    """Its force is told by the last digit of the deflection there."""
+    steep = {"type": "power", "d0": 0.005, "limit": 30.0, "n": 0.3}
+    yields = {"x": 20.0, "law": [[0.005, 30.0], [0.03, 30.0]], "unloading": "plastic"}
+    supports = [{"x": 14.02, "side": "below", "law": steep}, yields, {"x": 3.0, "settlement": -0.004}]
+    loads = [{"type": "linear", "q": [0.621, 8.78]}]
+    result = gapbeam.solve({"beam": {"spans": [20.0], "EI": 8000.0}, "supports": supports, "loads": loads})
+    (closes,) = [one.factor for one in result.events if one.event == "closes"]
+    assert 0.0 < closes < 0.01
+    assert abs(result.state(closes).reaction[0]) < 1e-9
+    assert len(result.to_dict()["steps"]) == 1
