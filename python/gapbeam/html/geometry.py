@@ -139,7 +139,8 @@ def units_data(scene: Scene) -> dict[str, list[Any]]:
     scene : Scene
         With its labels.
     """
-    names = [one.name for one in QUANTITIES] + ["x", "opening", "reaction", "couple", "set", "uniform", "sag", "resultant"]
+    names = [one.name for one in QUANTITIES] + ["x", "opening", "reaction", "couple", "set", "friction", "slip"]
+    names += ["uniform", "sag", "resultant"]
     return {name: list(fmt.shown_unit(scene, name)) for name in names}
 
 

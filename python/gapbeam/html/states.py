@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from ..results.state.step import Step
 
 ROW = {name: k for k, name in enumerate(FIELDS)}
-OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set")
+OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set", "friction", "slip")
+ALWAYS = 3
+"""Of these so many are given even where all are zero."""
 ON_GROUND = {"w": "deflection", "m": "moment", "v": "shear", "p": "pressure"}
 """What is given of a state at many places."""
 DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
@@ -126,13 +128,13 @@ class Recorder:
         Returns
         -------
         dict
-            Of supports ``reaction``, ``opening``, ``deflection``, and ``couple``, ``set`` where there is any; on the ground the
+            Of supports ``reaction``, ``opening``, ``deflection``, and others where there are any; on the ground the
             zones of contact and free spans.
         """
         found: dict[str, Any] = {"factor": step.factor}
-        for name in OF_SUPPORTS:
+        for k, name in enumerate(OF_SUPPORTS):
             values = getattr(step, name)
-            if name not in ("couple", "set") or values.any():
+            if k < ALWAYS or values.any():
                 found |= {f"{name}_packed": packed(values)} if self._short > 1 else {name: values.tolist()}
         if self._beam.is_on_axial_ground:
             found["n_parts"] = axial_parts(step)

@@ -101,6 +101,8 @@ def _supports(result: Result) -> TableData:
     step = result.steps[-1] if len(result.steps) else None
     if step is not None and step.couple.any():
         quantities.append("couple")
+    if step is not None and any(step.sliding):
+        quantities += ["friction", "slip"]
     head = ["support", fmt.shown_heading(scene, "x"), "side", "state", *(fmt.shown_heading(scene, name) for name in quantities)]
     table, quiet = [], {} if step is None else {of: fmt.without_noise(getattr(step, of)) for of in quantities}
     for k, (name, x, support) in enumerate(rows):
@@ -108,7 +110,10 @@ def _supports(result: Result) -> TableData:
         values = [Cell("", 0.0) if step is None else _shown(result, of, quiet[of][k]) for of in quantities]
         state = Cell("" if step is None else state_in_words(step.state[k]))
         table.append([Cell(_with_units(scene, k, name)), _number(x), Cell(side), state, *values])
-    return TableData("supports", "Supports in the state that is drawn", head, table, "Reactions are positive upward.")
+    note = "Reactions are positive upward."
+    if "slip" in quantities:
+        note += " Friction and slip: positive to the right."
+    return TableData("supports", "Supports in the state that is drawn", head, table, note)
 
 
 def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:

@@ -292,7 +292,7 @@ def way_of_train(
         "over": "positions" if exact else "close positions", "axis": "position",
         "states": way.states if beam.in_stretches else len(way.states),
         **way.matrix(), **way.to_dict(),
-        "events": sorted(events, key=lambda one: one["at"]), "left": course.direction == "left",
+        "events": sorted(events, key=lambda one: one["at"], reverse=course.direction == "left"), "left": course.direction == "left",
         "axles": np.column_stack((course.offset, course.force)).tolist(), "uniform": course.uniform.tolist(),
         "pixels": worst, "lost": [{"from": one.from_, "to": one.to, "words": one.reason} for one in lost],
     }  # fmt: skip

@@ -28,6 +28,7 @@ from .turned import Turned, is_turned, shifted
 if TYPE_CHECKING:
     from ..results.state.step import Step
     from ..scene.structs import Scene, Support
+    from .movements import Movements
     from .support_values import SupportValues
 
 #: Half the depth of the beam, points
@@ -72,6 +73,8 @@ class SupportLanes:
         Reactions and openings that are drawn.
     kinds : tuple of str, optional
         What each support does, as `states.kinds_of`; default by its state.
+    movements : Movements, optional
+        Of supports, by loads.
 
     Attributes
     ----------
@@ -89,7 +92,7 @@ class SupportLanes:
 
     def __init__(
         self, scene: "Scene", states: tuple[str, ...], length: float, ground: tuple[float, float] = (0.0, 0.0),
-        values: "SupportValues | None" = None, kinds: tuple[str, ...] | None = None,
+        values: "SupportValues | None" = None, kinds: tuple[str, ...] | None = None, movements: "Movements | None" = None,
     ) -> None:  # fmt: skip
         self.values, self.kinds = values, kinds or plain_kinds(states)
         supports = [support for support in scene.supports if support.direction == "normal"]
@@ -114,9 +117,11 @@ class SupportLanes:
             if any(support.rotation != "free" for support in supports):
                 below, above = max(below, 13.0), max(above, 12.0)
         below, above = max(below, ground[0]), max(above, ground[1])
+        if movements is not None:
+            below, above = max(below, movements.below), max(above, movements.above)
         self.arrows = -below - 2.0
         foot = self.arrows - arrow_lane(values)
-        self.texts = SupportTexts(scene, self.x, length, foot, values, is_upright(scene))
+        self.texts = SupportTexts(scene, self.x, length, foot, values, is_upright(scene), movements)
         self.bottom = self.texts.bottom
         self.top = above + 2.0
 

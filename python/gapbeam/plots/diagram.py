@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 from ..results.views.extreme import KINDS
-from .panels import PANELS, WIDTH, cut_text
+from .panels import PANELS, WIDTH
 from .save import literal
+from .titles import SIZE, title_lines
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -82,7 +83,7 @@ def draw_tables(scene: "Scene", table: "Columns", title: str) -> Figure:
     """
     names = [name for name, *_ in PANELS if f"{name}_max" in table]
     picture = Figure(figsize=(WIDTH, 0.4 + HEIGHT * len(names) * 0.8), dpi=200, layout="constrained")
-    picture.suptitle(cut_text(title, 95), fontsize=10, fontweight="bold", x=0.01, ha="left")
+    picture.suptitle("\n".join(title_lines(title)), fontsize=SIZE, fontweight="bold", x=0.01, ha="left")
     for axes, name in zip(np.ravel(picture.subplots(len(names), squeeze=False, sharex=True)), names, strict=True):
         draw_table(scene, table, name, axes)
         axes.label_outer()

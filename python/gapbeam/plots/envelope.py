@@ -99,7 +99,7 @@ def envelope_figure(result: Result) -> Figure:
     foot = LINE * len(lines) + 0.08
     text = _headline(result, sources, key.needed)
     handles = legend_handles(states) * (not supports.rows)
-    sheet = Sheet(scene, heading_height(text, handles), supports.bottom, top, len(panels), foot)
+    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, top, len(panels), foot)
     draw_ground(sheet.sketch, ground, ())
     draw_beam(sheet.sketch, scene, states, supports)
     if loads is not None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..results.state.ground import Contact
     from ..scene.structs import Foundation, Scene
     from .bezier import Cells
+    from .movements import Movements
 
 STRIP = 6.0
 """Depth of the hatched strip, points."""
@@ -79,6 +80,8 @@ class GroundLanes:
         The scene.
     width : float
         Length of the drawn beam.
+    movements : Movements, optional
+        Of foundations, by loads.
 
     Attributes
     ----------
@@ -90,7 +93,7 @@ class GroundLanes:
         What they take up below and above the axis of the beam; 0 where there is none.
     """
 
-    def __init__(self, scene: Scene, width: float) -> None:
+    def __init__(self, scene: Scene, width: float, movements: Movements | None = None) -> None:
         self.layers: list[Layer] = []
         self.width = width
         end = float(scene.span_ends()[-1])
@@ -102,6 +105,8 @@ class GroundLanes:
         words = ["" if item.name is None else visible(item.name) for item in scene.foundation]
         if not any(words) and 1 < len(words) <= MOST_UNNAMED:
             words = [f"foundation {number}" for number in range(len(words))]
+        moved = {} if movements is None else movements.ground
+        words = [", ".join(filter(None, (name, *moved.get(number, ())))) for number, name in enumerate(words)]
         self.upright = is_upright(scene)
         self.names: list[tuple[float, float, str, str]] = []
         self.below = self.above = 0.0

@@ -13,9 +13,9 @@ from ..results.paths.branches import BranchPath
 from ..results.paths.loop import Cycle, loop_of
 from ..scene.rotations import at_support
 from .branches import KINK, MARKERS, Trace
-from .panels import cut_text
 from .save import literal
 from .sheet import positive
+from .titles import title_lines
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -79,7 +79,8 @@ def hysteresis_figure(result: Result, support: int | str | None = None) -> Figur
     axes.set_xlabel(fmt.shown_heading(scene, quantities[0], ways[0]), fontsize=9)
     axes.set_ylabel(fmt.with_unit(scene, quantities[1], ways[1]), fontsize=9)
     axes.tick_params(labelsize=8)
-    axes.set_title(f"{cut_text(fmt.title(scene), 60)}\n{fmt.support(scene, chosen)}", fontsize=9, fontweight="bold", loc="left")
+    title = [*title_lines(fmt.title(scene), SIZE[0] - 1.0), fmt.support(scene, chosen)]
+    axes.set_title("\n".join(title), fontsize=9, fontweight="bold", loc="left")
     if len(cycles) > MOST_CYCLES:
         total = with_minus_signs(fmt.value(scene, "moment", sum(cycle.energy for cycle in cycles), 4))
         axes.plot([], [], color=COLOURS[0], label=f"{len(cycles)} cycles: energy {total} in all")

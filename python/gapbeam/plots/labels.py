@@ -1,7 +1,7 @@
 """Labels in a picture that keep clear of one another; lengths in points."""
 
-#: Height of a line of text
-LINE = 9.0
+#: Height of a line of text; what is left of the beam on the page
+LINE, MARGIN = 9.0, 92.0
 
 
 def text_width(text: str) -> float:

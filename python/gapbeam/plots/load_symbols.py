@@ -154,7 +154,7 @@ def _draw_couples(axes: Axes | Turned, lanes: LoadLanes) -> None:
     for sign in (1.0, -1.0):
         x = [arrow.x for arrow in lanes.arrows if arrow.kind == "moment" and sign * arrow.value > 0]
         if x:
-            path = Path(_ARC.vertices * (sign, 1.0), _ARC.codes)
+            path = Path(CLOCKWISE.vertices * (sign, 1.0), CLOCKWISE.codes)
             axes.scatter(x, [0.0] * len(x), marker=path, s=area(ARC), facecolors="none", edgecolors="black",
                          linewidths=1.1, zorder=6, label="couples")  # fmt: skip
 
@@ -181,4 +181,5 @@ def _rotated(vector: np.ndarray, degrees: float) -> np.ndarray:
     return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
 
 
-_ARC = _arc()
+CLOCKWISE = _arc()
+"""The arc of a couple."""

@@ -21,8 +21,9 @@ from ..scene.loads import (
     TemperatureLoad,
     UniformLoad,
 )
+from ..scene.movements import share_of
 from ..scene.table import kind_of
-from .labels import LINE, Labels, spread, text_width
+from .labels import LINE, MARGIN, Labels, spread, text_width
 from .sheet import is_upright
 
 if TYPE_CHECKING:
@@ -182,6 +183,7 @@ class LoadLanes:
             elif arrow.aside:
                 asides.insert(0, math.copysign(half, arrow.aside))
             places = [(aside, end + 1.0) for aside in asides if x + aside + half < page]
+            above = min(max(above, half - MARGIN - x), page - half - x)
             # One of so many is free: a label or an arrow is in the way of less than two of them
             places += [(above, end + 1.0 + level * LINE) for level in range(4 * MOST_LABELS)]
             for aside, y in places:
@@ -191,16 +193,11 @@ class LoadLanes:
                     break
 
 
-def _share(load: object, factor: float) -> float:
-    """Give the share of a load that acts at a load factor."""
-    return 1.0 if load.case == "dead" else factor
-
-
 def _blocks(scene: "Scene", factor: float, scale: float) -> list[Block]:
     blocks = []
     cases = len({load.case for load in scene.loads})
     for load in scene.loads:
-        share = _share(load, factor)
+        share = share_of(load, factor)
         if not isinstance(load, UniformLoad | LinearLoad | CurvatureLoad | TemperatureLoad | AxialUniformLoad) or not share:
             continue
         if isinstance(load, AxialUniformLoad):
@@ -254,8 +251,8 @@ def _arrows(scene: "Scene", factor: float) -> list[Arrow]:
     cases = len({load.case for load in scene.loads})
     for load, x in zip(loads, scene.positions(loads), strict=True):
         kind, quantity = kinds[kind_of(load)]
-        value = _share(load, factor) * (load.M if kind == "moment" else load.F)
-        if not _share(load, factor):
+        value = share_of(load, factor) * (load.M if kind == "moment" else load.F)
+        if not share_of(load, factor):
             continue
         text = f"{signed(abs(value), 5)} {_unit_and_case(scene, load, quantity, cases)}".rstrip()
         arrows.append(Arrow(float(x), value, text, kind))
@@ -269,7 +266,12 @@ def signed(value: float, digits: int) -> str:
 
 def _unit_and_case(scene: "Scene", load: object, quantity: str | None, cases: int) -> str:
     """Word the unit of a load, if it has one, and its name, or its case where the scene has several."""
-    return f"{unit(scene, quantity) if quantity else ''} {visible(load.name or (load.case if cases > 1 else ''))}".strip()
+    return f"{unit(scene, quantity) if quantity else ''} {name_or_case(load, cases)}".strip()
+
+
+def name_or_case(load: object, cases: int) -> str:
+    """Give the name of a load, or its case where the scene has several."""
+    return visible(load.name or (load.case if cases > 1 else ""))
 
 
 def _pack(blocks: list[Block], most: int = 6) -> int:

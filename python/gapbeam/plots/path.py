@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import textwrap
+from collections.abc import Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,14 +15,18 @@ from matplotlib.figure import Figure
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..results.event_words import EVENT_WORDS
 from ..results.paths.branches import BranchPath
-from ..scene.names import label
+from ..scene.names import column_of
+from ..scene.rotations import TURNING
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
 from .labels import spread
 from .panels import LEFT, WIDTH, cut_text, outcome
 from .save import literal, save
-from .sheet import positive
+from .sheet import is_upright, positive
+from .support_values import LYING, MOST_CHARACTERS, UPRIGHT, short_names
+from .titles import HEIGHT, SIZE, text_width, title_lines
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -29,8 +35,8 @@ if TYPE_CHECKING:
 
 #: Inches: height of a panel and of what is above it, the space below for the load factor and on the right for names
 PANEL, GAP, FOOT, NAMES = 2.1, 0.25, 0.5, 0.95
-#: Points: height of a name; length of the sample of a line beside it, and how far it is from the axes
-NAME, SAMPLE, OFF = 9.5, 24.0, 8.0
+#: Points: height of a name, size of its letters; length of the sample of a line beside it, and how far it is from the axes
+NAME, NAME_SIZE, SAMPLE, OFF = 9.5, 8.0, 24.0, 8.0
 
 PANELS, OF_LAWS = ("reaction", "opening"), ("reaction", "deflection")
 """Quantities; a support with a law is hardly ever open."""
@@ -39,8 +45,6 @@ ZONES, ALONG = "x", "deflection"
 
 MOST_LINES = 8
 """Supports in a panel; of more those with the largest values."""
-MOST_CHARACTERS = 13
-"""Of the name of a line."""
 MOST_ARROWS = 3
 """Supports on whose lines arrows show which way the load goes."""
 CURVE = 100
@@ -52,6 +56,33 @@ COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#5
 """Every line of a picture has a pattern and a colour of its own: twice `MOST_LINES` of them. Colours are those of Okabe and Ito."""
 ALIKE = 1e-9
 """Share of the largest value by which lines differ that are drawn as one."""
+
+
+class Panel(NamedTuple):
+    """A panel of the picture.
+
+    Attributes
+    ----------
+    quantity : str
+        By whose unit its numbers are told.
+    words : str
+        On its axis.
+    table : numpy.ndarray, optional
+        Values, states by supports; None for what is not of supports.
+    lines : dict of int to list of int
+        Supports whose lines are one, by the first of them.
+    names : dict of int to str
+        Names of the lines that are drawn.
+    noun : str
+        Above the names.
+    """
+
+    quantity: str
+    words: str
+    table: np.ndarray | None = None
+    lines: Mapping[int, list[int]] = MappingProxyType({})
+    names: Mapping[int, str] = MappingProxyType({})
+    noun: str = ""
 
 
 def plot_path(result: Result, path: str | os.PathLike) -> None:
@@ -98,50 +129,44 @@ def path_figure(result: Result) -> Figure:
     stretches = _stretches(result, dots) if scene.foundation else []
     states = list(chain(*stretches)) or (_states(result, dots) if trace is None else trace.states)
     factors = np.array([step.factor for step in states])
-    normal = [k for k, support in enumerate(scene.supports) if support.direction == "normal"]
-    panels = OF_LAWS if any(support.law is not None for support in scene.supports) else PANELS
-    if stretches:
-        panels = (ZONES, *(panels if normal else (ALONG,)))
+    panels = _panels(result, states, bool(stretches))
     note = "dots: load steps" if dots else _note(result) if trace is None else trace.note()
     lines = textwrap.wrap(note, 105) if trace is not None or stretches else []
     if stretches:
         lines += textwrap.wrap(note_on_ground(result), 105)
     foot = FOOT + 0.15 * len(lines)
     said = "" if result.status == "solved" else outcome(result)
-    height = 0.35 + (0.18 + 0.14 * (1 + said.count("\n"))) * bool(said) + len(panels) * (GAP + PANEL) + foot
+    title = title_lines(fmt.title(scene))
+    lower = HEIGHT * (len(title) - 1)
+    height = 0.35 + lower + (0.18 + 0.14 * (1 + said.count("\n"))) * bool(said) + len(panels) * (GAP + PANEL) + foot
     picture = Figure(figsize=(WIDTH, height), dpi=200)
-    picture.text(0.02, 1 - 0.22 / height, fmt.title(scene), fontsize=11, fontweight="bold", va="center")
+    picture.text(0.02, 1 - 0.14 / height, "\n".join(title), fontsize=SIZE, fontweight="bold", va="top")
     if said:
-        picture.text(0.02, 1 - 0.36 / height, said, fontsize=8, va="top", color="0.3", linespacing=1.3)
-    of_supports = [] if stretches and not normal else [name for name in panels if name != ZONES]
-    tables = {name: np.array([getattr(step, name) for step in states]) for name in of_supports}
-    alike = {name: _alike(table, normal) for name, table in tables.items()}
-    drawn = {name: _largest(table, alike[name]) for name, table in tables.items()}
-    styles = _styles(result, drawn, trace)
-    for row, name in enumerate(panels):
-        above, width = len(panels) - 1 - row, WIDTH - LEFT - NAMES
+        picture.text(0.02, 1 - (0.36 + lower) / height, said, fontsize=8, va="top", color="0.3", linespacing=1.3)
+    styles = _styles(result, panels, trace)
+    longest = max((text_width(name, NAME_SIZE) for panel in panels for name in panel.names.values()), default=0.0)
+    width = WIDTH - LEFT - max(NAMES, (OFF + SAMPLE + longest + 8.0) / 72)
+    for row, panel in enumerate(panels):
+        above = len(panels) - 1 - row
         bottom = foot + above * (PANEL + GAP)
         axes = picture.add_axes((LEFT / WIDTH, bottom / height, width / WIDTH, PANEL / height))
         axes.set_xlim(min(0.0, factors.min()), factors.max() or 1.0)
-        if name in tables:
-            chosen = {k: alike[name][k] for k in drawn[name]}
-            _draw_supports(axes, result, trace, factors, tables[name], chosen, styles, dots)
-        elif name == ZONES:
+        if panel.table is not None:
+            chosen = {k: panel.lines[k] for k in panel.names}
+            _draw_supports(axes, result, trace, factors, panel.table, chosen, styles, dots)
+        elif panel.quantity == ZONES:
             draw_zones(axes, result, stretches)
         else:
             draw_extremes(axes, states, dots)
-        unit, factor = fmt.shown_unit(scene, name)
-        words = {"x": "x of contact", "opening": "opening"}.get(name) or f"{name}, {positive(scene, name)}"
-        _frame(axes, fmt.heading(words, unit), last=not above)
+        unit, factor = fmt.shown_unit(scene, panel.quantity)
+        _frame(axes, width, fmt.heading(panel.words, unit), last=not above)
         if factor != 1.0:
             axes.yaxis.set_major_formatter(lambda value, _, by=factor: with_minus_signs(fmt.number(by * value)))
-        if name in tables:
+        if panel.table is not None:
             end = len(factors) - 1 if trace is None else trace.end()
-            names = {k: _names(scene, alike[name][k]) for k in drawn[name]}
-            _name_lines(axes, names, {k: float(tables[name][end, k]) for k in drawn[name]}, styles)
-            moving = len(alike[name])
-            if moving > len(drawn[name]):
-                axes.set_title(f"the {len(drawn[name])} largest of {moving}", loc="right", fontsize=8, color="0.3")
+            _name_lines(axes, width, panel, {k: float(panel.table[end, k]) for k in panel.names}, styles)
+            if len(panel.lines) > len(panel.names):
+                axes.set_title(f"the {len(panel.names)} largest of {len(panel.lines)}", loc="right", fontsize=8, color="0.3")
     axes.set_xlabel("load factor" + (f" ({note})" if note and not lines else ""), fontsize=9)
     if trace is not None:
         name_limits(picture.axes[0], trace)
@@ -150,14 +175,48 @@ def path_figure(result: Result) -> Figure:
     return literal(picture)
 
 
+def _panels(result: Result, states: list[Step], on_ground: bool) -> list[Panel]:
+    """Choose the panels: supports across the beam always; joints that have a law or a slack, supports along it that let go."""
+    scene = result.scene
+    tables = {name: np.array([getattr(step, name) for step in states]) for name in {*PANELS, *OF_LAWS}}
+    found = [Panel(ZONES, "x of contact")] if on_ground else []
+
+    def add(supports: list[int], noun: str, quantities: Sequence[str], words: Sequence[str]) -> None:
+        bent = noun == "joint" or any(scene.supports[k].law is not None for k in supports)
+        for name, quantity, said in zip(OF_LAWS if bent else PANELS, quantities, words, strict=True):
+            lines = _alike(tables[name], supports)
+            drawn = {k: _names(scene, lines[k]) for k in _largest(tables[name], lines)}
+            if drawn:
+                found.append(Panel(quantity, said, tables[name], lines, drawn, noun))
+
+    directions = column_of(scene.supports, "direction")
+    across, turning, along = (
+        [k for k, one in enumerate(directions) if one in kinds] for kinds in (("normal",), TURNING, ("axial",))
+    )
+    signed = {name: f"{name}, {positive(scene, name)}" for name in OF_LAWS} | {"opening": "opening"}
+    second = [ALONG if any(scene.supports[k].law is not None for k in which) else "opening" for which in (across, along)]
+    add(across, "support", ["reaction", second[0]], [signed["reaction"], signed[second[0]]])
+    if turning:
+        hinges = {scene.supports[k].direction for k in turning} == {"hinge"}
+        back, forth = (UPRIGHT if is_upright(scene) else LYING)[1]
+        words = [f"couple, {back} positive", f"rotation, {forth} positive"]
+        words = ["moment, sagging positive", "rotation, left less right"] if hinges else words
+        add(turning, "joint", ["couple", "rotation"], words)
+    if any(step.state[k] != "bilateral" for step in states for k in along):
+        add(along, "support", ["reaction", second[1]], ["reaction along the beam", f"{second[1]} along the beam"])
+    if not across and (on_ground or not found):
+        found.insert(on_ground, Panel(ALONG, signed[ALONG]))
+    return found or [Panel(ALONG, signed[ALONG])]
+
+
 def _stretches(result: Result, dots: bool) -> list[list[Step]]:
     """Choose states on the ground: from event to event, or every load step by itself."""
     return states_on_ground(result) if result.segments else [[step] for step in _states(result, dots)]
 
 
-def _styles(result: Result, drawn: dict[str, list[int]], trace: Trace | None) -> dict[int, dict]:
+def _styles(result: Result, panels: list[Panel], trace: Trace | None) -> dict[int, dict]:
     """Give every support that is drawn a line of its own."""
-    shown = {k for supports in drawn.values() for k in supports}
+    shown = {k for panel in panels for k in panel.names}
     if trace is None:
         return {k: _style(order) for order, k in enumerate(sorted(shown))}
     laws = {k for k in shown if result.scene.supports[k].law is not None}
@@ -198,7 +257,8 @@ def _states(result: Result, dots: bool) -> list[Step]:
 def _note(result: Result) -> str:
     """Say what the marks of events mean."""
     kinds = {event.event for event in result.events if event.support is not None}
-    law = f"squares, it {' or '.join(sorted(others))}" if (others := kinds - {"closes", "opens", "turns"}) else ""
+    others = sorted(EVENT_WORDS[kind] for kind in kinds - {"closes", "opens", "turns"})
+    law = f"squares, it {' or '.join(others)}" if others else ""
     return "; ".join(filter(None, ["circles: filled, the support closes; open, it opens" if kinds else "", law]))
 
 
@@ -245,9 +305,9 @@ def _mark_events(axes: Axes, result: Result, alike: list[int], factors: np.ndarr
                       markersize=5, clip_on=False)  # fmt: skip
 
 
-def _frame(axes: Axes, words: str, last: bool) -> None:
+def _frame(axes: Axes, width: float, words: str, last: bool) -> None:
     axes.set_ylabel(words, fontsize=9)
-    axes.yaxis.set_label_coords(-0.7 / (WIDTH - LEFT - NAMES), 0.5)
+    axes.yaxis.set_label_coords(-0.7 / width, 0.5)
     axes.tick_params(labelsize=8, labelbottom=last)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.axhline(0.0, color="black", linewidth=0.8)
@@ -256,7 +316,8 @@ def _frame(axes: Axes, words: str, last: bool) -> None:
 
 def _names(scene: Scene, supports: list[int]) -> str:
     """Name the supports that a line is of, as far as there is room."""
-    names = [label(scene.supports, k) for k in supports]
+    every = short_names(scene)
+    names = [every[k] for k in supports]
     text = ", ".join(names)
     while len(text) > MOST_CHARACTERS and len(names) > 1:
         names.pop()
@@ -264,12 +325,12 @@ def _names(scene: Scene, supports: list[int]) -> str:
     return cut_text(text, MOST_CHARACTERS)
 
 
-def _name_lines(axes: Axes, lines: dict[int, str], ends: dict[int, float], styles: dict[int, dict]) -> None:
+def _name_lines(axes: Axes, width: float, panel: Panel, ends: dict[int, float], styles: dict[int, dict]) -> None:
     """Write the name of every line beside its end, with a sample of it, one above another."""
     if not ends:
         return
     low, high = axes.get_ylim()
-    tall, wide = PANEL * 72, (WIDTH - LEFT - NAMES) * 72
+    tall, wide = PANEL * 72, width * 72
     # Of equal ends the first support is the uppermost
     order = sorted(ends, key=lambda k: (ends[k], -k))
     at = [(ends[k] - low) / (high - low) for k in order]
@@ -279,5 +340,5 @@ def _name_lines(axes: Axes, lines: dict[int, str], ends: dict[int, float], style
     for k, end, name in zip(order, at, names, strict=True):
         axes.plot((1.0, sample[0]), (end, name), color="0.7", linewidth=0.6, **beside)
         axes.plot(sample, (name, name), linewidth=1.3, **styles[k], **beside)
-        axes.text(sample[1] + 3.0 / wide, name, lines[k], fontsize=8, va="center", transform=axes.transAxes)
-    axes.text(sample[0], names[-1] + 0.8 * NAME / tall, "support", fontsize=8, transform=axes.transAxes)
+        axes.text(sample[1] + 3.0 / wide, name, panel.names[k], fontsize=NAME_SIZE, va="center", transform=axes.transAxes)
+    axes.text(sample[0], names[-1] + 0.8 * NAME / tall, panel.noun, fontsize=NAME_SIZE, transform=axes.transAxes)

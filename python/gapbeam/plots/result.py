@@ -5,6 +5,7 @@ is used through its objects, without pyplot and its state, so that pictures can 
 """
 
 import os
+import textwrap
 from collections import Counter
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.equilibrium import acting_axial_forces, feels_axial_force
 from ..results.state.ground import joined, noun_of
+from ..scene.rotations import turns
 from .beam import SupportLanes, draw_beam, draw_contacts
 from .bezier import cells_of
 from .curves import draw_field
@@ -24,6 +26,7 @@ from .ground import GroundLanes, cells_a_span, draw_ground, near_surface, zone_h
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import MOST_MARKS, find_peaks
+from .movements import Movements, draw_movements
 from .panels import PANELS, outcome
 from .save import literal, save
 from .sheet import Sheet, along, heading_height
@@ -34,6 +37,7 @@ from .turned import Turned, is_turned
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.ground import Contact
+    from ..scene.structs import Scene
 
 def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
     """Draw a result into a file.
@@ -84,15 +88,19 @@ def figure(result: "Result", step: int = -1) -> Figure:
         panels = []
 
     length = along(scene)
-    ground = GroundLanes(scene, length)
-    supports = SupportLanes(scene, states, length, (ground.below, ground.above), values, kinds)
-    loads = LoadLanes(scene, supports.top, length, state.factor if stands else 1.0)
+    factor = state.factor if stands else 1.0
+    movements = Movements(scene, factor)
+    ground = GroundLanes(scene, length, movements)
+    supports = SupportLanes(scene, states, length, (ground.below, ground.above), values, kinds, movements)
+    loads = LoadLanes(scene, supports.top, length, factor)
     text = _headline(result, step, kinds, contact) if stands else outcome(result)
-    handles = legend_handles(kinds) * (not supports.rows) + zone_handles(contact, result.scene)
-    sheet = Sheet(scene, heading_height(text, handles), supports.bottom, loads.top, len(panels))
+    handles = legend_handles(_of_symbols(scene, kinds)) * (not supports.rows) + zone_handles(contact, result.scene)
+    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, loads.top, len(panels))
     draw_ground(sheet.sketch, ground, contact)
     draw_beam(sheet.sketch, scene, states, supports)
     draw_loads(sheet.sketch, loads)
+    if not supports.rows:
+        draw_movements(sheet.sketch, movements, supports.x, sheet.end, supports.size)
     sheet.write_heading(text, handles)
     for quantity, words, downward in panels:
         panel = sheet.panel(quantity, words, downward)
@@ -114,18 +122,30 @@ def figure(result: "Result", step: int = -1) -> Figure:
 
 def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tuple[Contact, ...]") -> str:
     """Say how many supports do what."""
-    counted, factor = Counter(kinds), result.steps[step].factor
+    scene, factor = result.scene, result.steps[step].factor
+    counted = Counter(_of_symbols(scene, kinds))
     text = with_minus_signs(f"load factor {fmt.number(factor)}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
-    doing = {kind: f"{kind[:-1]}ing" if kind.endswith("s") else symbol.words for kind, symbol in SYMBOLS.items()}
+    said = {kind: symbol.words for kind, symbol in SYMBOLS.items()}
+    doing = {kind: f"{kind[:-1]}ing" if words == kind and words.endswith("s") else words for kind, words in said.items()}
     text += "".join(f", {counted[kind]:,} {words}" for kind, words in doing.items() if kind in counted)
+    joints = [kind for kind, one in zip(kinds, scene.supports, strict=True) if turns(one)]
+    if joints:
+        verb = "hold" if len(joints) > 1 else "holds"
+        text += f", {len(joints) - joints.count('open'):,} of {fmt.count(len(joints), 'joint')} {verb}"
     if feels_axial_force(result):
         forces = [force for *_, left, right in acting_axial_forces(result, result.steps[step]) for force in (left, right)]
-        ends = dict.fromkeys(fmt.value(result.scene, "axial_force", force) for force in (min(forces), max(forces)))
+        ends = dict.fromkeys(fmt.value(scene, "axial_force", force) for force in (min(forces), max(forces)))
         text += with_minus_signs(f", N {' to '.join(ends)}")
     zones = joined(contact)
-    return text + (f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else "")
+    text += f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else ""
+    return "\n".join(textwrap.wrap(text, 105))
+
+
+def _of_symbols(scene: "Scene", kinds: tuple[str, ...]) -> tuple[str, ...]:
+    """Take what supports do that are drawn by such symbols: those that hold a rotation are not."""
+    return tuple(kind for kind, one in zip(kinds, scene.supports, strict=True) if not turns(one))
 
 
 def _motion(axes: Axes | Turned, result: "Result") -> None:

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from .labels import text_width
-from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, axis_label, cut_text
+from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, axis_label
+from .titles import HEIGHT, SIZE, title_lines
 from .turned import Turned
 
 if TYPE_CHECKING:
@@ -78,11 +79,12 @@ class Sheet:
         """Write title and text, and the legend beside or under them."""
         rows = legend_rows(text, handles)
         left = LEFT / self.width * 0.25
-        self.picture.text(left, 1 - 0.22 / self.height, cut_text(fmt.title(self.scene, "Beam"), 95), fontsize=10,
-                          fontweight="bold", va="center")  # fmt: skip
-        self.picture.text(left, 1 - 0.34 / self.height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
+        lines = title_lines(fmt.title(self.scene, "Beam"))
+        lower = HEIGHT * (len(lines) - 1)
+        self.picture.text(left, 1 - 0.14 / self.height, "\n".join(lines), fontsize=SIZE, fontweight="bold", va="top")
+        self.picture.text(left, 1 - (0.34 + lower) / self.height, text, fontsize=8, va="top", color="0.3", linespacing=1.4)
         if handles:
-            under = 0.34 if not rows else 0.36 + 0.16 * (1 + text.count("\n"))
+            under = lower + (0.34 if not rows else 0.36 + 0.16 * (1 + text.count("\n")))
             self.picture.legend(
                 handles=handles, loc="upper right", bbox_to_anchor=(1 - RIGHT / self.width, 1 - under / self.height),
                 ncols=-(-len(handles) // max(rows, 1)), frameon=False, fontsize=7.5, handletextpad=0.1, columnspacing=1.0,
@@ -174,9 +176,9 @@ def legend_rows(text: str, handles: list[Line2D]) -> int:
     return -(-len(wide) // max(1, int(page / max(wide))))
 
 
-def heading_height(text: str, handles: list[Line2D]) -> float:
+def heading_height(scene: Scene, text: str, handles: list[Line2D]) -> float:
     """Give the height of title, text and legend (inches)."""
-    return 0.6 + 0.15 * text.count("\n") + 0.17 * legend_rows(text, handles)
+    return 0.6 + HEIGHT * (len(title_lines(fmt.title(scene))) - 1) + 0.15 * text.count("\n") + 0.17 * legend_rows(text, handles)
 
 
 def positive(scene: Scene, quantity: str) -> str:

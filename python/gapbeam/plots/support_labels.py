@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import textwrap
 from collections import defaultdict
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..scene.names import labels
-from .labels import LINE, Labels, spread, text_width
-from .support_values import SupportValues, properties
+from .labels import LINE, MARGIN, Labels, spread, text_width
+from .support_values import SupportValues, properties, short_names
 
 if TYPE_CHECKING:
     from ..scene.structs import Scene
+    from .movements import Movements
 
 MOST_LINES = 8
 """Lines that gaps and springs may take under the numbers of the supports."""
@@ -59,6 +60,8 @@ class SupportTexts:
         Reactions and openings.
     upright : bool
         Whether the beam stands.
+    movements : Movements, optional
+        Of supports, by loads.
 
     Attributes
     ----------
@@ -73,9 +76,10 @@ class SupportTexts:
     """
 
     def __init__(
-        self, scene: Scene, x: np.ndarray, length: float, top: float, values: SupportValues | None = None, upright: bool = False
-    ) -> None:
-        self.scene, self.names, self.values = scene, labels(scene.supports), values
+        self, scene: Scene, x: np.ndarray, length: float, top: float, values: SupportValues | None = None, upright: bool = False,
+        movements: Movements | None = None,
+    ) -> None:  # fmt: skip
+        self.scene, self.names, self.values, self.movements = scene, short_names(scene), values, movements
         self.scale = length / float(scene.span_ends()[-1])  # points per length
         self.page = (length + 38.0) / self.scale
         self.at: dict[float, list[int]] = defaultdict(list)
@@ -89,7 +93,8 @@ class SupportTexts:
             self.bottom = min((text.y - text_width(text.words) for text in self.texts), default=top) - 2.0
         else:
             groups, every = self._groups()
-            self.texts = [Text(_middle(group), top, self._numbers(group)) for group in groups]
+            words = [self._numbers(group) for group in groups]
+            self.texts = [Text(self._inside(_middle(group), text), top, text) for group, text in zip(groups, words, strict=True)]
             self.alone = {group[0] for group in groups if len(group) == 1}
             rows = self._reactions(top - LINE) if values is not None else 0
             self._properties(top - LINE * (1 + rows), every)
@@ -103,7 +108,7 @@ class SupportTexts:
         found: dict[tuple[str, str], list[str]] = defaultdict(list)
         sides = {support.side for support in self.scene.supports} - {"both"}
         for k, support in enumerate(self.scene.supports):
-            for kind, words in properties(self.scene, k).items():
+            for kind, words in self._told_of(k).items():
                 found[kind, support.side].append(words)
         each = {pair for pair, words in found.items() if len(words) > EACH and len(set(words)) == 1}
         notes: dict[str, list[str]] = defaultdict(list)
@@ -113,17 +118,34 @@ class SupportTexts:
         self.notes += textwrap.wrap("; ".join(f"{which}: {', '.join(words)} each" for which, words in notes.items()), WIDE)
         return each
 
+    def _told_of(self, k: int) -> dict[str, str]:
+        """Word what a support is, and what moves it."""
+        return properties(self.scene, k) | (self.movements.words(k) if self.movements else {})
+
     def _groups(self) -> tuple[list[list[float]], int]:
         """Choose the places whose supports are numbered: near ones together, every one in so many."""
         steps = (1, 2, 5, 10, 20, 50, 10 ** max(2, len(str(len(self.at))) - 1))
         every = next(step for step in steps if len(self.at) / step <= 32)
         groups: list[list[float]] = []
+        self.named = self.values is not None and every == 1 and not all(name.isdigit() for name in self.names)
+        if self.named:
+            return self._apart(), every
         for place in sorted(self.at)[::every]:
             if not groups or (place - _middle(groups[-1])) * self.scale > (self._width(groups[-1]) + self._width([place])) / 2:
                 groups.append([place])
             elif every == 1:
                 groups[-1].append(place)  # too near for a label of its own
         return groups, every
+
+    def _apart(self) -> list[list[float]]:
+        """Choose the places whose names have room beside one another; the others are named where their reactions stand."""
+        places = sorted(self.at)
+        close = [
+            (second - first) * self.scale <= (self._width([first]) + self._width([second])) / 2
+            for first, second in pairwise(places)
+        ]
+        beside = zip(places, [False, *close], [*close, False], strict=True)
+        return [[place] for place, before, after in beside if not (before or after)]
 
     def _width(self, places: list[float]) -> float:
         return text_width(self._numbers(places))
@@ -140,6 +162,9 @@ class SupportTexts:
     def _reactions(self, top: float) -> int:
         """Write reactions and openings, what has no contact first, then the largest; return the number of rows they take."""
         told = {place: self.values.told(indices, self.few, place not in self.alone) for place, indices in self.at.items()}
+        for place in told.keys() - self.alone if self.named else ():
+            if not (told[place].lines or told[place].openings):
+                told[place] = told[place]._replace(lines=(self._numbers([place]),))
         told = {place: one for place, one in told.items() if one.lines or one.openings}
         if not self.few:
             self.unit = self.values.heading
@@ -155,7 +180,7 @@ class SupportTexts:
             every, lifted = (*one.lines, *one.openings), one.lifted
             words, high = "\n".join(every), len(every)
             middle = self._inside(place, words)
-            for row in range(ROWS * (dense and lifted), (MOST_ROWS if lifted else ROWS) * tallest):
+            for row in range(ROWS * (dense and lifted), (MOST_ROWS if lifted or self.named else ROWS) * tallest):
                 if taken.take(middle * self.scale, top - LINE * (row + high), words):
                     if one.lines:
                         self.texts.append(Text(middle, top - LINE * row, "\n".join(one.lines), lifted and not one.openings))
@@ -168,8 +193,9 @@ class SupportTexts:
         return used
 
     def _inside(self, place: float, words: str) -> float:
-        """Move the middle of a text so that it ends on the page."""
-        return min(place, self.page - text_width(words) / 2 / self.scale)
+        """Move the middle of a text so that it stands on the page."""
+        half = text_width(words) / 2 / self.scale
+        return max(min(place, self.page - half), half - MARGIN / self.scale)
 
     def _properties(self, top: float, every: int) -> None:
         """Write gaps, settlements and springs under the rest, further down where they would cover one another.
@@ -192,7 +218,7 @@ class SupportTexts:
     def _of_place(self, place: float, indices: list[int]) -> str:
         """Word what the supports of a place are, as far as it is not said of all."""
         found = {
-            k: [words for kind, words in properties(self.scene, k).items() if (kind, self.scene.supports[k].side) not in self.each]
+            k: [words for kind, words in self._told_of(k).items() if (kind, self.scene.supports[k].side) not in self.each]
             for k in indices
         }
         found = {k: words for k, words in found.items() if words}
@@ -201,10 +227,10 @@ class SupportTexts:
         same = len(found) == len(indices) and len({tuple(words) for words in found.values()}) == 1
         if same and self._stands_alone(place):
             return "\n".join(found[indices[0]])
-        sides = len({self.scene.supports[k].side for k in indices}) > 1
-        return "\n".join(
-            f"{self.names[k]}{f' {self.scene.supports[k].side}' * sides}: {words}" for k, each in found.items() for words in each
-        )
+        across = {k: self.scene.supports[k].side for k in indices if self.scene.supports[k].direction == "normal"}
+        sides = len(set(across.values())) > 1
+        names = {k: f"{self.names[k]} {across[k]}" if sides and k in across else self.names[k] for k in found}
+        return "\n".join(f"{names[k]}: {words}" for k, each in found.items() for words in each)
 
     def _stands_alone(self, place: float) -> bool:
         return place in getattr(self, "alone", self.at)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -12,6 +13,7 @@ from ..results import formatting as fmt
 from ..results.views.extreme import KINDS
 from ..scene.names import labels
 from ..scene.rotations import turns
+from .panels import cut_text
 from .sheet import is_upright
 
 if TYPE_CHECKING:
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
 
 DIGITS = 4
 """Of a reaction."""
+MOST_CHARACTERS = 26
+"""Of the name of a support."""
 NONE = 1e-9
 """Reactions and openings below this share of the largest, or of the deflections, are said to be none."""
 LYING = "\N{LEFTWARDS ARROW}\N{RIGHTWARDS ARROW}", "\N{ANTICLOCKWISE OPEN CIRCLE ARROW}\N{CLOCKWISE OPEN CIRCLE ARROW}"
@@ -82,7 +86,7 @@ class StateValues:
     """
 
     def __init__(self, scene: Scene, step: Step) -> None:
-        self._scene, self._step, self._names = scene, step, labels(scene.supports)
+        self._scene, self._step, self._names = scene, step, short_names(scene)
         force = _across(scene, step.reaction)
         self._small = NONE * float(np.abs(step.reaction).max(initial=0.0))
         self.up, self.down = np.maximum(force, 0.0), np.maximum(-force, 0.0)
@@ -139,7 +143,7 @@ class EnvelopeValues:
     """
 
     def __init__(self, scene: Scene, envelope: Envelope | TrainEnvelope, key: Key) -> None:
-        self._scene, self._key, self._names = scene, key, labels(scene.supports)
+        self._scene, self._key, self._names = scene, key, short_names(scene)
         self._rows = envelope.supports
         count = len(scene.supports)
         pairs = ((name, kind) for name in ("reaction", "opening") for kind in KINDS)
@@ -180,6 +184,16 @@ class EnvelopeValues:
                 where = openings if kind == "open" else words
                 where += [f"{line}, {source}"] if short else [line, *[source] * bool(source)]
         return Told(tuple(words), size, lifted, tuple(openings))
+
+
+def short_names(scene: Scene) -> list[str]:
+    """Name the supports; long names are cut at the end, or in the middle where the ends tell them apart."""
+    whole = labels(scene.supports)
+    found = [cut_text(name, MOST_CHARACTERS) for name in whole]
+    half, often = MOST_CHARACTERS // 2 - 1, Counter(found)
+    return [
+        cut if cut == name or often[cut] == 1 else f"{name[:half]}...{name[-half:]}" for name, cut in zip(whole, found, strict=True)
+    ]
 
 
 def properties(scene: Scene, k: int) -> dict[str, str]:

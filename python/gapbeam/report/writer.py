@@ -1,5 +1,6 @@
 """The few shapes a report is made of: a line, a heading, a table, a list of names and values."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from rich import box
@@ -45,23 +46,27 @@ class Writer:
         rows: Sequence[Sequence[str]],
         left: Sequence[int] = (),
         longest: int = LONGEST,
+        whole: bool = False,
     ) -> None:
         """Write a table; numbers of the columns in `left` are flush left, the others flush right.
 
-        More than `longest` rows are cut in the middle, and a line says so.
+        More than `longest` rows are cut in the middle, and a line says so. Columns whose words do not fit beside the others stand
+        below, behind the first one again.
         """
         shown, hidden = cut(rows, longest)
-        table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
-        widths = widths_of_columns([list(texts) for texts in zip(headings, *shown, strict=True)], self.width)
-        for index, (heading, width) in enumerate(zip(headings, widths, strict=True)):
-            table.add_column(
-                Text(heading), justify="left" if index in left else "right", overflow="fold", vertical="top", width=width
-            )
-        for index, row in enumerate(shown):
-            if hidden and index == len(shown) // 2:
-                table.add_row(*["..."] * len(headings))
-            table.add_row(*(Text(cell) for cell in row))
-        self.console.print(table)
+        columns = [list(texts) for texts in zip(headings, *shown, strict=True)]
+        for number, part in enumerate(parts_of_table(columns, self.width, whole)):
+            if number:
+                self.line()
+            table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
+            for k, width in zip(part, widths_of_columns([columns[k] for k in part], self.width), strict=True):
+                justify = "left" if k in left else "right"
+                table.add_column(Text(headings[k]), justify=justify, overflow="fold", vertical="top", width=width)
+            for index, row in enumerate(shown):
+                if hidden and index == len(shown) // 2:
+                    table.add_row(*["..."] * len(part))
+                table.add_row(*(Text(row[k]) for k in part))
+            self.console.print(table)
         if hidden:
             self.line(
                 f"{hidden:,} rows in the middle are left out here; all are in the output of --json.", "italic"
@@ -69,18 +74,7 @@ class Writer:
 
     def table_by_name(self, headings: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         """Write a table of numbers by name, with whole names: columns that do not fit stand below, by name again."""
-        names, *columns = ([heading, *(row[k] for row in rows)] for k, heading in enumerate(headings))
-        wide = [max(map(cell_len, texts)) + GAP for texts in (names, *columns)]
-        first = 1
-        while first < len(headings):
-            last = first + 1
-            while last < len(headings) and wide[0] + sum(wide[first : last + 1]) <= self.width:
-                last += 1
-            if first > 1:
-                self.line()
-            part = slice(first, last)
-            self.table([headings[0], *headings[part]], [[row[0], *row[part]] for row in rows], left=[0])
-            first = last
+        self.table(headings, rows, left=[0], whole=True)
 
     def pairs(self, rows: Sequence[tuple[str, str]]) -> None:
         """Write names and what there is to say of them."""
@@ -119,14 +113,61 @@ def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[
     [None, None]
     """
     room = width - GAP * len(columns) + 1
-    wanted = [max(map(cell_len, texts)) for texts in columns]
-    least = [max((cell_len(word) for text in texts for word in text.split()), default=0) for texts in columns]
+    wanted = widest_lines(columns)
+    least = widest_words(columns)
     if sum(wanted) <= room or sum(least) > room:
         return [None] * len(columns)
     while sum(wanted) > room:  # the widest one that can gives way
         can = [most if most > word else 0 for most, word in zip(wanted, least, strict=True)]
         wanted[can.index(max(can))] -= 1
     return wanted
+
+
+def widest_lines(columns: Sequence[Sequence[str]]) -> list[int]:
+    """Measure the widest line of every column."""
+    return [max(cell_len(line) for text in texts for line in text.split("\n")) for texts in columns]
+
+
+def widest_words(columns: Sequence[Sequence[str]]) -> list[int]:
+    """Measure the widest word of every column."""
+    return [max((cell_len(word) for text in texts for word in text.split()), default=0) for texts in columns]
+
+
+def parts_of_table(columns: Sequence[Sequence[str]], width: int, whole: bool = False) -> list[list[int]]:
+    """Divide the columns of a table whose words do not fit beside one another; the first one stands in every part.
+
+    Parameters
+    ----------
+    columns : sequence of sequence of str
+        Heading and cells of each. One with the heading of another one, such as ``from``, stands with the one before it.
+    width : int
+        Of the page.
+    whole : bool
+        Whether texts are not broken at blanks where columns may stand below instead.
+
+    Returns
+    -------
+    list of list of int
+        Numbers of columns.
+
+    Examples
+    --------
+    >>> parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 18)
+    [[0, 1], [0, 2]]
+    >>> parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 24)
+    [[0, 1, 2]]
+    """
+    wide = [one + GAP for one in widest_lines(columns)]
+    if not whole and sum(widest_words(columns)) + GAP * len(columns) - 1 <= width:
+        return [list(range(len(columns)))]
+    often = Counter(heading for heading, *_ in columns)
+    parts: list[list[int]] = [[0]]
+    for k in range(1, len(columns)):
+        with_next = [j for j in (k, k + 1) if j == k or (j < len(columns) and often[columns[j][0]] > 1)]
+        if len(parts[-1]) > 1 and often[columns[k][0]] == 1 and sum(wide[j] for j in (*parts[-1], *with_next)) > width:
+            parts.append([0])
+        parts[-1].append(k)
+    return parts
 
 
 def cut(rows: Sequence, longest: int = LONGEST) -> tuple[list, int]:

@@ -127,7 +127,7 @@ def supports_moved(scene: Scene, factor: float) -> np.ndarray:
     moves = np.zeros(len(scene.supports))
     for k, load in enumerate(scene.loads):
         if moves_support(load):
-            moves[number_of_moved(scene, k, load)] += _share(load, factor) * load.value
+            moves[number_of_moved(scene, k, load)] += share_of(load, factor) * load.value
     return moves
 
 
@@ -142,7 +142,7 @@ def ground_moved(scene: Scene, factor: float) -> np.ndarray:
     moves = np.zeros((len(scene.foundation), 2))
     for k, load in enumerate(scene.loads):
         if moves_ground(load):
-            moves[number_of_moved(scene, k, load)] += _share(load, factor) * np.asarray(load.value)
+            moves[number_of_moved(scene, k, load)] += share_of(load, factor) * np.asarray(load.value)
     return moves
 
 
@@ -238,7 +238,14 @@ def refuse_movements(scene: Scene, problem: str) -> None:
             raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")
 
 
-def _share(load: MovementLoad, factor: float) -> float:
+def share_of(load: Load, factor: float) -> float:
+    """Give the share of a load that acts at a load factor.
+
+    Parameters
+    ----------
+    load, factor : Load, float
+        The load, and the load factor.
+    """
     return 1.0 if load.case == DEAD else factor
 
 

@@ -5,11 +5,13 @@ import re
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam.plots import figure
+from gapbeam.plots import figure, path_figure
 from gapbeam.plots.marks import DIGITS
 from gapbeam.plots.save import picture
+from gapbeam.plots.support_values import short_names
 from gapbeam.results.formatting import number
 from gapbeam.studies.meshes import gapped_spans
+from matplotlib.text import Text
 
 SPANS = [3, 12, 50, 1000]
 MINUS = "\N{MINUS SIGN}"
@@ -85,3 +87,75 @@ def test_arrows_point_as_reactions_push(drawn):
     heads = {c.get_label(): len(c.get_offsets()) for c in made.axes[0].collections if c.get_label().startswith("reactions")}
     assert heads.get("reactions up", 0) == (push > 0.0).sum()
     assert heads.get("reactions down", 0) == (push < 0.0).sum()
+
+
+def long_names():
+    """Names that would run into one another and off the page."""
+    names = ["western abutment, bearing number one", "pier A, left bearing", "pier A, right bearing", "temporary prop", "pier B",
+             "pier B, second row", "eastern abutment, expansion bearing"]  # fmt: skip
+    supports = [{"node": k, "side": "below", "name": name, "gap": 0.001 * (k in (1, 2))} for k, name in enumerate(names)]
+    loads = [{"type": "uniform", "q": 2.0, "case": "dead"}, {"type": "force", "x": 3.0, "F": 160.0, "name": "heavy transformer"},
+             {"type": "force", "x": 18.6, "F": 16.0, "name": "a second transformer on a lorry"}]  # fmt: skip
+    return {
+        "title": "Pipe bridge over the river at kilometre 17.4, northern approach, cold, with all hold-downs removed, " * 2,
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 0.4, 5.6, 0.3, 0.3, 6.0], "EI": 1e4},
+        "supports": supports, "loads": loads,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("draw", [figure, path_figure])
+def test_long_names_and_titles_stand_on_the_page_and_apart(draw):
+    made = draw(gapbeam.solve(long_names()))
+    made.draw_without_rendering()
+    texts = [text for text in made.findobj(Text) if text.get_text() and text.get_visible()]
+    shown = {text: text.get_window_extent() for text in texts}
+    assert [t.get_text() for t, box in shown.items() if not (0.0 <= box.x0 <= box.x1 <= made.bbox.x1)] == []
+    title = next(text for text in texts if text.get_text().startswith("Pipe bridge"))
+    assert title.get_text().count("\n") == 1
+    assert title.get_text().endswith("...")
+    drawn = [shown[text].shrunk(1, 0.7) for text in [title, *made.axes[0].texts] if text in shown]
+    assert not [(a, b) for k, a in enumerate(drawn) for b in drawn[:k] if a.overlaps(b)]
+
+
+def test_every_support_with_a_long_name_is_named_where_it_is():
+    result = gapbeam.solve(long_names())
+    texts = [text.get_text() for text in figure(result).axes[0].texts]
+    for name in ("western abutment, beari...", "pier A, right bearing: open", "temporary prop: open", "eastern abutment, expan..."):
+        assert any(text.startswith(name) for text in texts)
+    names = [f"bearing of the northern girder {way}" for way in ("left", "right")]
+    scene = {"beam": {"spans": [6.0], "EI": 1.0}, "supports": [{"node": k, "name": name} for k, name in enumerate(names)]}
+    assert short_names(gapbeam.read_scene(scene)) == ["bearing of t... girder left", "bearing of t...girder right"]
+
+
+def test_loads_that_move_supports_are_drawn_with_value_and_unit():
+    """Upward at a jack, along the beam at its fixed point, around at a clamp and in a hinge; as far as the load has grown."""
+    result = gapbeam.solve({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e6},
+        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 0, "direction": "axial"},
+                     {"node": 1, "side": "below", "name": "jack"}, {"node": 2}],
+        "hinges": [{"x": 4.0, "slack": 0.004, "stiffness": 3e3, "name": "splice"}],
+        "loads": [{"type": "uniform", "q": 4.0, "case": "dead"}, {"type": "movement", "support": "jack", "value": -0.02},
+                  {"type": "movement", "support": 0, "rotation": 0.004, "case": "dead"},
+                  {"type": "movement", "support": 1, "value": 0.004}, {"type": "movement", "support": "splice", "value": -0.002}],
+        "analysis": {"steps": 2},
+    })  # fmt: skip
+    sketch = figure(result, step=0).axes[0]
+    said = "\n".join(text.get_text() for text in sketch.texts)
+    for words in ("moves \u2191 10 mm live", "turns \u21bb 0.004 rad dead", "moves \u2192 2 mm live", "turns \u21ba 0.001 rad live",
+                  "slack 0.004 rad"):  # fmt: skip
+        assert words in said
+    drawn = sorted(one.get_label() for one in sketch.collections if one.get_label().startswith("moves"))
+    assert drawn == ["moves across", "moves along", "moves turn", "moves turn"]
+    assert "0 of 1 joint holds" in "\n".join(text.get_text() for text in figure(result).texts)
+
+
+def test_ground_that_moves_says_so_by_its_name():
+    result = gapbeam.solve({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [20.0], "EI": 2e4},
+        "foundation": [{"k": 5e3, "name": "clay", "to": 10.0}, {"k": 8e3, "from": 10.0}],
+        "loads": [{"type": "uniform", "q": 10.0, "case": "dead"},
+                  {"type": "movement", "foundation": "clay", "value": [0.0, 0.003], "case": "mine"},
+                  {"type": "movement", "foundation": 1, "value": -0.01}],
+    })  # fmt: skip
+    texts = [text.get_text() for text in figure(result).axes[0].texts]
+    assert {"clay, moves 0 mm to \u2193 3 mm mine", "moves \u2191 10 mm live"} <= {*texts}

@@ -119,3 +119,22 @@ def test_a_path_that_ends_says_why():
     assert picture.axes[0].get_xlim() == (0.0, 0.05)
     with pytest.raises(ValueError, match="there is no path to draw: no equilibrium at load factor 1"):
         path_figure(gapbeam.solve(made))
+
+
+@pytest.mark.parametrize("analysis", [{"follow": "events"}, {"steps": 20}])
+def test_joints_are_drawn_where_something_happens_to_them(analysis):
+    """A loose splice and a loose clamp: the supports do nothing but carry."""
+    result = gapbeam.solve({
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4},
+        "hinges": [{"x": 4.0, "slack": 0.004, "stiffness": 3e3, "name": "splice"}],
+        "supports": [{"node": 0, "rotation": {"slack": 0.001, "stiffness": 5e4}}, {"node": 1}, {"node": 2}],
+        "loads": [{"type": "uniform", "q": 12.0}], "analysis": analysis,
+    })  # fmt: skip
+    reaction, couple, rotation = path_figure(result).axes
+    assert "reaction" in reaction.get_ylabel()
+    for axes, row in ((couple, result.steps[-1].reaction), (rotation, result.steps[-1].deflection)):
+        drawn = curves(axes)
+        assert {k: y[-1] for k, (_, y, *_) in drawn.items()} == {k: pytest.approx(row[k]) for k in (3, 4)}
+        assert {"splice", "rotation of 0"} <= {text.get_text() for text in axes.texts}
+        marks = {float(line.get_xdata()[0]) for line in axes.lines if line.get_marker() == "o" and len(line.get_xdata()) == 1}
+        assert marks == {event.factor for event in result.events}

@@ -235,3 +235,22 @@ def test_where_the_axis_alone_carries(tmp_path):
     assert len([text for text in texts if text.endswith("0.3 at 0")]) == 1
     result.to_html(tmp_path / "page.html")
     assert re.search(r'"type": ?"temperature".*"ends": ?\[30.0, ?30.0\]', (tmp_path / "page.html").read_text())
+
+
+def test_tables_that_are_too_wide_are_divided_and_break_no_word():
+    """Eleven columns: reaction, couple, deflection, opening, friction and slip beside long names."""
+    law = {"law": [[0.01, 40.0], [0.05, 60.0]], "unloading": "plastic"}
+    result = gapbeam.solve({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e6},
+        "supports": [{"node": 0, "name": "fixed-point-anchor-block-17", "rotation": 2e3, "friction": 0.3},
+                     {"node": 1, "name": "guide shoe with a long name", "side": "below", "gap": 0.001, "friction": 0.2, **law},
+                     {"node": 2, "side": "below", "friction": 0.4}],
+        "loads": [{"type": "uniform", "q": 12.0}, {"type": "axial", "node": 2, "F": 1.0}], "analysis": {"follow": "events"},
+    })  # fmt: skip
+    lines = report_text(result, 80).split("\n")
+    table = lines[lines.index("Supports at load factor 1") + 1 :]
+    table = table[: next(k for k, line in enumerate(table) if line.startswith("Sum of reactions"))]
+    assert sum(line.startswith("0 fixed-point-anchor-block-17 ") for line in table) == 2
+    heads = " ".join(table).split()
+    assert {"reaction", "couple", "deflection", "friction", "slip"} <= {*heads}
+    assert max(map(len, table)) <= 80
