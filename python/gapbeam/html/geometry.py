@@ -10,6 +10,7 @@ from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 from ..scene.ground_tables import at_both_ends
 from ..scene.names import DEAD, label, labels
+from ..scene.rotations import turns
 from ..scene.temperature import as_curvatures
 
 if TYPE_CHECKING:
@@ -88,7 +89,8 @@ def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
     return [
         {
             "name": name, "x": x, "side": SIDES.get(one.side, 0), "level": level, "gap": one.gap or 0.0,
-            "axial": one.direction == "axial", "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
+            "axial": one.direction == "axial", "turns": turns(one),
+            "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
             "turning": 0 if one.rotation == "free" else 2 if one.rotation == "fixed" else 1,
         }
         for one, name, x, level in rows

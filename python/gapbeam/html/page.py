@@ -96,7 +96,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "sha256": hashlib.sha256(source.data).hexdigest(),
         "result": whole,
         "panels": panels_data(result._beam.fields),
-        "units": units_data(scene),
+        "units": units_data(scene), "upright": scene.beam.direction == "down",
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "said": list(map(state_in_words, collected.words)),
         "foundations": foundations_data(scene), "along": places_of_marks(scene),
@@ -113,7 +113,8 @@ def html_page(result: Result, source: Source | None = None) -> str:
         tables=tables_of(result, envelope, collected.ways), ways=collected.ways, remarks=result.remarks,
         exactness=exactness(collected, result._beam.in_stretches),
         footer=_css(f"{fmt.title(scene)[:60]} \u00b7 gapbeam {data['version']} \u00b7 input {data['sha256'][:12]}"),
-        units=scene.units, ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
+        units=scene.units, upright=data["upright"],
+        ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
         script="".join((TEMPLATES / name).read_text() for name in ("evaluate.js", "draw.js", "page.js")),
     )  # fmt: skip

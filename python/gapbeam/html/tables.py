@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..base.characters import visible, with_minus_signs
+from ..report.signs import positive_along, positive_fields, positive_reactions
 from ..results import formatting as fmt
 from ..results.contact import source_in_words
 from ..results.data import modes_data
@@ -110,9 +111,9 @@ def _supports(result: Result) -> TableData:
         values = [Cell("", 0.0) if step is None else _shown(result, of, quiet[of][k]) for of in quantities]
         state = Cell("" if step is None else state_in_words(step.state[k]))
         table.append([Cell(_with_units(scene, k, name)), _number(x), Cell(side), state, *values])
-    note = "Reactions are positive upward."
+    note = f"Reactions are positive {positive_reactions(scene)}."
     if "slip" in quantities:
-        note += " Friction and slip: positive to the right."
+        note += f" Friction and slip: positive {positive_along(scene)}."
     return TableData("supports", "Supports in the state that is drawn", head, table, note)
 
 
@@ -128,7 +129,7 @@ def _extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:
     if not any(row[3].text for row in rows):
         head, rows = head[:3], [row[:3] for row in rows]
     return TableData("extremes", "Largest and smallest values along the beam", head, rows,
-                     "Positive: deflection downward, sagging moment, clockwise rotation.")  # fmt: skip
+                     positive_fields(result.scene))  # fmt: skip
 
 
 def _support_extremes(result: Result, envelope: Envelope | TrainEnvelope) -> TableData:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..engine.beam import SOLVED
 from ..results.trains.states import Placed, TrainLoads
+from ..scene.rotations import turns
 from .load_ways import PIXEL, Way, of_event
 from .states import Recorder, joined_moments, on_ground, packed
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from ..results.trains.traversals import ExactTraversal, SampledTraversal
     from ..scene.trains import Course
 
+AT_SUPPORTS = ("reaction", "deflection", "opening")
+"""Values at supports that a state may have: the first where it does not follow from the shear, all where joints hold rotations."""
 WITH_AXLES, WITH_UNIFORM = 3, 4
 """Degrees in the position of what axles and uniform loads of a train make at the joints, while the same supports act."""
 MOST_NUMBERS = 40_000
@@ -35,6 +38,7 @@ class PlacedRecorder(Recorder):
     def __init__(self, result: Result, words: list[str]) -> None:
         super().__init__(result, words)
         self._at = result.scene.positions(result.scene.supports)
+        self.turning = any(map(turns, result.scene.supports))
 
     def placed(self, one: Placed, loads: TrainLoads) -> dict[str, np.ndarray]:
         """Give the numbers of a state between which states are drawn.
@@ -62,12 +66,15 @@ class PlacedRecorder(Recorder):
             values = one.values(x, distance == lengths[piece])
             moment, shear = self._of_axles(one, loads, piece, x, distance == lengths[piece])
             found = {"w": values[0], "m": values[2] - moment, "v": values[3] - shear, "p": values[6]}
-        return found | ({"reaction": one.at_supports[0]} if self.with_reactions else {})
+        rows = one.at_supports if self.with_reactions else ()
+        return found | dict(zip(AT_SUPPORTS, rows if self.turning else rows[:1], strict=False))
 
     @cached_property
     def with_reactions(self) -> bool:
         """Whether reactions do not follow from jumps of the shear: on the ground, and where two supports may act at one place."""
         beam, x = self._beam, self._at
+        if self.turning:
+            return True
         across, levels = np.flatnonzero(beam.across), beam.places.levels
         for one, other in pairwise(across[np.lexsort((beam.sides[across], x[across]))].tolist()):
             if x[one] == x[other] and not (beam.sides[one] == -1 and beam.sides[other] == 1 and levels[one] < levels[other]):
@@ -120,7 +127,8 @@ class TrainWay(Way):
         self.loads = loads
         self.rows: list[dict[str, np.ndarray]] = []
         grid = recorder.grid
-        self.numbers = (2 * len(recorder.x) if grid is None else 4 * len(grid[0])) + len(loads.beam.sides) * recorder.with_reactions
+        at_supports = len(AT_SUPPORTS) if recorder.turning else int(recorder.with_reactions)
+        self.numbers = (2 * len(recorder.x) if grid is None else 4 * len(grid[0])) + at_supports * len(loads.beam.sides)
         self._known: dict[tuple[float, bytes], tuple[Placed, dict[str, np.ndarray], int | None]] = {}
 
     def at(self, position: float, acts: np.ndarray) -> tuple[Placed, dict[str, np.ndarray]] | None:
@@ -232,7 +240,7 @@ class TrainWay(Way):
         _, from_, middle, to = one
         acts = self.loads.acting(middle)
         first, inside, last = (self.at(position, acts)[1] for position in (from_, middle, to))
-        drawn = {name: (first[name] + last[name]) / 2 for name in inside if name != "reaction"}
+        drawn = {name: (first[name] + last[name]) / 2 for name in inside if name not in AT_SUPPORTS}
         return self.difference(drawn, {name: inside[name] for name in drawn})
 
     def _parabola(self, from_: float, to: float) -> tuple[float, float, float, float] | None:
@@ -245,7 +253,7 @@ class TrainWay(Way):
         nodes, error = [states[k][1] for k in (0, 2, 4)], 0.0
         for (_, found), parts in ((states[1], (3, 6, -1)), (states[3], (-1, 6, 3))):
             drawn = {name: sum(part * one[name] for part, one in zip(parts, nodes, strict=True)) / 8 for name in found}
-            drawn, found = ({name: values for name, values in one.items() if name != "reaction"} for one in (drawn, found))
+            drawn, found = ({name: values for name, values in one.items() if name not in AT_SUPPORTS} for one in (drawn, found))
             error = max(error, self.difference(drawn, found))
         return -error, from_, positions[2], to
 

@@ -21,7 +21,7 @@ from ..scene.rotations import turns
 from ..scene.tapers import ends_of, is_tapered
 from .reactions import arrow_lane, draw_reactions
 from .sheet import is_upright
-from .states import FACES, SYMBOLS, TRIANGLE, VERMILION, area, mirrored, plain_kinds
+from .states import SYMBOLS, TRIANGLE, VERMILION, area, mirrored, plain_kinds
 from .support_labels import SupportTexts
 from .turned import Turned, is_turned, shifted
 
@@ -250,19 +250,20 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
     """Draw every support as a symbol; equal ones are one collection."""
     symbols, springs, ground, settled = (defaultdict(list) for _ in range(4))
     end = float(scene.span_ends()[-1])
+    beside_axial = {x for support, x in zip(scene.supports, lanes.x.tolist(), strict=True) if support.direction == "axial"}
     for support, state, kind, x in zip(scene.supports, states, lanes.kinds, lanes.x, strict=True):
         if support.direction == "axial":
-            _axial(axes, scene, x, end, lanes)
+            _axial(axes, scene, x, end, lanes, kind)
             continue
         if turns(support):
-            _rotation(axes, support, x, end)
+            _rotation(axes, support, x, end, lanes.size * bool(beside_axial & {x}))
             continue
         if support.rotation == "fixed":
             _clamp(axes, x, end)
             if support.side == "both":
                 continue
         elif support.rotation != "free" and support.rotation:
-            _spiral(axes, x, end, "black", "rotational spring")
+            _spiral(axes, x, end, "black", "rotational spring", off=lanes.size * bool(beside_axial & {x}))
         for sign in (1.0, -1.0):
             if support.side == ("above" if sign > 0 else "below"):
                 continue
@@ -293,16 +294,19 @@ def _symbols(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes
                          facecolors="none", edgecolors="black", linewidths=0.7, zorder=4, label=name)  # fmt: skip
 
 
-def _spiral(axes: Axes | Turned, x: float, end: float, color: str, label: str, side: str | None = None) -> None:
-    outward = -8.0 if x <= 1e-9 * end or side == "left" else 8.0 if x >= end * (1.0 - 1e-9) or side else 0.0
+def _spiral(
+    axes: Axes | Turned, x: float, end: float, color: str, label: str, side: str | None = None, off: float = 0.0
+) -> None:  # fmt: skip
+    outward = -8.0 - off if x <= 1e-9 * end or side == "left" else 8.0 + off if x >= end * (1.0 - 1e-9) or side else 0.0
     axes.scatter([x], [0.0], marker=_SPIRAL, s=area(7.0), facecolors="none", edgecolors=color, zorder=6,
                  linewidths=0.9, transform=shifted(axes, outward), label=label)  # fmt: skip
 
 
-def _rotation(axes: Axes | Turned, support: "Support", x: float, end: float) -> None:
+def _rotation(axes: Axes | Turned, support: "Support", x: float, end: float, off: float) -> None:
     """Draw what holds a rotation by a law, with a slack, one way or beside a hinge: a spiral, or a hinge that is not white."""
     if support.direction == "rotational":
-        _spiral(axes, x, end, VERMILION, "rotations at hinges" if support.at_hinge else "rotations with laws", support.at_hinge)
+        _spiral(axes, x, end, VERMILION, "rotations at hinges" if support.at_hinge else "rotations with laws", support.at_hinge,
+                off)  # fmt: skip
     else:
         axes.scatter([x], [0.0], s=26, c="0.8", edgecolors=VERMILION, linewidths=1.2, zorder=6, marker="o",
                      label="hinges with laws")  # fmt: skip
@@ -325,7 +329,7 @@ def _ground_along(axes: Axes | Turned, scene: "Scene") -> None:
                  zorder=4, label="ground along the beam")  # fmt: skip
 
 
-def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: SupportLanes) -> None:
+def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: SupportLanes, kind: str) -> None:
     """Draw a horizontal support: a triangle outside the end of the beam, or under it where it is inside."""
     outward = -1.0 if x <= end / 2 else 1.0
     clamped = any(
@@ -334,8 +338,9 @@ def _axial(axes: Axes | Turned, scene: "Scene", x: float, end: float, lanes: Sup
     )
     path = Path(TRIANGLE.vertices[:, ::-1] * (-outward, 1.0), TRIANGLE.codes)
     beside = shifted(axes, outward * (6.0 if clamped else 1.0))
-    axes.scatter([x], [0.0], marker=path, s=area(lanes.size), facecolors=FACES["bilateral"], edgecolors="black",
-                 linewidths=0.8, zorder=5, transform=beside, label="axial")  # fmt: skip
+    symbol = SYMBOLS[kind]
+    axes.scatter([x], [0.0], marker=path, s=area(lanes.size), facecolors=symbol.face, edgecolors=symbol.edge,
+                 linewidths=symbol.width, zorder=5, transform=beside, label="axial")  # fmt: skip
 
 
 def _ticks(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: SupportLanes) -> None:

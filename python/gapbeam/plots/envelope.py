@@ -81,9 +81,10 @@ def envelope_figure(result: Result) -> Figure:
     known = names_in_pictures(result) if result.combinations else {}
     told = {name: _told(name, one, known) for name, one in zip(names, sources, strict=True)}
     names = [told[name][0] for name in names]
-    key = Key(len(set(names)), told)
+    key = Key(scene, len(set(names)), told)
     panels = [panel for panel in PANELS if envelope is not None and panel[0] in envelope.extremes]
     drawn = {panel[0]: _governing(envelope.fields, panel[0], names, key) for panel in panels}
+    strips = len({name for of in drawn.values() for stretches in of for *_, name in stretches}) > 1  # one alone needs none
     length, states = along(scene), plain_states(scene)
     ground = GroundLanes(scene, length)
     values = None if envelope is None else EnvelopeValues(scene, envelope, key)
@@ -97,7 +98,7 @@ def envelope_figure(result: Result) -> Figure:
     top = supports.top + 4.0 if loads is None else loads.top
     lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
     foot = LINE * len(lines) + 0.08
-    text = _headline(result, sources, key.needed)
+    text = _headline(result, sources, strips)
     handles = legend_handles(states) * (not supports.rows)
     sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, top, len(panels), foot)
     draw_ground(sheet.sketch, ground, ())
@@ -107,8 +108,8 @@ def envelope_figure(result: Result) -> Figure:
     sheet.write_heading(text, handles)
     for quantity, words, downward in panels:
         panel = sheet.panel(quantity, words, downward)
-        _range(panel, scene, envelope.fields, quantity, extremes[quantity], bool(drawn[quantity]))
-        for edge, stretches in enumerate(drawn[quantity]):
+        _range(panel, scene, envelope.fields, quantity, extremes[quantity], strips and bool(drawn[quantity]))
+        for edge, stretches in enumerate(drawn[quantity] if strips else ()):
             _strip(panel, stretches, key, edge, length)
     sheet.finish()
     key.write(sheet.picture, lines, 0.24)

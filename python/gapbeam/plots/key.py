@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from ..results.envelopes.envelope import Extreme
     from ..results.trains.members import TrainExtreme
+    from ..scene.structs import Scene
 
 COLOURS = ("#F6C667", "#9CD3F2", "#7FD0B8", "#F7F08A", "#A9BEE8", "#F0A67C", "#E3B5CF", "#D2D2D2")
 """Light, so that letters are read on them; letters tell what colours repeat."""
@@ -30,14 +31,16 @@ class Key:
 
     Parameters
     ----------
+    scene : Scene
+        Whose beam positions are along.
     count : int
         Sources that there are: one alone needs no letter.
     told : dict, optional
         By name of the source that which is told, and its limit state.
     """
 
-    def __init__(self, count: int, told: dict[str, tuple[str, str]] | None = None) -> None:
-        self.needed = count > 1
+    def __init__(self, scene: Scene, count: int, told: dict[str, tuple[str, str]] | None = None) -> None:
+        self._scene, self.needed = scene, count > 1
         self._told = told or {}
         self._letters: dict[str, str] = {}
 
@@ -56,7 +59,7 @@ class Key:
         position = getattr(extreme, "position", None)
         name = source_name(extreme)
         words = [self.letter(self._told.get(name, (name, ""))[0])] if self.needed else []
-        words += [] if position is None else [f"at {fmt.number(position, 4)}"]
+        words += [] if position is None else [f"at {fmt.place(self._scene, position, 4)}"]
         return with_minus_signs(" ".join(words))
 
     def lines(self) -> list[str]:

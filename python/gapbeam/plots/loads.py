@@ -94,6 +94,7 @@ class LoadLanes:
     def __init__(self, scene: "Scene", base: float, length: float, factor: float = 1.0) -> None:
         above = [support for support in scene.supports if support.side != "below" and support.direction == "normal"]
         self.above = scene.positions(above)
+        self.along = scene.positions([support for support in scene.supports if support.direction == "axial"])
         self.end = float(scene.span_ends()[-1])
         self.scale = length / self.end  # points per length
         self.upright = is_upright(scene)
@@ -139,7 +140,7 @@ class LoadLanes:
         """Give the upper end of the symbol of a point load."""
         if arrow.kind == "force":
             return self.arrows_from + length
-        return ARC if arrow.kind == "moment" else self.axial(arrow)[2] + 1.0
+        return ARC if arrow.kind == "moment" else self.axial(arrow)[2] + (6.0 if self._is_held(arrow) else 1.0)
 
     def foot(self, arrow: Arrow) -> float:
         """Give the lower end of the arrow of a force: the beam, or above the symbol of a support there."""
@@ -151,7 +152,12 @@ class LoadLanes:
         outside = -1.0 if arrow.x <= 1e-9 * self.end else 1.0 if arrow.x >= self.end * (1.0 - 1e-9) else 0.0
         start, stop = (0.0, 22.0 * direction) if outside in (0.0, direction) else (22.0 * outside, 2.0 * outside)
         beside = 8.0 * (outside or direction) if self.foot(arrow) > 3.5 else 0.0  # of the symbol of a support
+        beside = 10.0 * outside if outside and self._is_held(arrow) else beside
         return start + beside, stop + beside, 0.0 if outside else 7.0
+
+    def _is_held(self, arrow: Arrow) -> bool:
+        """Whether the symbol of a support along the beam is there."""
+        return bool(np.any(np.abs(self.along - arrow.x) * self.scale < 9.0))
 
     def _place_beside(self, ends: list[float], length: float) -> None:
         """Write labels to the left of an upright beam, behind their arrows, moved along it as little as need be."""

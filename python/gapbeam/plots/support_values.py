@@ -109,10 +109,11 @@ class StateValues:
                 largest = max(largest, force)
         across = [k for k in indices if scene.supports[k].direction == "normal"]
         small = NONE * float(np.abs(step.deflection).max(initial=0.0))
-        lifted = bool(across) and not largest and all(step.state[k] == "open" and step.opening[k] > small for k in across)
+        opened = [k for k in across if step.state[k] == "open" and step.opening[k] > small]
+        lifted = bool(opened) and not largest and all(step.state[k] == "open" for k in across)
         if lifted:
-            largest = max(float(step.opening[k]) for k in across)
-            found += [(k, f"open {with_unit(scene, 'opening', float(step.opening[k]))}") for k in across]
+            largest = max(float(step.opening[k]) for k in opened)
+            found += [(k, f"open {with_unit(scene, 'opening', float(step.opening[k]))}") for k in opened]
         elif across and not largest and few:
             found.append((across[0], "0"))
         rubs = [k for k in across if abs(float(step.friction[k])) > self._small]
@@ -120,7 +121,10 @@ class StateValues:
             (k, f"{self._along[int(step.friction[k] > 0.0)]} {with_unit(scene, 'friction', abs(float(step.friction[k])))}")
             for k in rubs
         ]
-        words = [f"{self._names[k]}: {text}" if named or len(across) > 1 else text for k, text in found]
+        words = [text for _, text in found]
+        if named or len(across) > 1:  # named once, where its values begin
+            at = [i for i, (k, _) in enumerate(found) if i == 0 or k != found[i - 1][0]]
+            words = [f"{self._names[k]}: {text}" if i in at else text for i, (k, text) in enumerate(found)]
         small = NONE * float(np.abs(step.couple).max(initial=0.0))
         for k in indices:
             if abs(step.couple[k]) > small:
@@ -163,27 +167,34 @@ class EnvelopeValues:
             support = self._scene.supports[k]
             if turns(support):
                 continue
-            high, low = (float(self._values["reaction", kind][k]) for kind in KINDS)
+            high, low = (self._quiet(self._values["reaction", kind][k]) for kind in KINDS)
             lines = [("max", "reaction", high)] if high > self._small or (support.side != "above" and high > low) else []
             if low < -self._small or (support.side != "above" and high > self._small):
                 lines.append(("min", "reaction", low))
+            if high and abs(high - low) <= self._small:
+                lines = [("", "reaction", high)]  # whatever governs
             opening = float(self._values["opening", "max"][k])
             alone = support.side == "below" or not held
             if k in across and support.side != "both" and alone and opening > 0.0 and low <= self._small:
                 lines.append(("open", "opening", opening))
                 lifted = True
             size = max(size, abs(high), abs(low))
-            begin = f"{self._names[k]} " if named or len(across) > 1 else ""
+            begin = f"{self._names[k]} " if named or len(across) > 1 or (across and k not in across) else ""
+            told = {id(words): begin, id(openings): begin}  # named once, where its values begin
             for kind, name, value in lines:
                 if kind == "min" and abs(value) <= self._small and any(one[0] == "open" for one in lines):
                     continue  # that it opens says so
                 text = with_unit(self._scene, name, value) if few or name == "opening" else fmt.number(value, DIGITS)
-                source = self._key.source(self._rows[k][name]["max" if kind == "open" else kind])
-                line = with_minus_signs(f"{begin}{kind} {text}")
+                source = self._key.source(self._rows[k][name]["max" if kind == "open" else kind]) if kind else ""
                 short = source and " at " not in f" {source}"
                 where = openings if kind == "open" else words
+                begin = told.pop(id(where), "")
+                line = with_minus_signs(f"{begin}{kind} {text}" if kind else f"{begin.strip()}: {text}".removeprefix(": "))
                 where += [f"{line}, {source}"] if short else [line, *[source] * bool(source)]
         return Told(tuple(words), size, lifted, tuple(openings))
+
+    def _quiet(self, value: float) -> float:
+        return 0.0 if abs(value) <= self._small else float(value)
 
 
 def short_names(scene: Scene) -> list[str]:

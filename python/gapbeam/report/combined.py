@@ -17,7 +17,7 @@ from ..scene.rotations import at_support, which_turn
 from .axial_force import write_modes_of_combinations
 from .ground import free_span_headings
 from .over_path import write_over_path
-from .signs import names_with_units, positive_fields
+from .signs import names_with_units, positive_fields, positive_reactions
 from .system import write_system
 from .trains import write_trains
 from .writer import Writer, chosen
@@ -161,7 +161,7 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
     say.table_by_name(["", *(names[i] for i in supports), "sum", "loads"], rows)
     length, _ = fmt.shown_unit(scene, "opening")
     mark = f"; {up} no contact, with its opening{f' in {length}' if length else ''}" if lifted.any() else ""
-    words = [f"Upward positive{mark}."]
+    words = [f"{positive_reactions(scene).capitalize()} positive{mark}."]
     if hidden := len(envelope.sources) - len(shown):
         words.append(f"{hidden:,} combinations are left out here, which neither govern nor lift a support more; --json has all.")
     if hidden := int((~turning).sum()) - len(supports):
@@ -243,7 +243,7 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
     if one_sided:
         headings += [fmt.shown_column(scene, "opening", [])[0], "combination"]
     say.table(headings, rows, left=(0, 1, 3, 5), longest=len(rows))
-    say.line("Reactions upward positive.", "dim")
+    say.line(f"Reactions {positive_reactions(scene)} positive.", "dim")
 
 
 def _foundations(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
@@ -268,9 +268,9 @@ def _foundations(say: Writer, result: "CombinedResult", envelope: "Envelope", of
                 numbers.append(fmt.shown(scene, "sag", span.sag))
                 rows.append([name if kind == "longest" else "", kind, *numbers, _source(one)])
     if not rows:
-        say.line("Resultants upward positive. There is no free span.", "dim")
+        say.line(f"Resultants {positive_reactions(scene)} positive. There is no free span.", "dim")
         return
-    say.line("Resultants upward positive.", "dim")
+    say.line(f"Resultants {positive_reactions(scene)} positive.", "dim")
     say.heading(f"Free spans, {of}")
     say.table(["", "", *free_span_headings(scene), "combination"], rows, left=(0, 1, 6))
     say.line("Clearance: largest distance between beam and ground.", "dim")

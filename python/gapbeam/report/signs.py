@@ -32,6 +32,16 @@ def positive_fields(scene: Scene) -> str:
     return "Deflection downward, sagging moment, clockwise rotation: positive."
 
 
+def positive_reactions(scene: Scene) -> str:
+    """Say which way reactions are positive: upward, of a beam that is drawn upright to the left."""
+    return "to the left" if scene.beam.direction == "down" else "upward"
+
+
+def positive_along(scene: Scene) -> str:
+    """Say which way is positive along the beam."""
+    return "downward" if scene.beam.direction == "down" else "to the right"
+
+
 def names_with_units(scene: Scene) -> list[str]:
     """Name the supports in a table of reactions and openings, those that hold rotations with the units of couples and angles.
 

@@ -25,7 +25,7 @@ from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
 from .ground import write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
-from .signs import positive_fields
+from .signs import positive_along, positive_fields, positive_reactions
 from .system import write_system
 from .trains import write_trains
 from .writer import LONGEST, Writer, chosen, left_out
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from ..results.state.step import Step
     from ..scene.structs import Support
 
-WAYS = ("left", "right")
 MOST_EVENTS = 40
 """Events that the report lists."""
 
@@ -229,10 +228,15 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     for line in balance_in_words(result, step):
         say.line(line, "dim")
     counts = Counter(state_in_words(state) for state, turned in zip(step.state, turning, strict=True) if not turned)
-    say.line(f"Upward positive; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
-    if slides := [f"{name} to the {way}" for name, way in zip(labels(scene.supports), step.sliding, strict=True) if way in WAYS]:
+    upright = scene.beam.direction == "down"
+    couples = f", couples {'counter' * upright}clockwise" * ("couple" in quantities)
+    signs = f"{positive_reactions(scene).capitalize()} positive{couples}"
+    say.line(f"{signs}; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
+    along = {"right": positive_along(scene), "left": "upward" if upright else "to the left"}
+    if slides := [f"{name} {along[way]}" for name, way in zip(labels(scene.supports), step.sliding, strict=True) if way in along]:
         more = f" and {len(slides) - 10} more" if len(slides) > 10 else ""
-        say.line(f"The beam slides over support {', '.join(slides[:10])}{more}. Friction and slip: positive to the right.", "dim")
+        signs = f"Friction and slip: positive {positive_along(scene)}."
+        say.line(f"The beam slides over support {', '.join(slides[:10])}{more}. {signs}", "dim")
     _restraints_of_open_supports(say, result)
 
 
@@ -268,10 +272,10 @@ def _rotations(say: "Writer", result: "Result", at: str) -> None:
         ]
         for k in which[:LONGEST]
     ]  # fmt: skip
-    heads = [fmt.shown_heading(scene, "couple"), fmt.shown_heading(scene, "rotation")]
-    to_go = [fmt.with_unit(scene, "rotation", "to go")] if opening else []
-    set_kept = [fmt.with_unit(scene, "rotation", "set")] if left else []
-    say.table(["", fmt.with_unit(scene, "x"), "side", "state", *heads, *to_go, *set_kept], rows, left=(0, 2, 3))
+    heads = [fmt.stacked(scene, "couple"), fmt.stacked(scene, "rotation")]
+    to_go = [fmt.stacked(scene, "rotation", "to go")] if opening else []
+    set_kept = [fmt.stacked(scene, "rotation", "set")] if left else []
+    say.table(["", fmt.stacked(scene, "x"), "side", "state", *heads, *to_go, *set_kept], rows, left=(0, 2, 3))
     say.line("Couple on the beam: counterclockwise; rotation of the beam: clockwise. Of a hinge: sagging moment, and rotation left "
              f"of it less that right of it.{left_out(len(which))}", "dim")  # fmt: skip
 

@@ -13,7 +13,7 @@ from ..results.views.extreme import IN_WORDS
 from ..scene.rotations import at_support
 from ..scene.trains import LEFT
 from .ground import free_span_headings
-from .signs import names_with_units, positive_fields
+from .signs import names_with_units, positive_fields, positive_reactions
 from .writer import Writer, chosen
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def _source(result: "Result", one: "TrainExtreme") -> list[str]:
     """Where an extreme comes from, cell by cell."""
     text = "no train"
     if one.train is not None:
-        text = f"{visible(one.train)} at {fmt.number(one.position, fmt.DIGITS)}" + (" going left" if one.direction == LEFT else "")
+        text = f"{visible(one.train)} at {fmt.place(result.scene, one.position)}" + (" going left" if one.direction == LEFT else "")
     text += f" or {fmt.count(len(one.ties), 'other')}" if one.ties else ""
     return [visible(one.combination or ""), text] if result.combinations else [text]
 
@@ -87,6 +87,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
     rows, names = [], names_with_units(scene)
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
     which = chosen(len(names), sorted(lifted, key=lambda k: -envelope.supports[k]["opening"]["max"].value), MOST_SUPPORTS)
+    values = {kind: fmt.without_noise(envelope.supports.values("reaction", kind)) for kind in IN_WORDS}
     for k in which:
         if k is None:
             rows.append(["..."] * (3 + len(_headings(result))))
@@ -95,7 +96,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
         for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
             if one is not None:
-                rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
+                rows.append([name if kind == "max" else "", words, fmt.number(values[kind][k], fmt.DIGITS), *_source(result, one)])
         opening = row["opening"]["max"]
         if opening is not None and opening.value > 0.0:
             far = fmt.shown(scene, at_support(scene, "opening", k), opening.value)
@@ -108,7 +109,8 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
         count = len(names) - sum(k is not None for k in which)
         say.line(f"{count:,} supports are left out here{words}. All are in the output of --json.", "italic")
     length, _ = fmt.shown_unit(scene, "opening")
-    say.line("Reactions upward positive; openings" + (f" in {length}" if length else "") + " where there are any.", "dim")
+    unit = f" in {length}" if length else ""
+    say.line(f"Reactions {positive_reactions(scene)} positive; openings{unit} where there are any.", "dim")
 
 
 def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
@@ -129,7 +131,7 @@ def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope", of: s
                 spans.append([name if kind == "longest" else "", kind, *numbers, *_source(result, one)])
     say.heading(f"Foundations while trains pass{of}")
     say.table(["", "", fmt.stacked(scene, "resultant"), *_headings(result)], rows, (0, 1, 3, 4))
-    say.line("Resultants upward positive." + ("" if spans else " There is no free span."), "dim")
+    say.line(f"Resultants {positive_reactions(scene)} positive." + ("" if spans else " There is no free span."), "dim")
     if spans:
         say.heading(f"Free spans while trains pass{of}")
         say.table(["", "", *free_span_headings(scene), *_headings(result)], spans, (0, 1, 6, 7))
@@ -141,7 +143,7 @@ def _events(say: Writer, result: "Result") -> None:
     scene = result.scene
     rows = [
         [*([visible(combination)] if combination is not None else []), visible(train.name), event.direction,
-         fmt.number(event.position, fmt.DIGITS), event_in_words(scene, event)]
+         fmt.place(scene, event.position), event_in_words(scene, event)]
         for combination, train in passing_trains(result)
         for event in train.events
     ]  # fmt: skip

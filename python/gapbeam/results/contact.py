@@ -47,7 +47,7 @@ def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) ->
     train = one.train
     if train is not None:
         direction = " going left" if getattr(one, "direction", None) == LEFT else ""
-        at = "" if one.position is None else f" at {fmt.number(one.position, fmt.DIGITS)}"
+        at = "" if one.position is None else f" at {fmt.place(scene, one.position)}"
         words.append(f"{visible(train)}{at}{direction}")
     at = one.factor
     if factor and at is not None:

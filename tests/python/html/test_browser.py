@@ -248,6 +248,30 @@ def test_trains_are_drawn_by_their_polynomials(browser, look_at):
             np.testing.assert_allclose(found["opening"], state.opening, rtol=0, atol=1e-7)
 
 
+def loose_splice(**more):
+    """A splice and a clamp with slack."""
+    return {
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4},
+        "hinges": [{"x": 4.0, "slack": 0.004, "stiffness": 3e3, "name": "splice"}],
+        "supports": [{"node": 0, "rotation": {"slack": 0.001, "stiffness": 5e4}}, {"node": 1}, {"node": 2}], **more,
+    }  # fmt: skip
+
+
+def test_joints_are_drawn_as_joints_under_trains_too(browser, look_at):
+    """They are no supports across the beam: no arrow, no force among the reactions, no opening in mm."""
+    result = look_at(loose_splice(trains=[{"name": "crane", "axles": [[0.0, 50.0], [2.0, 50.0]]}]))
+    for position in (3.7, 8.3, 10.9):
+        found = browser.execute_script(VALUES, 0, position, [1.0])
+        state = result.trains["crane"].state(position)
+        for name, size in (("reaction", 0.5), ("opening", 1e-4)):
+            np.testing.assert_allclose(found[name], getattr(state, name), rtol=0, atol=size)
+    look_at(loose_splice(loads=[{"type": "uniform", "q": 3.0}]))
+    shown = find(browser, "#picture").get_attribute("innerHTML")
+    assert shown.count('class="reaction head"') == 3
+    assert 'data-support="4" data-state="open"><circle' in shown
+    assert "Turning freely: splice." in find(browser, "#caption").text
+
+
 def test_on_the_ground_states_are_at_most_a_pixel_apart(browser, look_at):
     result = look_at(on_ground())
     places = np.linspace(0.1, 5.9, 59)

@@ -223,3 +223,43 @@ def test_results_write_the_page(tmp_path):
     result = gapbeam.solve(scene(analysis=EVENTS))
     assert result.to_html(tmp_path / "page.html") == (tmp_path / "page.html").read_text()
     assert result._repr_html_().startswith("<div><strong>Three spans</strong>")
+
+
+def test_events_of_a_train_that_goes_left_are_listed_as_it_goes():
+    result = gapbeam.solve(train())
+    right, left = (way for way in data_of(result.to_html())["ways"] if way["of"][2] in ("right", "left"))
+    for way, sign in ((right, 1), (left, -1)):
+        places = [sign * one["at"] for one in way["events"]]
+        assert len(places) > 2
+        assert places == sorted(places)
+
+
+def test_friction_and_slip_have_columns():
+    result = gapbeam.solve({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e6},
+        "supports": [{"node": 0}, {"node": 0, "direction": "axial"}, {"node": 1, "friction": 0.2}, {"node": 2, "friction": 0.1}],
+        "loads": [{"type": "uniform", "q": 12.0, "case": "dead"}, {"type": "axial", "node": 2, "F": 40.0}],
+        "analysis": {"follow": "events"},
+    })  # fmt: skip
+    table = next(one for one in tables_of(result, None, []) if one.name == "supports")
+    assert table.head[-2:] == ["friction [kN]", "slip [mm]"]
+    way = data_of(result.to_html())["ways"][0]
+    step = result.steps[-1]
+    last = way["states"][way["intervals"][-1][3][-1]]
+    assert (last["friction"], last["slip"]) == (step.friction.tolist(), step.slip.tolist())
+    assert step.slip[3] > 0.0
+
+
+def test_a_beam_that_stands_says_which_end_is_the_top():
+    given = {"units": {"force": "kN", "length": "m"}, "beam": {"spans": [4.0], "EI": 1e4, "direction": "down"},
+             "supports": [{"node": 0}, {"node": 1}], "loads": [{"type": "force", "x": 1.0, "F": 5.0}]}  # fmt: skip
+    result = gapbeam.solve(given)
+    page = result.to_html()
+    assert data_of(page)["upright"]
+    said = ["its top is at the left", "Reactions are positive to the left.", "Deflection to the right", "x goes from the top down"]
+    assert [words for words in said if words not in page] == []
+    assert "To the left positive; 2 two-way." in result.report()
+    given["beam"].pop("direction")
+    page = gapbeam.solve(given).to_html()
+    assert not data_of(page)["upright"]
+    assert "its top is" not in page

@@ -26,6 +26,9 @@ function shown(name, value) { return number(value * DATA.units[name][1]); }
 function withUnit(name, value) { return `${shown(name, value)} ${DATA.units[name][0]}`.trim(); }
 function escaped(text) { return String(text).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c])); }
 
+/* Supports along the beam, and joints that hold a rotation: their reactions are no arrows across it. */
+function beside(support) { return support.axial || support.turns; }
+
 /* What has the same scale in all states: the size of fields, reactions, openings, loads. */
 class Scale {
   constructor() {
@@ -50,7 +53,7 @@ class Scale {
           const state = new State(way, interval, at);
           const places = state.places(this.end / 60);
           for (const { name } of DATA.panels) places.forEach(([x, left]) => stretch(name, state.value(name, x, left)));
-          state.reaction.forEach((value, k) => { if (!state.supports[k].axial) this.reaction = Math.max(this.reaction, Math.abs(value)); });
+          state.reaction.forEach((value, k) => { if (!beside(state.supports[k])) this.reaction = Math.max(this.reaction, Math.abs(value)); });
         }
       }
     }
@@ -98,6 +101,7 @@ function stack(loads) {
 function drawModel(state, scale, axis, changed) {
   const y = (x, left) => axis + scale.lift * state.value("deflection", x, left);
   const parts = [line(scale.x(0), axis, scale.x(scale.end), axis, "rest")];
+  if (DATA.upright) parts.push(words(LEFT - 26, axis + 4, "top", "name"), words(WIDTH - 12, axis + 4, "foot", "name"));
   for (const [, from, to, name] of state.zones) parts.push(path(along(state, scale, from, to, 7), name === "touching" ? "ground touching" : "ground"));
   for (const [, from, to] of state.free) parts.push(path(along(state, scale, from, to, 7), "ground free"));
   parts.push(path(along(state, scale, 0, scale.end, 0), "girder"));
@@ -151,8 +155,8 @@ function drawLoads(state, scale, y, axis) {
         parts.push(`<path class="couple" d="M${x - 11 * turn},${at} A11,11 0 0 ${turn > 0 ? 1 : 0} ${x + 11 * turn},${at}"/>`,
           path([[x + 11 * turn - 4, at - 3], [x + 11 * turn + 4, at - 3], [x + 11 * turn, at + 4]], "force head", true));
       } else parts.push(line(x - 26 * turn, at - 12, x, at - 12, "force"), path([[x - 7 * turn, at - 16], [x - 7 * turn, at - 8], [x, at - 12]], "force head", true));
-      const text = withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value);
-      if (label) parts.push(words(x + 16, at + 24, text, "load", 'style="text-anchor:start"'));
+      const text = withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value), right = x > WIDTH - 90;
+      if (label) parts.push(words(x + (right ? 24 : 16), right ? at - 20 : at + 24, text, "load", `style="text-anchor:${right ? "end" : "start"}"`));
     }
   }
   for (const [x, force] of state.axles) {
@@ -179,7 +183,7 @@ function drawForce(scale, x, force, at, taken, name = "force") {
 
 /* Supports: filled where they act, hollow where they are open, with what they carry or how far they are open. */
 function drawSupports(state, scale, y, axis, changed) {
-  const parts = [], supports = state.supports, across = supports.filter((one) => !one.axial).length;
+  const parts = [], supports = state.supports, across = supports.filter((one) => !beside(one)).length;
   const spacing = spacingOf(supports);
   const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24;
   supports.forEach((one, k) => {
@@ -188,6 +192,10 @@ function drawSupports(state, scale, y, axis, changed) {
     const open = state.words[k] === "open", idle = open || (branch && Math.abs(state.reaction[k]) <= 1e-9 * scale.reaction);
     if (one.axial) {
       parts.push(`<rect x="${(x - 13).toFixed(1)}" y="${(at - 5).toFixed(1)}" width="7" height="10" class="support bilateral"/>`);
+      return;
+    }
+    if (one.turns) { // a joint, filled where it holds
+      parts.push(`<g class="support ${open ? "open" : "closed"}${changed.has(k) ? " changed" : ""}" data-support="${k}" data-state="${state.words[k]}"><circle cx="${x.toFixed(1)}" cy="${at.toFixed(1)}" r="5.5" class="symbol"/></g>`);
       return;
     }
     const way = above ? -1 : 1, shares = above && supports.some((other, j) => j !== k && other.x === one.x && other.side >= 0 && state.words[j] !== "open");
@@ -214,10 +222,16 @@ function drawSupports(state, scale, y, axis, changed) {
     if (!idle && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
     const foot = low + 36;
     if (turned) parts.push(words(x + 4, foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x + 4, foot - 8)));
-    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(x, foot + 13, one.name.length > 9 ? `${one.name.slice(0, 8)}\u2026` : one.name, "name"));
+    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(...named(x, foot + 13, one.name, spacing), "name"));
   });
   if (across && across <= MOST_NAMED && spacing >= TURNED) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
   return parts.join("");
+}
+
+/* A name under its support, cut where others have their room, beside the word at the left and before the end of the picture. */
+function named(x, y, name, spacing) {
+  const most = Math.max(9, Math.floor(spacing / 6.2)), text = name.length > most ? `${name.slice(0, most - 1)}\u2026` : name, half = 3 * text.length;
+  return [Math.min(Math.max(x, 56 + half), WIDTH - 4 - half), y, text];
 }
 
 function turnedAt(x, y) { return `transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" style="text-anchor:end"`; }

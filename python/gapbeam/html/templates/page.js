@@ -41,9 +41,11 @@ function inWords(state, events) {
   else parts.push(`load factor ${number(state.factor)}${state.interval.leg === undefined ? "" : ` of leg ${state.interval.leg}`}`);
   const text = [`${capital(parts.join(", "))}.`];
   if (events.length) text.push(`${capital(events.map((one) => one.words).join("; "))}.`);
-  const open = state.supports.map((one, k) => [one.name, k]).filter(([, k]) => state.words[k] === "open");
+  const opened = state.supports.map((one, k) => [one.name, k]).filter(([, k]) => state.words[k] === "open");
+  const [open, loose] = [false, true].map((turns) => opened.filter(([, k]) => state.supports[k].turns === turns));
   const listed = open.slice(0, 8).map(([name, k]) => `${name} (${withUnit("opening", state.opening[k])})`).join(", ");
-  if (state.supports.some((one) => one.side !== 0)) text.push(open.length ? `Without contact: ${listed}${open.length > 8 ? ` and ${open.length - 8} more` : ""}.` : "All supports are in contact.");
+  if (loose.length) text.push(`Turning freely: ${loose.slice(0, 8).map(([name]) => name).join(", ")}${loose.length > 8 ? ` and ${loose.length - 8} more` : ""}.`);
+  if (state.supports.some((one) => one.side !== 0 && !one.turns)) text.push(open.length ? `Without contact: ${listed}${open.length > 8 ? ` and ${open.length - 8} more` : ""}.` : "All supports are in contact.");
   if (state.free.length) text.push(`${state.free.length} free span${state.free.length > 1 ? "s" : ""} above the ground.`);
   for (const name of ["moment", "deflection"]) {
     const [one, other] = state.extremes(name, scale.step), larger = Math.abs(one.value) >= Math.abs(other.value) ? one : other;
