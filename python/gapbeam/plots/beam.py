@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.path import Path
 
+from ..results.event_words import state_in_words
 from ..results.formatting import stretch
 from ..scene.axial_ground import places_of_marks
 from ..scene.movements import supports_moved
@@ -353,5 +354,7 @@ def _ticks(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: 
         x = groups[label]
         axes.scatter(x, [y] * len(x), marker="|", s=64, c="black", linewidths=min(1.5, max(0.25, 0.6 * lanes.spacing)),
                      zorder=4, label=label)  # fmt: skip
-        axes.annotate(label, (0.0, y), (-4, 0), xycoords=("data", "data"), textcoords="offset points", fontsize=6.5,
+        state, _, side = label.partition(" ")
+        words = "along the beam" if label == "axial" else f"{state_in_words(state)} {side}".strip()
+        axes.annotate(words, (0.0, y), (-4, 0), xycoords=("data", "data"), textcoords="offset points", fontsize=6.5,
                       ha="right", va="center", annotation_clip=False)  # fmt: skip

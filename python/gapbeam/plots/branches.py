@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.event_words import EVENT_WORDS
 from ..results.paths.branches import BranchPath
@@ -227,5 +228,5 @@ def name_limits(axes: Axes, trace: Trace) -> None:
         share = (factor - low) / (high - low)
         if all(abs(share - other) > 0.14 for other in taken):
             taken.append(share)
-            axes.text(share, 1.02, f"limit {fmt.number(factor, 5)}", fontsize=7.5, color="0.3", va="bottom",
+            axes.text(share, 1.02, with_minus_signs(f"limit {fmt.number(factor, 5)}"), fontsize=7.5, color="0.3", va="bottom",
                       ha="right" if share > 0.9 else "left" if share < 0.1 else "center", transform=axes.transAxes)  # fmt: skip

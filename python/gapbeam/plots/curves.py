@@ -61,7 +61,7 @@ def draw_field(
     """
     x, values = cells.along(quantity)
     shown = {kind: pair for kind, pair in extreme.items() if counts(pair[0], extreme)}
-    limit_values(axes, [value for value, _ in shown.values()], ROOM)
+    limit_values(axes, [value for value, _ in shown.values()] + [value for _, value in avoid], ROOM)
     if quantity == "deflection":
         draw_surface(axes, scene, along(scene), BEYOND, factor)
     if not values.any():

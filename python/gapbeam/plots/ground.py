@@ -36,6 +36,8 @@ SWING = 9.0
 """How far off the surface is drawn where its gap is largest, when gaps vary, points."""
 MOST_NAMES, MOST_UNNAMED = 12, 4
 """Foundations up to which they are named, and numbered where none has a name."""
+MOST_STATES = 3
+"""States of one colour from which on the legend names the first only."""
 HATCHES = {"below": "/////", "above": "/////", "both": "xxxxx"}
 WORDS = {"closed": "in contact", "bilateral": "bilateral ground", TOUCHING: "touching"}
 TOUCHED = "|"
@@ -214,7 +216,7 @@ def zone_handles(contact: tuple[Contact, ...], scene: Scene) -> list[Line2D]:
     return [
         Line2D([], [], linestyle="none", marker=TOUCHED if touches else "_", markersize=5 if touches else 8,
                markeredgewidth=1.2 if touches else 2.6, color=colour,
-               label=names[0] if len(names) == 1 else f"{names[0]} and beyond")
+               label=", ".join(names) if len(names) < MOST_STATES else f"{names[0]} and beyond")
         for (colour, touches), names in words.items()
     ]  # fmt: skip
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..base.characters import visible, with_minus_signs
 from ..results import formatting as fmt
+from .panels import FIXED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
 COLOURS = ("#F6C667", "#9CD3F2", "#7FD0B8", "#F7F08A", "#A9BEE8", "#F0A67C", "#E3B5CF", "#D2D2D2")
 """Light, so that letters are read on them; letters tell what colours repeat."""
 LETTERS = string.ascii_uppercase + string.ascii_lowercase
-FIXED = "\N{NO-BREAK SPACE}"
 CHARACTERS = 125
 """Of a line of the key."""
 LINE = 0.15

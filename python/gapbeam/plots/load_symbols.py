@@ -5,8 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.path import Path
 
-from .labels import LINE, text_width
-from .loads import ARC, BETWEEN, BLOCK, Arrow, Block, LoadLanes, signed
+from .labels import LINE
+from .loads import ARC, BETWEEN, Arrow, Block, LoadLanes
 from .states import HEAD, area, mirrored
 from .turned import Turned, points_from
 
@@ -50,25 +50,19 @@ def _lead(axes: Axes | Turned, lanes: LoadLanes) -> None:
 
 def _draw_blocks(axes: Axes | Turned, lanes: LoadLanes) -> None:
     blocks = lanes.blocks
-    largest = max((max(abs(block.first), abs(block.last)) for block in blocks if not block.curvature), default=0.0)
     groups: dict[str, list] = {"down": [], "up": [], "curvature": []}
-    ticks, tops, heads = [], [], {1.0: [], -1.0: []}
+    ticks, heads = [], {1.0: [], -1.0: []}
     for block in blocks:
         y = lanes.base + lanes.lane * block.lane
         if block.curvature:
-            first = last = 5.0
             groups["curvature"].append([(block.start, y), (block.start, y + 5), (block.stop, y + 5), (block.stop, y)])
         else:
-            first, last = (BLOCK * abs(value) / (largest or 1.0) for value in (block.first, block.last))
-            if block.first == block.last:
-                first = last = max(first, 4.5) if first else 0.0  # however small, it is to be seen
-            for start, stop, left, right, sign in _onesigned(block, first, last):
+            for start, stop, left, right, sign in _onesigned(block, *lanes.heights(block)):
                 corners = [(start, y), (start, y + left), (stop, y + right), (stop, y)]
                 groups["down" if sign > 0 else "up"].append(corners)
                 _block_arrows(start, stop, (left, right), y, lanes.scale, sign, ticks, heads)
-        tops.append(y + max(first, last))
     if lanes.labelled:
-        _label_blocks(axes, lanes, tops)
+        _label_blocks(axes, lanes)
     width = 0.5 if len(blocks) <= 60 else 0.2
     styles = {"down": ("0.9", None), "up": ("white", "----"), "curvature": ("white", "//////")}
     for name, corners in groups.items():
@@ -107,21 +101,14 @@ def _block_arrows(
             heads[sign].append((x, y if sign > 0 else y + height))
 
 
-def _label_blocks(axes: Axes | Turned, lanes: LoadLanes, tops: list[float]) -> None:
-    """Label every block in its widest stretch without an arrow; where it is narrow, the unit once for all."""
-    forces = sorted(arrow.x + arrow.aside / lanes.scale for arrow in lanes.arrows if arrow.kind == "force")
-    short = any(
-        text_width(f"{block.text} {block.unit}") > (block.stop - block.start) * lanes.scale for block in lanes.blocks
-    ) and len(lanes.blocks) > 6
-    for block, top in zip(lanes.blocks, tops, strict=True):
-        cuts = np.array([block.start, *(x for x in forces if block.start < x < block.stop), block.stop])
-        widest = int(np.argmax(np.diff(cuts)))
-        text = f"{block.text} {block.unit}".rstrip()
-        if short:
-            text = signed(block.first, 3) if block.first == block.last else block.text
-        axes.text((cuts[widest] + cuts[widest + 1]) / 2, top + 0.5, text, fontsize=6.8 - 0.8 * short, ha="center",
-                  va="bottom", zorder=7)  # fmt: skip
-    for lane in {block.lane for block in lanes.blocks} if short else ():
+def _label_blocks(axes: Axes | Turned, lanes: LoadLanes) -> None:
+    """Write the labels of blocks; where many are narrow, the unit once for all."""
+    for block in lanes.blocks:
+        x, above, text, crossed = block.label
+        behind = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.85}} if crossed else {}
+        axes.text(x, lanes.base + lanes.lane * block.lane + above, text, fontsize=6.8 - 0.8 * lanes.short, ha="center",
+                  va="bottom", zorder=7, **behind)  # fmt: skip
+    for lane in {block.lane for block in lanes.blocks} if lanes.short else ():
         y = lanes.base + lanes.lane * lane
         text = next(block.unit for block in lanes.blocks if block.lane == lane)
         axes.annotate(text, (0.0, y), (-4, 0), textcoords="offset points", fontsize=6.8, ha="right", va="bottom")

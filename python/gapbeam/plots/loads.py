@@ -35,12 +35,15 @@ BLOCK, LANE, ARROW = 12.0, 23.0, 22.0
 ARC, APART = 11.0, 8.0
 #: Points between the small arrows of a block
 BETWEEN = 16.0
-#: With more loads of a kind than this, they get no label
-MOST_LABELS = 24
+#: With more loads of a kind than this, they get no label; with more blocks than this, narrow ones have no unit; rows of labels
+MOST_LABELS, MOST_LONG, MOST_LEVELS = 24, 6, 6
 
 @dataclass
 class Block:
-    """A distributed load, an imposed curvature or a temperature: its stretch, its two values, what it is."""
+    """A distributed load, an imposed curvature or a temperature: its stretch, its two values, what it is.
+
+    Its label: middle along the beam, height above the foot of the block (points), words, whether an arrow goes through it.
+    """
 
     start: float
     stop: float
@@ -50,6 +53,7 @@ class Block:
     unit: str
     curvature: bool = False
     lane: int = 0
+    label: tuple[float, float, str, bool] | None = None
 
 
 @dataclass
@@ -105,7 +109,9 @@ class LoadLanes:
         self.base = max(base, ARC + 2.0 + LINE * (len(self.arrows) <= MOST_LABELS)) if couples else base
         self.labelled = len(self.blocks) <= MOST_LABELS
         lanes = _pack(self.blocks)
-        self.lane = LANE if self.labelled else BLOCK + 3.0
+        self.largest = max((abs(v) for one in self.blocks if not one.curvature for v in (one.first, one.last)), default=0.0) or 1.0
+        rows = self._label_blocks(length + 38.0) if self.labelled else 0
+        self.lane = LANE + LINE * rows if self.labelled else BLOCK + 3.0
         if self.upright and self.labelled:  # labels stand beside blocks, not above them
             self.lane += max((text_width(f"{block.text} {block.unit}") for block in self.blocks), default=0.0) - LINE
         self.arrows_from = self.base + self.lane * lanes
@@ -135,6 +141,44 @@ class LoadLanes:
             f"{count(many, words)} from {signed(min(values), 4)} to {signed(max(values), 4)} {unit(scene, quantity)}".rstrip()
             for words, values, many, quantity in kinds if values
         )
+
+    def heights(self, block: Block) -> tuple[float, float]:
+        """Give the heights of a block at both ends (points)."""
+        if block.curvature:
+            return 5.0, 5.0
+        first, last = (BLOCK * abs(value) / self.largest for value in (block.first, block.last))
+        if block.first == block.last:
+            first = last = max(first, 4.5) if first else 0.0  # however small, it is to be seen
+        return first, last
+
+    def _label_blocks(self, page: float) -> int:
+        """Label every block in its widest stretch without an arrow, above labels that are there; give the rows that takes.
+
+        Where many are narrow only their values are written, and the unit once for all.
+        """
+        forces = sorted(arrow.x * self.scale + arrow.aside for arrow in self.arrows if arrow.kind == "force")
+        texts = [f"{block.text} {block.unit}".rstrip() for block in self.blocks]
+        narrow = [text_width(text) > (one.stop - one.start) * self.scale for text, one in zip(texts, self.blocks, strict=True)]
+        self.short = any(narrow) and len(self.blocks) > MOST_LONG
+        taken: dict[int, Labels] = defaultdict(Labels)
+        most = 0
+        for block, text in zip(self.blocks, texts, strict=True):
+            cuts = np.array([block.start * self.scale, *forces, block.stop * self.scale])
+            cuts = cuts[(cuts >= cuts[0]) & (cuts <= cuts[-1])]
+            widest, top = int(np.argmax(np.diff(cuts))), max(self.heights(block)) + 0.5
+            value = signed(block.first, 3) if block.first == block.last else block.text
+            text, row = value if self.short else text, 0
+            half, middle = text_width(text) / 2, (cuts[widest] + cuts[widest + 1]) / 2
+            if not self.upright:
+                middle = min(max(middle, half - MARGIN), page - half)
+                under = [one for one in self.blocks if one.lane == block.lane and abs(
+                    (one.start + one.stop) * self.scale / 2 - middle) < half + (one.stop - one.start) * self.scale / 2]
+                top = max(max(self.heights(one)) for one in (block, *under)) + 0.5
+                free = (row for row in range(MOST_LEVELS) if taken[block.lane].take(middle, top + LINE * row, text))
+                row = 0 if self.short else next(free, 0)
+            crossed = any(abs(at - middle) < half for at in forces)
+            block.label, most = (middle / self.scale, top + LINE * row, text, crossed), max(most, row)
+        return most
 
     def tip(self, arrow: Arrow, length: float) -> float:
         """Give the upper end of the symbol of a point load."""

@@ -3,6 +3,9 @@
 import textwrap
 from typing import TYPE_CHECKING
 
+from matplotlib.ticker import ScalarFormatter
+
+from ..base.characters import with_minus_signs
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 
@@ -15,6 +18,10 @@ WIDTH, LEFT, RIGHT, PANEL, SPACE = 7.4, 0.95, 0.15, 1.5, 0.14
 
 #: Points of a curve at most, about: a span gets fewer points where there are many spans
 MOST_POINTS = 100_000
+
+FIXED = "\N{NO-BREAK SPACE}"
+PLAIN = 1e-3, 1e6
+"""Largest numbers of an axis between which they have equally many decimals."""
 
 Point = tuple[float, float]
 
@@ -31,7 +38,8 @@ def outcome(result: "Result") -> str:
         That is not solved to the end.
     """
     begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
-    return "\n".join(textwrap.wrap(begin + fmt.sentence(result.reason), 105))
+    words = (begin + fmt.sentence(result.reason)).replace(" = ", f"{FIXED}={FIXED}")
+    return "\n".join(textwrap.wrap(words, 105)).replace(FIXED, " ")
 
 
 def cut_text(text: str, most: int) -> str:
@@ -43,6 +51,28 @@ def cut_text(text: str, most: int) -> str:
     'a lon...'
     """
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+class Numbers(ScalarFormatter):
+    """Numbers of an axis in the unit that is shown, without a power of ten apart from them.
+
+    Parameters
+    ----------
+    factor : float
+        How many shown units are one of the scene.
+    """
+
+    def __init__(self, factor: float = 1.0) -> None:
+        super().__init__(useOffset=False)
+        self.set_scientific(False)
+        self.factor = factor
+
+    def __call__(self, value: float, position: int | None = None) -> str:
+        """Write a number."""
+        largest = max(map(abs, self.axis.get_view_interval()))
+        if self.factor == 1.0 and (PLAIN[0] <= largest < PLAIN[1] or not largest):
+            return super().__call__(value, position)
+        return with_minus_signs(fmt.number(self.factor * value))
 
 
 def axis_label(scene: "Scene", quantity: str, words: str, positive: str | None = None) -> str:

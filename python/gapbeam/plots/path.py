@@ -13,7 +13,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.event_words import EVENT_WORDS
 from ..results.paths.branches import BranchPath
@@ -22,7 +21,7 @@ from ..scene.rotations import TURNING
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
 from .labels import spread
-from .panels import LEFT, WIDTH, cut_text, outcome
+from .panels import LEFT, WIDTH, Numbers, cut_text, outcome
 from .save import literal, save
 from .sheet import is_upright, positive
 from .support_values import LYING, MOST_CHARACTERS, UPRIGHT, short_names
@@ -160,8 +159,7 @@ def path_figure(result: Result) -> Figure:
             draw_extremes(axes, states, dots)
         unit, factor = fmt.shown_unit(scene, panel.quantity)
         _frame(axes, width, fmt.heading(panel.words, unit), last=not above)
-        if factor != 1.0:
-            axes.yaxis.set_major_formatter(lambda value, _, by=factor: with_minus_signs(fmt.number(by * value)))
+        axes.yaxis.set_major_formatter(Numbers(factor))
         if panel.table is not None:
             end = len(factors) - 1 if trace is None else trace.end()
             _name_lines(axes, width, panel, {k: float(panel.table[end, k]) for k in panel.names}, styles)

@@ -8,10 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from .labels import text_width
-from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, axis_label
+from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, Numbers, axis_label
 from .titles import HEIGHT, SIZE, title_lines
 from .turned import Turned
 
@@ -134,10 +133,8 @@ class Sheet:
         """Write the numbers of an axis in the unit that is shown."""
         if quantity == "motion":
             return
-        factor = fmt.shown_unit(self.scene, quantity)[1]
-        if factor != 1.0:
-            axis = axes.xaxis if self.upright else axes.yaxis
-            axis.set_major_formatter(lambda value, _: with_minus_signs(fmt.number(factor * value)))
+        axis = axes.xaxis if self.upright else axes.yaxis
+        axis.set_major_formatter(Numbers(fmt.shown_unit(self.scene, quantity)[1]))
         if self.upright:
             axes.locator_params(axis="x", nbins=4)
 

@@ -12,6 +12,7 @@ import numpy as np
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from .labels import LINE, MARGIN, Labels, spread, text_width
+from .panels import FIXED
 from .support_values import SupportValues, properties, short_names
 
 if TYPE_CHECKING:
@@ -30,6 +31,8 @@ DENSE = 20.0
 """Distance of places below which they are near one another (points)."""
 EACH = 3
 """Supports with the same gap or spring, of which it is said once for all of them."""
+BESIDE = 40
+"""Characters of a line beside an upright beam."""
 WIDE = 110
 """Characters of a line of a note."""
 
@@ -253,21 +256,28 @@ class SupportTexts:
         self.notes += ["; ".join(words)] * bool(words)
 
     def _beside(self, start: float) -> list[Text]:
-        """Write a line for every place to the right of an upright beam, moved along it as little as need be."""
-        found = []
+        """Write lines for every place to the right of an upright beam, moved along it as little as need be."""
+        found: list[tuple[float, list[str], bool]] = []
         for place, indices in sorted(self.at.items()):
             told = self.values.told(indices, self.few, False) if self.values is not None else None
             lines = [*told.lines, *told.openings] if told else []
             lines += self._of_place(place, indices).replace("\n", ", ").split("\n") if self._of_place(place, indices) else []
+            across = sum(self.scene.supports[k].direction == "normal" for k in indices)
             head = self._numbers([place])
-            text = head if not lines else f"{head}: {', '.join(lines)}" if len(indices) == 1 else f"{', '.join(lines)}"
-            found.append((place, text, bool(told and told.lifted)))
+            whole = [line.replace(" ", FIXED) for line in lines]  # broken between what is said
+            text = head if not lines else f"{head}: {', '.join(whole)}" if across < 2 else ", ".join(whole)
+            rows = [row.replace(FIXED, " ") for row in textwrap.wrap(text, BESIDE, break_long_words=False)]
+            found.append((place, rows, bool(told and told.lifted)))
         most = int(self.page * self.scale / LINE)
+        if sum(len(rows) for _, rows, _ in found) > most:
+            found = [(place, [" ".join(rows)], lifted) for place, rows, lifted in found]
         if len(found) > most:
             self.notes.append(f"{most} of {len(found)} places labelled")
             found = found[:: -(-len(found) // most)]
-        at = spread([place * self.scale for place, *_ in found], LINE, self.page * self.scale)
-        return [Text(y / self.scale, start, text, lifted) for y, (_, text, lifted) in zip(at, found, strict=True)]
+        wanted = [place * self.scale + LINE * (k - (len(rows) - 1) / 2) for place, rows, _ in found for k in range(len(rows))]
+        texts = [(row, lifted) for _, rows, lifted in found for row in rows]
+        at = spread(wanted, LINE, self.page * self.scale)
+        return [Text(y / self.scale, start, text, lifted) for y, (text, lifted) in zip(at, texts, strict=True)]
 
 
 def _middle(places: list[float]) -> float:
