@@ -9,6 +9,7 @@ import numpy as np
 from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 from ..scene.ground_tables import at_both_ends
+from ..scene.movements import number_of_moved
 from ..scene.names import DEAD, label, labels
 from ..scene.rotations import turns
 from ..scene.temperature import as_curvatures
@@ -89,16 +90,15 @@ def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
     return [
         {
             "name": name, "x": x, "side": SIDES.get(one.side, 0), "level": level, "gap": one.gap or 0.0,
-            "axial": one.direction == "axial", "turns": turns(one),
-            "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
+            "axial": one.direction == "axial", "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
             "turning": 0 if one.rotation == "free" else 2 if one.rotation == "fixed" else 1,
-        }
+        } | ({"turns": True} if turns(one) else {})
         for one, name, x, level in rows
     ]  # fmt: skip
 
 
 def loads_data(scene: Scene) -> list[dict[str, Any]]:
-    """Give the loads as they are drawn; movements of supports are seen in the deflections.
+    """Give the loads as they are drawn; those that move supports with their places and ways, those of the ground with its ends.
 
     Parameters
     ----------
@@ -106,12 +106,21 @@ def loads_data(scene: Scene) -> list[dict[str, Any]]:
         The scene; of a combination with its factors.
     """
     nodes, found = scene.span_ends(), []
-    for load, given in zip(as_curvatures(scene).loads, scene.loads, strict=True):
+    at = scene.positions(scene.supports).tolist()
+    for k, (load, given) in enumerate(zip(as_curvatures(scene).loads, scene.loads, strict=True)):
         kind = load.__struct_config__.tag
-        if kind == "movement":
-            continue
         one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
-        if kind in ("force", "moment", "axial"):
+        if kind == "movement":
+            which = number_of_moved(scene, k, load)
+            if load.foundation is not None:
+                from_, to = fmt.stretch(scene, scene.foundation[which])
+                one |= {"way": "ground", "x": (from_ + to) / 2, "moves": np.broadcast_to(load.value, 2).tolist()}
+            else:
+                support = scene.supports[which]
+                turned = turns(support) or load.rotation is not None
+                one |= {"way": "turn" if turned else "along" if support.direction == "axial" else "across", "x": at[which],
+                        "moves": [load.value if load.rotation is None else load.rotation]}  # fmt: skip
+        elif kind in ("force", "moment", "axial"):
             one["x"] = float(nodes[load.node]) if load.node is not None else load.x
             one["value"] = load.M if kind == "moment" else load.F
         else:

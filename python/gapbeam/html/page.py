@@ -116,7 +116,7 @@ def html_page(result: Result, source: Source | None = None) -> str:
         units=scene.units, upright=data["upright"],
         ground=bool(scene.foundation), status=result.status, checked=None if state is None else _checked(state),
         style="".join((TEMPLATES / name).read_text() for name in ("screen.css", "print.css")),
-        script="".join((TEMPLATES / name).read_text() for name in ("evaluate.js", "draw.js", "page.js")),
+        script="".join(_without_comments((TEMPLATES / name).read_text()) for name in ("evaluate.js", "draw.js", "page.js")),
     )  # fmt: skip
 
 
@@ -171,6 +171,11 @@ def _json(data: Any) -> str:
     """Write JSON that may stand in a page: no text in it ends the script."""
     text = json.dumps(data, allow_nan=False, separators=(",", ":"), default=float)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _without_comments(script: str) -> str:
+    """Leave out the lines that are comments, which no reader of the page needs."""
+    return "".join(line for line in script.splitlines(keepends=True) if not line.lstrip().startswith("/*"))
 
 
 def _css(text: str) -> str:

@@ -33,8 +33,9 @@ ROOM, NO_ROOM = 0.24, 0.08
 
 
 def draw_field(
-    axes: Axes | Turned, scene: Scene, cells: Cells, quantity: str, extreme: dict[str, Point], avoid: Sequence[Point], factor: float
-) -> Marks:
+    axes: Axes | Turned, scene: Scene, cells: Cells, quantity: str, extreme: dict[str, Point], avoid: Sequence[Point],
+    factor: float, seats: Sequence[Point] = (),
+) -> Marks:  # fmt: skip
     """Draw one field with its largest and smallest value, whose labels keep clear of some points.
 
     Parameters
@@ -53,6 +54,8 @@ def draw_field(
         Points that labels keep clear of.
     factor : float
         Load factor.
+    seats : sequence of (float, float)
+        Points that are in the panel too.
 
     Returns
     -------
@@ -61,7 +64,7 @@ def draw_field(
     """
     x, values = cells.along(quantity)
     shown = {kind: pair for kind, pair in extreme.items() if counts(pair[0], extreme)}
-    limit_values(axes, [value for value, _ in shown.values()] + [value for _, value in avoid], ROOM)
+    limit_values(axes, [value for value, _ in shown.values()] + [value for _, value in seats], ROOM)
     if quantity == "deflection":
         draw_surface(axes, scene, along(scene), BEYOND, factor)
     if not values.any():

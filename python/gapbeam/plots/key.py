@@ -7,7 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING
 
 from ..base.characters import visible, with_minus_signs
-from ..results import formatting as fmt
+from ..results.contact import position_in_words
 from .panels import FIXED
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Key:
         position = getattr(extreme, "position", None)
         name = source_name(extreme)
         words = [self.letter(self._told.get(name, (name, ""))[0])] if self.needed else []
-        words += [] if position is None else [f"at {fmt.place(self._scene, position, 4)}"]
+        words += [] if position is None else [f"at {position_in_words(self._scene, position, 4)}"]
         return with_minus_signs(" ".join(words))
 
     def lines(self) -> list[str]:

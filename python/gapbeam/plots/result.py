@@ -107,11 +107,11 @@ def figure(result: "Result", step: int = -1) -> Figure:
         if not stands:
             _motion(panel, result)
             continue
-        contacts = ()
+        contacts = seats = ()
         if quantity == "deflection":
-            contacts = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
-            contacts += near_surface(scene, cells, length, state.factor)
-        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts, state.factor)
+            seats = draw_contacts(panel, scene, supports, state, float(np.abs(cells.values["deflection"]).max()))
+            contacts = seats + near_surface(scene, cells, length, state.factor)
+        marks = draw_field(panel, scene, cells, quantity, result._pairs_of_extremes(step)[quantity], contacts, state.factor, seats)
         if quantity == "moment":
             peaks = find_peaks(*cells.along("moment"), scene.span_ends(), lambda x: result.at(x, step))
             for value, x in peaks[:MOST_MARKS]:

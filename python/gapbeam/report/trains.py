@@ -7,6 +7,7 @@ import numpy as np
 from ..base.characters import visible
 from ..results import formatting as fmt
 from ..results.cases.limit_states import envelopes_to_tell
+from ..results.contact import position_in_words
 from ..results.event_words import event_in_words
 from ..results.trains.data import passing_trains
 from ..results.views.extreme import IN_WORDS
@@ -54,7 +55,8 @@ def _source(result: "Result", one: "TrainExtreme") -> list[str]:
     """Where an extreme comes from, cell by cell."""
     text = "no train"
     if one.train is not None:
-        text = f"{visible(one.train)} at {fmt.place(result.scene, one.position)}" + (" going left" if one.direction == LEFT else "")
+        at = position_in_words(result.scene, one.position)
+        text = f"{visible(one.train)} at {at}" + (" going left" if one.direction == LEFT else "")
     text += f" or {fmt.count(len(one.ties), 'other')}" if one.ties else ""
     return [visible(one.combination or ""), text] if result.combinations else [text]
 
@@ -143,7 +145,7 @@ def _events(say: Writer, result: "Result") -> None:
     scene = result.scene
     rows = [
         [*([visible(combination)] if combination is not None else []), visible(train.name), event.direction,
-         fmt.place(scene, event.position), event_in_words(scene, event)]
+         position_in_words(scene, event.position), event_in_words(scene, event)]
         for combination, train in passing_trains(result)
         for event in train.events
     ]  # fmt: skip

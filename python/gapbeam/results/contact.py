@@ -47,7 +47,7 @@ def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) ->
     train = one.train
     if train is not None:
         direction = " going left" if getattr(one, "direction", None) == LEFT else ""
-        at = "" if one.position is None else f" at {fmt.place(scene, one.position)}"
+        at = "" if one.position is None else f" at {position_in_words(scene, one.position)}"
         words.append(f"{visible(train)}{at}{direction}")
     at = one.factor
     if factor and at is not None:
@@ -55,6 +55,23 @@ def source_in_words(one: Lifted | Extreme, scene: Scene, factor: bool = True) ->
         on_leg = f" of leg {leg}" if leg and len(scene.analysis.history) > 1 else ""
         words.append(f"load factor {fmt.number(at, fmt.DIGITS)}{on_leg}")
     return ", ".join(words)
+
+
+def position_in_words(scene: Scene, x: float, digits: int = fmt.DIGITS) -> str:
+    """Write the position of a train: 0 where it is nothing but rounding beside the length of the beam.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    x, digits : float, int
+        The position, and significant digits.
+
+    Returns
+    -------
+    str
+    """
+    return fmt.number(x if abs(x) > fmt.NOISE * float(scene.span_ends()[-1]) else 0.0, digits)
 
 
 def contact_in_words(result: Result, lifted: list[Lifted], carrying: Collection[int] = ()) -> list[str]:

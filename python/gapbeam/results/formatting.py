@@ -136,11 +136,6 @@ def without_noise(values: Iterable[float], bound: float | None = None) -> list[f
     return [0.0 if abs(value) <= least else value for value in values]
 
 
-def place(scene: Scene, x: float, digits: int = DIGITS) -> str:
-    """Write a place along the beam, or the position of a train: 0 where it is nothing but rounding beside its length."""
-    return number(x if abs(x) > NOISE * float(scene.span_ends()[-1]) else 0.0, digits)
-
-
 def _exponent(value: float) -> int:
     return math.floor(math.log10(value))
 

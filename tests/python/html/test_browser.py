@@ -1,5 +1,6 @@
 """What pages do in Chromium: sliders, events, tables, themes, keys; and that what they draw is what the solver says."""
 
+import itertools
 import shutil
 import tempfile
 import time
@@ -270,6 +271,36 @@ def test_joints_are_drawn_as_joints_under_trains_too(browser, look_at):
     assert shown.count('class="reaction head"') == 3
     assert 'data-support="4" data-state="open"><circle' in shown
     assert "Turning freely: splice." in find(browser, "#caption").text
+
+
+def test_what_loads_move_is_drawn_with_value_and_unit(browser, look_at):
+    """Supports across and along the beam, restraints, and the ground."""
+    look_at({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4, "EA": 1e6},
+        "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1, "side": "below"}, {"node": 2},
+                     {"node": 2, "direction": "axial"}],
+        "loads": [{"type": "uniform", "q": 5.0, "case": "dead"}, {"type": "movement", "support": 1, "value": -0.01},
+                  {"type": "movement", "support": 0, "rotation": 0.002}, {"type": "movement", "support": 3, "value": 0.004}],
+    })  # fmt: skip
+    shown = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#picture text.load")]
+    assert [text.replace("\u2212", "-") for text in shown] == ["5 kN/m", "moves -10 mm", "turns 0.002 rad", "moves 4 mm"]
+    look_at({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [20.0], "EI": 2e4}, "foundation": [{"k": 5e3}],
+        "loads": [{"type": "uniform", "q": 5.0, "case": "dead"}, {"type": "movement", "foundation": 0, "value": [0.0, 0.01]}],
+    })  # fmt: skip
+    shown = [one.text for one in browser.find_elements(By.CSS_SELECTOR, "#picture text.load")]
+    assert shown == ["5 kN/m", "ground moves 0 mm to 10 mm"]
+
+
+def test_labels_of_near_supports_stand_apart(browser, look_at):
+    near = [{"x": 5.0 + 0.05 * k, "side": "below", "gap": 0.001 * k} for k in range(4)]
+    look_at({"beam": {"spans": [10.0], "EI": 1e4}, "supports": [{"node": 0}, {"node": 1}, *near],
+             "loads": [{"type": "uniform", "q": 5.0}]})  # fmt: skip
+    places = browser.execute_script(
+        "return Array.from(document.querySelectorAll('#picture text.value'), (one) => one.getBoundingClientRect())"
+        ".map((box) => [box.left, box.right]).sort((a, b) => a[0] - b[0])")  # fmt: skip
+    assert len(places) == 6
+    assert all(after[0] >= before[1] - 3.0 for before, after in itertools.pairwise(places))
 
 
 def test_on_the_ground_states_are_at_most_a_pixel_apart(browser, look_at):

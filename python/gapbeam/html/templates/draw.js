@@ -73,7 +73,20 @@ class Scale {
   x(place) { return LEFT + (place / (this.end || 1)) * (WIDTH - LEFT - RIGHT); }
 }
 
-function spacingOf(supports) { return (WIDTH - LEFT - RIGHT) / Math.max(1, new Set(supports.map((one) => one.x)).size); }
+/* The least distance of two places with supports (pixels). */
+function spacingOf(supports) {
+  const places = [...new Set(supports.filter((one) => !beside(one)).map((one) => one.x))].sort((a, b) => a - b), beam = DATA.beams[0];
+  const least = Math.min(beam.x[beam.x.length - 1], ...places.slice(1).map((x, k) => x - places[k]));
+  return ((WIDTH - LEFT - RIGHT) * least) / (beam.x[beam.x.length - 1] || 1);
+}
+
+/* Places of turned labels: those of their supports, moved to the right as far as others are there. */
+function apart(places, least = 12) {
+  const order = places.map((x, k) => [x, k]).sort((a, b) => a[0] - b[0]), found = [];
+  order.forEach(([x, k], i) => { found[k] = i ? Math.max(x, found[order[i - 1][1]] + least) : x; });
+  const over = Math.max(0, ...found) - (WIDTH - 6);
+  return over > 0 ? found.map((x) => x - over) : found;
+}
 
 function line(x1, y1, x2, y2, name) { return `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" class="${name}"/>`; }
 function words(x, y, text, name = "", more = "") { return `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" class="${name}" ${more}>${escaped(text)}</text>`; }
@@ -101,7 +114,7 @@ function stack(loads) {
 function drawModel(state, scale, axis, changed) {
   const y = (x, left) => axis + scale.lift * state.value("deflection", x, left);
   const parts = [line(scale.x(0), axis, scale.x(scale.end), axis, "rest")];
-  if (DATA.upright) parts.push(words(LEFT - 26, axis + 4, "top", "name"), words(WIDTH - 12, axis + 4, "foot", "name"));
+  if (DATA.upright) parts.push(words(8, axis - 26, "top", "title"), words(WIDTH - 14, axis - 26, "foot", "name"));
   for (const [, from, to, name] of state.zones) parts.push(path(along(state, scale, from, to, 7), name === "touching" ? "ground touching" : "ground"));
   for (const [, from, to] of state.free) parts.push(path(along(state, scale, from, to, 7), "ground free"));
   parts.push(path(along(state, scale, 0, scale.end, 0), "girder"));
@@ -148,7 +161,8 @@ function drawLoads(state, scale, y, axis) {
       const sign = one.type in UNITLESS ? UNITLESS[one.type] : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
       const text = `${sign}${from === to ? from : `${from} to ${to}`}${unit}`;
       if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
-    } else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));
+    } else if (one.type === "movement") parts.push(drawMovement(one, factor, scale, y(one.x, false), label));
+    else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));
     else {
       const x = scale.x(one.x), at = y(one.x, false), turn = Math.sign(factor * one.value);
       if (one.type === "moment") {
@@ -169,6 +183,24 @@ function drawLoads(state, scale, y, axis) {
   return parts.join("");
 }
 
+/* What moves a support or the ground: an arrow beside it, an arc where it turns, and how far. */
+function drawMovement(one, factor, scale, at, label) {
+  const x = scale.x(one.x), sign = Math.sign(factor * one.moves[0]), turns = one.way === "turn", right = x < WIDTH / 2;
+  const far = one.moves.map((moved) => withUnit(turns ? "rotation" : "deflection", factor * moved)), said = [...new Set(far)].join(" to ");
+  if (one.way === "ground") return label ? words(x, at + 34, `ground moves ${said}`, "load") : "";
+  const anchor = `style="text-anchor:${right ? "start" : "end"}"`, verb = turns ? "turns" : "moves";
+  const text = label ? words(x + (right ? 22 : -22), turns ? at - 18 : at + 34, `${verb} ${said}`, "load", anchor) : "";
+  if (turns) {
+    const end = x + 15 * sign, head = path([[end - 4, at - 3], [end + 4, at - 3], [end, at + 4]], "force head", true);
+    return `<path class="couple" d="M${x - 15 * sign},${at} A15,15 0 0 ${sign > 0 ? 1 : 0} ${end},${at}"/>${head}${text}`;
+  }
+  if (one.way === "along") {
+    const tip = x + (right ? -18 : 18) + 10 * sign, head = path([[tip - 8 * sign, at - 4], [tip - 8 * sign, at + 4], [tip, at]], "force head", true);
+    return line(tip - 20 * sign, at, tip - 3 * sign, at, "force") + head + text;
+  }
+  return arrow(x + (right ? 16 : -16), sign > 0 ? at + 28 : at + 6, 20 * sign, "force") + text;
+}
+
 /* A force with its value, which goes higher as long as it would cover another one. */
 function drawForce(scale, x, force, at, taken, name = "force") {
   const length = 14 + 26 * (Math.abs(force) / scale.force), sign = Math.sign(force) || 1;
@@ -185,7 +217,8 @@ function drawForce(scale, x, force, at, taken, name = "force") {
 function drawSupports(state, scale, y, axis, changed) {
   const parts = [], supports = state.supports, across = supports.filter((one) => !beside(one)).length;
   const spacing = spacingOf(supports);
-  const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24;
+  const size = Math.min(9, Math.max(3, spacing / 3)), low = axis + MODEL.lift + 24, turned = spacing < TURNED;
+  const labels = apart(supports.map((one) => (beside(one) || one.side < 0 ? -1e9 : scale.x(one.x) + 4)));
   supports.forEach((one, k) => {
     if (across > MOST_DRAWN && state.words[k] !== "open" && k % Math.ceil(across / MOST_DRAWN)) return;
     const x = scale.x(one.x), at = y(one.x, false), above = one.side < 0, branch = /^branch (\d+)/.exec(state.words[k]);
@@ -212,7 +245,7 @@ function drawSupports(state, scale, y, axis, changed) {
     parts.push("</g>");
     if (across > MOST_NAMED) return;
     const value = state.reaction[k], text = open ? `${above ? "\u2193" : "\u2191"}${shown("opening", state.opening[k])}` : shown("reaction", value);
-    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0, turned = spacing < TURNED;
+    const length = scale.reaction ? 6 + 16 * (Math.abs(value) / scale.reaction) : 0;
     if (above) {
       const right = x > WIDTH - 90, label = open && shares ? "" : text;
       if (!turned) parts.push(`<text x="${(x + (right ? -1 : 1) * (size + 5)).toFixed(1)}" y="${(tip - size).toFixed(1)}" class="value beside ${open ? "opened" : ""}" style="text-anchor:${right ? "end" : "start"}">${escaped(label)}</text>`);
@@ -221,7 +254,7 @@ function drawSupports(state, scale, y, axis, changed) {
     }
     if (!idle && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
     const foot = low + 36;
-    if (turned) parts.push(words(x + 4, foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(x + 4, foot - 8)));
+    if (turned) parts.push(words(labels[k], foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(labels[k], foot - 8)));
     else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(...named(x, foot + 13, one.name, spacing), "name"));
   });
   if (across && across <= MOST_NAMED && spacing >= TURNED) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
@@ -231,7 +264,7 @@ function drawSupports(state, scale, y, axis, changed) {
 /* A name under its support, cut where others have their room, beside the word at the left and before the end of the picture. */
 function named(x, y, name, spacing) {
   const most = Math.max(9, Math.floor(spacing / 6.2)), text = name.length > most ? `${name.slice(0, most - 1)}\u2026` : name, half = 3 * text.length;
-  return [Math.min(Math.max(x, 56 + half), WIDTH - 4 - half), y, text];
+  return [Math.min(Math.max(x, 62 + half), WIDTH - 4 - half), y, text];
 }
 
 function turnedAt(x, y) { return `transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" style="text-anchor:end"`; }

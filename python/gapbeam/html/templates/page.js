@@ -42,7 +42,7 @@ function inWords(state, events) {
   const text = [`${capital(parts.join(", "))}.`];
   if (events.length) text.push(`${capital(events.map((one) => one.words).join("; "))}.`);
   const opened = state.supports.map((one, k) => [one.name, k]).filter(([, k]) => state.words[k] === "open");
-  const [open, loose] = [false, true].map((turns) => opened.filter(([, k]) => state.supports[k].turns === turns));
+  const [open, loose] = [false, true].map((turns) => opened.filter(([, k]) => Boolean(state.supports[k].turns) === turns));
   const listed = open.slice(0, 8).map(([name, k]) => `${name} (${withUnit("opening", state.opening[k])})`).join(", ");
   if (loose.length) text.push(`Turning freely: ${loose.slice(0, 8).map(([name]) => name).join(", ")}${loose.length > 8 ? ` and ${loose.length - 8} more` : ""}.`);
   if (state.supports.some((one) => one.side !== 0 && !one.turns)) text.push(open.length ? `Without contact: ${listed}${open.length > 8 ? ` and ${open.length - 8} more` : ""}.` : "All supports are in contact.");
