@@ -10,6 +10,7 @@ from ..results.cases.limit_states import envelopes_to_tell
 from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..results.envelopes.lifted import NONE
+from ..results.envelopes.over_path import is_followed
 from ..results.equilibrium import sum_of_loads, sum_of_reactions
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
@@ -278,6 +279,8 @@ def _foundations(say: Writer, result: "CombinedResult", envelope: "Envelope", of
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:
     """Say where a load factor between 0 and 1 governs."""
+    if not result.is_linear_between_events and is_followed(result):
+        return  # the largest values over the loading history follow
     say.heading("Load factors between 0 and 1")
     if not result.is_linear_between_events:
         say.line("Not looked for: on foundations, with smooth laws and where the state depends on the loading history, values are "

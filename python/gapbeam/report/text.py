@@ -4,6 +4,7 @@ rich is imported only when a report is printed.
 """
 
 import io
+import textwrap
 from collections import Counter
 from typing import TYPE_CHECKING
 
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
     from ..results.state.step import Step
     from ..scene.structs import Support
 
+VALUES, VALUE_COLUMN = ("Largest ", "Axial displacement "), 20
+"""How lines with the largest values begin, and where the values do."""
 MOST_EVENTS = 40
 """Events that the report lists."""
 
@@ -120,9 +123,17 @@ def _answer(say: "Writer", result: "Result") -> None:
         which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     for words in answer(result):
-        say.line(words, "red" if words.startswith(SIGN) or " EXCEEDED: " in words else "")
+        say.line(_hanging(words, say.width), "red" if words.startswith(SIGN) or " EXCEEDED: " in words else "")
     for remark in result.remarks:
         say.line(fmt.sentence(visible(remark)), "red")
+
+
+def _hanging(words: str, width: int) -> str:
+    """Break the largest values so that what goes on stands under the values."""
+    if not words.startswith(VALUES):
+        return words
+    look = {"subsequent_indent": VALUE_COLUMN * " ", "break_long_words": False, "break_on_hyphens": False}
+    return "\n".join(textwrap.fill(line, width, **look) for line in words.split("\n"))
 
 
 def _solver(say: "Writer", result: "Result") -> None:

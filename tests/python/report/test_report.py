@@ -254,3 +254,29 @@ def test_tables_that_are_too_wide_are_divided_and_break_no_word():
     heads = " ".join(table).split()
     assert {"reaction", "couple", "deflection", "friction", "slip"} <= {*heads}
     assert max(map(len, table)) <= 80
+
+
+def test_long_answers_go_on_below_their_values():
+    names = [f"a combination of many loads with a long name {k}" for k in range(2)]
+    result = gapbeam.solve({
+        "units": {"force": "kN", "length": "m"}, "beam": {"spans": [6.0, 6.0], "EI": 1e4},
+        "supports": [{"node": 0}, {"node": 1}, {"node": 2}], "loads": [{"type": "uniform", "q": 12.0}],
+        "combinations": [{"name": name, "factors": {"live": 1.0 + k}} for k, name in enumerate(names)],
+    })  # fmt: skip
+    lines = report_text(result, 80).split("\n")
+    first = next(k for k, line in enumerate(lines) if line.startswith("Largest moment"))
+    told = [line for line in lines[first : first + 4] if line[:1] in "L "]
+    assert max(map(len, told)) <= 80
+    assert any(line.startswith(" " * 20) for line in told[1:])
+
+
+def test_combinations_that_are_followed_say_once_what_is_between():
+    """A load that moves a support makes the values depend on the way, which is gone through."""
+    result = gapbeam.solve({
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": [{"node": 0, "side": "below"}, {"node": 1}, {"node": 2}],
+        "loads": [{"type": "uniform", "q": 12.0, "case": "dead"}, {"type": "movement", "support": 1, "value": 0.01}],
+        "combinations": [{"name": "moved", "factors": {"dead": 1.0, "live": 1.0}}],
+    })  # fmt: skip
+    text = result.report()
+    assert "Largest values over the loading history" in text
+    assert "Not looked for" not in text
