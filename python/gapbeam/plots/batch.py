@@ -10,6 +10,7 @@ from matplotlib.ticker import FuncFormatter
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
 from ..results.views.extreme import IN_WORDS
+from .panels import FIXED
 from .save import literal
 
 if TYPE_CHECKING:
@@ -95,9 +96,9 @@ def _notes(summary: "Summary", drawn: "dict[str, Distribution]", alike: list[str
         for name in alike[:MOST]:
             unit, factor = summary.units.get(name, ("", 1.0))
             value = with_minus_signs(fmt.number(factor * summary.columns[name].least, 4))
-            values.append(f"{_words(name)} = {value} {unit}".rstrip())
+            values.append(f"{_words(name)} = {value} {unit}".rstrip().replace(" ", FIXED))
         words.append(f"the same in every case: {', '.join(values)}{', ...' * (len(alike) > MOST)}")
-    return textwrap.wrap("; ".join(words), CHARACTERS)
+    return [line.replace(FIXED, " ") for line in textwrap.wrap("; ".join(words), CHARACTERS)]
 
 
 def _words(name: str) -> str:

@@ -29,10 +29,10 @@ from .labels import text_width
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import Marks
-from .panels import MOST_POINTS, PANELS, counts, cut_text, outcome
+from .panels import MOST_CHARACTERS, MOST_POINTS, PANELS, counts, cut_text, outcome
 from .save import literal
 from .sheet import Sheet, along, heading_height
-from .states import legend_handles, plain_states
+from .states import legend_handles, plain_states, symbols_of
 from .support_values import EnvelopeValues
 from .thin import outline
 from .turned import Turned, is_turned, raw
@@ -99,7 +99,7 @@ def envelope_figure(result: Result) -> Figure:
     lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
     foot = LINE * len(lines) + 0.08
     text = _headline(result, sources, strips)
-    handles = legend_handles(states) * (not supports.rows)
+    handles = legend_handles(symbols_of(scene, states)) * (not supports.rows)
     sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, top, len(panels), foot)
     draw_ground(sheet.sketch, ground, ())
     draw_beam(sheet.sketch, scene, states, supports)
@@ -164,7 +164,7 @@ def _headline(result: Result, sources: list[Any], several: bool) -> str:
     if result.scene.trains and sources:
         names = ", ".join(dict.fromkeys(visible(one.train) for one in sources if one.train))
         text += cut_text(f" while trains pass: {names}", 85)
-    return text + "; the strips tell which one governs" * several
+    return "\n".join(textwrap.wrap(text + "; the strips tell which one governs" * several, MOST_CHARACTERS))
 
 
 def _loaded(envelope: TrainEnvelope, result: Result) -> tuple[Scene | None, str]:

@@ -19,6 +19,8 @@ WIDTH, LEFT, RIGHT, PANEL, SPACE = 7.4, 0.95, 0.15, 1.5, 0.14
 #: Points of a curve at most, about: a span gets fewer points where there are many spans
 MOST_POINTS = 100_000
 
+#: Of a line of a heading
+MOST_CHARACTERS = 105
 FIXED = "\N{NO-BREAK SPACE}"
 PLAIN = 1e-3, 1e6
 """Largest numbers of an axis between which they have equally many decimals."""
@@ -39,7 +41,7 @@ def outcome(result: "Result") -> str:
     """
     begin = "No equilibrium. " if result.status == "no-equilibrium" else ""
     words = (begin + fmt.sentence(result.reason)).replace(" = ", f"{FIXED}={FIXED}")
-    return "\n".join(textwrap.wrap(words, 105)).replace(FIXED, " ")
+    return "\n".join(textwrap.wrap(words, MOST_CHARACTERS)).replace(FIXED, " ")
 
 
 def cut_text(text: str, most: int) -> str:

@@ -157,6 +157,8 @@ def path_figure(result: Result) -> Figure:
             draw_zones(axes, result, stretches)
         else:
             draw_extremes(axes, states, dots)
+            if not any(np.any(line.get_ydata()) for line in axes.lines):
+                axes.set_yticks([0.0])  # numbers beside nothing mean nothing
         unit, factor = fmt.shown_unit(scene, panel.quantity)
         _frame(axes, width, fmt.heading(panel.words, unit), last=not above)
         axes.yaxis.set_major_formatter(Numbers(factor))

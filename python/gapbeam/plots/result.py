@@ -27,17 +27,16 @@ from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import MOST_MARKS, find_peaks
 from .movements import Movements, draw_movements
-from .panels import PANELS, outcome
+from .panels import MOST_CHARACTERS, PANELS, outcome
 from .save import literal, save
 from .sheet import Sheet, along, heading_height
-from .states import SYMBOLS, kinds_of, legend_handles, plain_kinds, plain_states
+from .states import SYMBOLS, kinds_of, legend_handles, plain_kinds, plain_states, symbols_of
 from .support_values import StateValues
 from .turned import Turned, is_turned
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.ground import Contact
-    from ..scene.structs import Scene
 
 def plot(result: "Result", path: str | os.PathLike, step: int = -1) -> None:
     """Draw a result into a file.
@@ -94,7 +93,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     supports = SupportLanes(scene, states, length, (ground.below, ground.above), values, kinds, movements)
     loads = LoadLanes(scene, supports.top, length, factor)
     text = _headline(result, step, kinds, contact) if stands else outcome(result)
-    handles = legend_handles(_of_symbols(scene, kinds)) * (not supports.rows) + zone_handles(contact, result.scene)
+    handles = legend_handles(symbols_of(scene, kinds)) * (not supports.rows) + zone_handles(contact, result.scene)
     sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, loads.top, len(panels))
     draw_ground(sheet.sketch, ground, contact)
     draw_beam(sheet.sketch, scene, states, supports)
@@ -123,7 +122,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
 def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tuple[Contact, ...]") -> str:
     """Say how many supports do what."""
     scene, factor = result.scene, result.steps[step].factor
-    counted = Counter(_of_symbols(scene, kinds))
+    counted = Counter(kind for kind, one in zip(kinds, scene.supports, strict=True) if not turns(one))
     text = with_minus_signs(f"load factor {fmt.number(factor)}")
     if result.status == "limit-load" and result.steps[step] is result.steps[-1]:
         text += " (limit load)"
@@ -140,12 +139,7 @@ def _headline(result: "Result", step: int, kinds: tuple[str, ...], contact: "tup
         text += with_minus_signs(f", N {' to '.join(ends)}")
     zones = joined(contact)
     text += f", contact in {fmt.count(len(zones), noun_of(zones))}" if contact else ""
-    return "\n".join(textwrap.wrap(text, 105))
-
-
-def _of_symbols(scene: "Scene", kinds: tuple[str, ...]) -> tuple[str, ...]:
-    """Take what supports do that are drawn by such symbols: those that hold a rotation are not."""
-    return tuple(kind for kind, one in zip(kinds, scene.supports, strict=True) if not turns(one))
+    return "\n".join(textwrap.wrap(text, MOST_CHARACTERS))
 
 
 def _motion(axes: Axes | Turned, result: "Result") -> None:

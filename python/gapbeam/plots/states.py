@@ -10,6 +10,7 @@ from matplotlib.path import Path
 
 from ..results.event_words import STATES
 from ..results.state.breakpoints import Piece, piece_of, what_happens
+from ..scene.rotations import turns
 
 if TYPE_CHECKING:
     from ..engine.beam import Beam
@@ -100,6 +101,25 @@ def plain_kinds(states: tuple[str, ...]) -> tuple[str, ...]:
 def plain_states(scene: Scene) -> tuple[str, ...]:
     """Take for states what supports are, where nothing is known of what they do."""
     return tuple("bilateral" if support.side == "both" else "one-sided" for support in scene.supports)
+
+
+def symbols_of(scene: Scene, kinds: tuple[str, ...]) -> tuple[str, ...]:
+    """Take what those supports do that are drawn by symbols of their kind: clamps, and what holds a rotation, are not.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    kinds : tuple of str
+        Of all supports.
+
+    Returns
+    -------
+    tuple of str
+    """
+    drawn = (not turns(one) and not (one.rotation == "fixed" and one.side == "both" and one.direction == "normal")
+             for one in scene.supports)  # fmt: skip
+    return tuple(kind for kind, is_drawn in zip(kinds, drawn, strict=True) if is_drawn)
 
 
 def legend_handles(kinds: tuple[str, ...]) -> list[Line2D]:

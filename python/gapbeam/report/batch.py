@@ -37,7 +37,7 @@ def print_summary(summary: "Summary", console: "Console | None" = None) -> None:
         for name, one in columns.items()
     ]
     say.table_by_name(["", "mean", "least", *(f"{100 * share:g} %" for share in shares), "largest"], rows)
-    say.line("50 %: half of the cases give no more than this.")
+    say.line("50 %: half of the cases give no more than this. Values are in the units of the scene.")
     above = [
         [name, fmt.number(limit), f"{count:,}", f"{count / one.count:.6g}"]
         for name, one in columns.items()

@@ -210,3 +210,12 @@ def test_texts_beside_an_upright_beam_are_broken_into_lines():
     assert max(map(len, lines)) <= 40
     assert any(line.startswith("1, 2: ") for line in lines)
     assert made.get_size_inches()[0] < 12.0
+
+
+def test_headings_of_trains_with_long_names_stand_on_the_page_and_clamps_are_not_in_the_legend():
+    trains = [{"name": f"vehicle number {k} of the code", "axles": [[0, 50 + 20 * k], [2 + k, 80]]} for k in range(3)]
+    scene = {"beam": {"spans": [12.0], "EI": 1e4}, "supports": [{"node": 0, "rotation": "fixed"}]}
+    made = figure(gapbeam.solve(scene | {"trains": trains}))
+    made.draw_without_rendering()
+    assert all(text.get_window_extent().x1 <= made.bbox.x1 for text in made.texts)
+    assert not made.legends
