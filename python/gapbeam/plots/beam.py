@@ -357,4 +357,4 @@ def _ticks(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lanes: 
         state, _, side = label.partition(" ")
         words = "along the beam" if label == "axial" else f"{state_in_words(state)} {side}".strip()
         axes.annotate(words, (0.0, y), (-4, 0), xycoords=("data", "data"), textcoords="offset points", fontsize=6.5,
-                      ha="right", va="center", annotation_clip=False)  # fmt: skip
+                      ha="right", va="center", annotation_clip=False, rotation=90 * is_turned(axes))  # fmt: skip

@@ -104,13 +104,15 @@ def _block_arrows(
 def _label_blocks(axes: Axes | Turned, lanes: LoadLanes) -> None:
     """Write the labels of blocks; where many are narrow, the unit once for all."""
     for block in lanes.blocks:
+        if block.label is None:
+            continue
         x, above, text, crossed = block.label
         behind = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.85}} if crossed else {}
         axes.text(x, lanes.base + lanes.lane * block.lane + above, text, fontsize=6.8 - 0.8 * lanes.short, ha="center",
                   va="bottom", zorder=7, **behind)  # fmt: skip
     for lane in {block.lane for block in lanes.blocks} if lanes.short else ():
         y = lanes.base + lanes.lane * lane
-        text = next(block.unit for block in lanes.blocks if block.lane == lane)
+        text = next((lanes.unit for block in lanes.blocks if block.lane == lane and not block.curvature), "")
         axes.annotate(text, (0.0, y), (-4, 0), textcoords="offset points", fontsize=6.8, ha="right", va="bottom")
 
 

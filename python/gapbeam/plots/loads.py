@@ -110,6 +110,7 @@ class LoadLanes:
         self.labelled = len(self.blocks) <= MOST_LABELS
         lanes = _pack(self.blocks)
         self.largest = max((abs(v) for one in self.blocks if not one.curvature for v in (one.first, one.last)), default=0.0) or 1.0
+        self.unit = unit(scene, "uniform")
         rows = self._label_blocks(length + 38.0) if self.labelled else 0
         self.lane = LANE + LINE * rows if self.labelled else BLOCK + 3.0
         if self.upright and self.labelled:  # labels stand beside blocks, not above them
@@ -175,9 +176,10 @@ class LoadLanes:
                     (one.start + one.stop) * self.scale / 2 - middle) < half + (one.stop - one.start) * self.scale / 2]
                 top = max(max(self.heights(one)) for one in (block, *under)) + 0.5
                 free = (row for row in range(MOST_LEVELS) if taken[block.lane].take(middle, top + LINE * row, text))
-                row = 0 if self.short else next(free, 0)
-            crossed = any(abs(at - middle) < half for at in forces)
-            block.label, most = (middle / self.scale, top + LINE * row, text, crossed), max(most, row)
+                row = next(free, -1)
+            if row >= 0:
+                crossed = any(abs(at - middle) < half for at in forces)
+                block.label, most = (middle / self.scale, top + LINE * row, text, crossed), max(most, row)
         return most
 
     def tip(self, arrow: Arrow, length: float) -> float:
@@ -232,7 +234,7 @@ class LoadLanes:
                 asides = [above, math.copysign(half + 2.0, stop - start)]
             elif arrow.aside:
                 asides.insert(0, math.copysign(half, arrow.aside))
-            places = [(aside, end + 1.0) for aside in asides if x + aside + half < page]
+            places = [(aside, end + 1.0) for aside in asides if half - MARGIN < x + aside < page - half]
             above = min(max(above, half - MARGIN - x), page - half - x)
             # One of so many is free: a label or an arrow is in the way of less than two of them
             places += [(above, end + 1.0 + level * LINE) for level in range(4 * MOST_LABELS)]

@@ -276,7 +276,7 @@ class SupportTexts:
             found = found[:: -(-len(found) // most)]
         wanted = [place * self.scale + LINE * (k - (len(rows) - 1) / 2) for place, rows, _ in found for k in range(len(rows))]
         texts = [(row, lifted) for _, rows, lifted in found for row in rows]
-        at = spread(wanted, LINE, self.page * self.scale)
+        at = spread(wanted, LINE, self.page * self.scale - LINE / 2)
         return [Text(y / self.scale, start, text, lifted) for y, (text, lifted) in zip(at, texts, strict=True)]
 
 
