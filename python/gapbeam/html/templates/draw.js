@@ -64,7 +64,7 @@ class Scale {
     const largest = (values) => Math.max(0, ...values.map(Math.abs)) || 1;
     this.force = largest([...loads.filter((one) => one.type === "force").map((one) => one.value),
       ...DATA.ways.flatMap((way) => way.axles || []).map(([, force]) => force)]);
-    if (DATA.supports.some((supports) => supports.length <= MOST_NAMED && spacingOf(supports) < TURNED)) MODEL.labels = 140;
+    if (DATA.supports.some((supports) => supports.length <= MOST_NAMED && spacingOf(supports) < TURNED)) MODEL.labels = 185;
     MODEL.loads += MODEL.level * Math.max(0, ...DATA.loads.map(stack));
     this.uniform = largest([...loads.filter((one) => one.ends && !isFlat(one)).flatMap((one) => one.ends),
       ...DATA.ways.flatMap((way) => way.uniform || []).map(([q]) => q)]);
@@ -160,8 +160,9 @@ function drawLoads(state, scale, y, axis) {
       const unit = one.type in UNITLESS ? "" : ` ${DATA.units.uniform[0]}`;
       const sign = one.type in UNITLESS ? UNITLESS[one.type] : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
       const text = `${sign}${from === to ? from : `${from} to ${to}`}${unit}`;
-      if (label) parts.push(words((left + right) / 2, foot - Math.max(a, b) - 3, text, "load"));
-    } else if (one.type === "movement") parts.push(drawMovement(one, factor, scale, y(one.x, false), label));
+      const half = halfOf(text), middle = Math.min(Math.max((left + right) / 2, 4 + half), WIDTH - 4 - half);
+      if (label) parts.push(words(middle, foot - Math.max(a, b) - 3, text, "load"));
+    } else if (one.type === "movement") parts.push(drawMovement(one, factor, scale, y(one.x, false), label && taken));
     else if (one.type === "force") parts.push(drawForce(scale, one.x, factor * one.value, y(one.x, false), label && taken));
     else {
       const x = scale.x(one.x), at = y(one.x, false), turn = Math.sign(factor * one.value);
@@ -169,8 +170,8 @@ function drawLoads(state, scale, y, axis) {
         parts.push(`<path class="couple" d="M${x - 11 * turn},${at} A11,11 0 0 ${turn > 0 ? 1 : 0} ${x + 11 * turn},${at}"/>`,
           path([[x + 11 * turn - 4, at - 3], [x + 11 * turn + 4, at - 3], [x + 11 * turn, at + 4]], "force head", true));
       } else parts.push(line(x - 26 * turn, at - 12, x, at - 12, "force"), path([[x - 7 * turn, at - 16], [x - 7 * turn, at - 8], [x, at - 12]], "force head", true));
-      const text = withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value), right = x > WIDTH - 90;
-      if (label) parts.push(words(x + (right ? 24 : 16), right ? at - 20 : at + 24, text, "load", `style="text-anchor:${right ? "end" : "start"}"`));
+      const text = withUnit(one.type === "moment" ? "moment" : "reaction", factor * one.value);
+      if (label) parts.push(loadLabel(taken, x + 16 + halfOf(text), at + 24, text, 1));
     }
   }
   for (const [x, force] of state.axles) {
@@ -184,12 +185,12 @@ function drawLoads(state, scale, y, axis) {
 }
 
 /* What moves a support or the ground: an arrow beside it, an arc where it turns, and how far. */
-function drawMovement(one, factor, scale, at, label) {
+function drawMovement(one, factor, scale, at, taken) {
   const x = scale.x(one.x), sign = Math.sign(factor * one.moves[0]), turns = one.way === "turn", right = x < WIDTH / 2;
   const far = one.moves.map((moved) => withUnit(turns ? "rotation" : "deflection", factor * moved)), said = [...new Set(far)].join(" to ");
-  if (one.way === "ground") return label ? words(x, at + 34, `ground moves ${said}`, "load") : "";
-  const anchor = `style="text-anchor:${right ? "start" : "end"}"`, verb = turns ? "turns" : "moves";
-  const text = label ? words(x + (right ? 22 : -22), turns ? at - 18 : at + 34, `${verb} ${said}`, "load", anchor) : "";
+  if (one.way === "ground") return taken ? loadLabel(taken, x, at + 34, `ground moves ${said}`, 1) : "";
+  const verb = `${turns ? "turns" : "moves"} ${said}`, off = (right ? 1 : -1) * (22 + halfOf(verb));
+  const text = taken ? loadLabel(taken, x + off, turns ? at - 18 : at + 34, verb, turns ? -1 : 1) : "";
   if (turns) {
     const end = x + 15 * sign, head = path([[end - 4, at - 3], [end + 4, at - 3], [end, at + 4]], "force head", true);
     return `<path class="couple" d="M${x - 15 * sign},${at} A15,15 0 0 ${sign > 0 ? 1 : 0} ${end},${at}"/>${head}${text}`;
@@ -201,15 +202,21 @@ function drawMovement(one, factor, scale, at, label) {
   return arrow(x + (right ? 16 : -16), sign > 0 ? at + 28 : at + 6, 20 * sign, "force") + text;
 }
 
-/* A force with its value, which goes higher as long as it would cover another one. */
+/* Half the width of a text (pixels), about. */
+function halfOf(text) { return 2.9 * text.length; }
+
+/* A label of a load on the page, moved down or up as long as it would cover another one. */
+function loadLabel(taken, x, y, text, down) {
+  const half = halfOf(text), middle = Math.min(Math.max(x, 4 + half), WIDTH - 4 - half);
+  while (taken.some(([other, wide, low]) => Math.abs(other - middle) < half + wide && Math.abs(low - y) < 11)) y += 11 * down;
+  taken.push([middle, half, y]);
+  return words(middle, y, text, "load");
+}
+
+/* A force with its value. */
 function drawForce(scale, x, force, at, taken, name = "force") {
   const length = 14 + 26 * (Math.abs(force) / scale.force), sign = Math.sign(force) || 1;
-  let text = "", foot = at - 8 - length;
-  if (taken) {
-    while (taken.some(([left, low]) => Math.abs(left - scale.x(x)) < 52 && Math.abs(low - foot) < 11)) foot -= 11;
-    taken.push([scale.x(x), foot]);
-    text = words(scale.x(x), foot, withUnit("reaction", force), "load");
-  }
+  const text = taken ? loadLabel(taken, scale.x(x), at - 8 - length, withUnit("reaction", force), -1) : "";
   return arrow(scale.x(x), sign > 0 ? at - 4 : at - 4 - length, sign * length, name) + text;
 }
 
@@ -254,16 +261,18 @@ function drawSupports(state, scale, y, axis, changed) {
     }
     if (!idle && value) parts.push(value > 0 ? arrow(x, low, -length, "reaction") : arrow(x, low + length, length, "reaction"));
     const foot = low + 36;
-    if (turned) parts.push(words(labels[k], foot - 8, `${one.name}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(labels[k], foot - 8)));
-    else parts.push(words(x, foot, text, `value ${open ? "opened" : ""}`), words(...named(x, foot + 13, one.name, spacing), "name"));
+    if (turned) parts.push(words(labels[k], foot - 8, `${shortened(one.name, Math.max(6, 19 - text.length))}: ${text}`, `value ${open ? "opened" : ""}`, turnedAt(labels[k], foot - 8)));
+    else parts.push(words(Math.min(x, WIDTH - 4 - halfOf(text)), foot, text, `value ${open ? "opened" : ""}`), words(...named(x, foot + 13, one.name, spacing), "name"));
   });
   if (across && across <= MOST_NAMED && spacing >= TURNED) parts.push(words(8, low + 36, DATA.units.reaction[0], "title"), words(8, low + 49, "support", "title"));
   return parts.join("");
 }
 
+function shortened(name, most) { return name.length > most ? `${name.slice(0, most - 1)}\u2026` : name; }
+
 /* A name under its support, cut where others have their room, beside the word at the left and before the end of the picture. */
 function named(x, y, name, spacing) {
-  const most = Math.max(9, Math.floor(spacing / 6.2)), text = name.length > most ? `${name.slice(0, most - 1)}\u2026` : name, half = 3 * text.length;
+  const text = shortened(name, Math.max(9, Math.floor(spacing / 6.2))), half = 3 * text.length;
   return [Math.min(Math.max(x, 62 + half), WIDTH - 4 - half), y, text];
 }
 
