@@ -11,6 +11,7 @@ import numpy as np
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from ..scene.rotations import turns
 from .labels import LINE, MARGIN, Labels, spread, text_width
 from .panels import FIXED
 from .support_values import SupportValues, properties, short_names
@@ -205,8 +206,13 @@ class SupportTexts:
 
         Places of which the number stands alone need not repeat it. What has no room is summed up.
         """
+        if not self._write_properties(top, every):
+            self._sum_up(self._write_properties(top, every, "movement"))
+
+    def _write_properties(self, top: float, every: int, only: str = "") -> bool:
+        """Write what supports are, or of it only what begins like this; nothing where not all has room."""
         rows, written = Labels(), []
-        wanted = {place: words for place, indices in sorted(self.at.items()) if (words := self._of_place(place, indices))}
+        wanted = {place: words for place, indices in sorted(self.at.items()) if (words := self._of_place(place, indices, only))}
         for place, text in wanted.items() if every == 1 else ():
             middle, high = self._inside(place, text), 1 + text.count("\n")
             for line in range(MOST_LINES):
@@ -214,14 +220,15 @@ class SupportTexts:
                     written.append(Text(middle, top - LINE * line, text))
                     break
         if len(written) < len(wanted):
-            self._sum_up()
-            return
+            return False
         self.texts += written
+        return True
 
-    def _of_place(self, place: float, indices: list[int]) -> str:
+    def _of_place(self, place: float, indices: list[int], only: str = "") -> str:
         """Word what the supports of a place are, as far as it is not said of all."""
         found = {
-            k: [words for kind, words in self._told_of(k).items() if (kind, self.scene.supports[k].side) not in self.each]
+            k: [words for kind, words in self._told_of(k).items()
+                if kind.startswith(only) and (kind, self.scene.supports[k].side) not in self.each]
             for k in indices
         }
         found = {k: words for k, words in found.items() if words}
@@ -238,12 +245,17 @@ class SupportTexts:
     def _stands_alone(self, place: float) -> bool:
         return place in getattr(self, "alone", self.at)
 
-    def _sum_up(self) -> None:
-        """Note between which values gaps, settlements and springs are, where they cannot all be written."""
+    def _sum_up(self, moved: bool) -> None:
+        """Note between which values gaps, settlements, springs and movements are, where they cannot all be written."""
+        supports = [support for support in self.scene.supports if not turns(support)]
+        moves = [] if moved or self.movements is None else self.movements.supports
         values = {
-            "gaps": ("gap", [s.gap for s in self.scene.supports if s.gap]),
-            "settlements": ("gap", [s.settlement for s in self.scene.supports if s.settlement]),
-            "springs": ("uniform", [s.stiffness for s in self.scene.supports if 0.0 < s.stiffness < np.inf and s.law is None]),
+            "gaps": ("gap", [s.gap for s in supports if s.gap]),
+            "slacks": ("rotation", [s.gap for s in self.scene.supports if s.gap and turns(s)]),
+            "settlements": ("gap", [s.settlement for s in supports if s.settlement]),
+            "springs": ("uniform", [s.stiffness for s in supports if 0.0 < s.stiffness < np.inf and s.law is None]),
+            "movements": ("gap", [one.value for one in moves if one.kind != "turn"]),
+            "turns": ("rotation", [one.value for one in moves if one.kind == "turn"]),
         }
         words = []
         for name, (quantity, found) in values.items():

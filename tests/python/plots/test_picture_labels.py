@@ -219,3 +219,17 @@ def test_headings_of_trains_with_long_names_stand_on_the_page_and_clamps_are_not
     made.draw_without_rendering()
     assert all(text.get_window_extent().x1 <= made.bbox.x1 for text in made.texts)
     assert not made.legends
+
+
+def test_movements_are_written_where_gaps_and_springs_are_summed_up():
+    """Two halves of a bearing with gap, spring and settlement each, at three places: too many lines."""
+    halves = [{"x": x, "side": side, "gap": 0.0003, "stiffness": 6e5 + 1e4 * k, "settlement": 0.0005, "name": f"{side} {k}"}
+              for k, x in enumerate((1.0, 1.4, 1.8)) for side in ("below", "above")]  # fmt: skip
+    scene = {"units": {"force": "kN", "length": "m"}, "beam": {"spans": [10.0], "EI": 1e4},
+             "supports": [{"node": 0}, {"node": 1}, *halves]}  # fmt: skip
+    for moving in ([2], range(6)):
+        moves = [{"type": "movement", "support": halves[k]["name"], "value": -0.001 * (k + 1)} for k in moving]
+        drawn = figure(gapbeam.solve(scene | {"loads": [{"type": "uniform", "q": 5.0}, *moves]}))
+        said = "; ".join(text.get_text() for text in drawn.axes[0].texts)
+        assert "springs from" in said
+        assert "moves \u2191 3 mm" in said or "6 movements from \u22126 to \u22121 mm" in said
