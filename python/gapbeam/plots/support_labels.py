@@ -264,8 +264,8 @@ class SupportTexts:
             unit, factor = fmt.shown_unit(self.scene, quantity)
             low, high = (with_minus_signs(fmt.number(factor * value, 4)) for value in (min(found), max(found)))
             reach = f"of {low}" if low == high else f"from {low} to {high}"
-            words.append(f"{len(found):,} {name} {reach} {unit}".rstrip())
-        self.notes += ["; ".join(words)] * bool(words)
+            words.append(f"{fmt.count(len(found), name.removesuffix('s'))} {reach} {unit}".rstrip().replace(" ", FIXED))
+        self.notes += [line.replace(FIXED, " ") for line in textwrap.wrap("; ".join(words), WIDE)]
 
     def _beside(self, start: float) -> list[Text]:
         """Write lines for every place to the right of an upright beam, moved along it as little as need be."""
