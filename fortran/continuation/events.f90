@@ -32,7 +32,7 @@ module gapbeam_events
         !> on; gapbeam_turns: the beam has lost its hold and turns at constant load until this support holds it
         integer :: state
         !> gapbeam_opens, gapbeam_closes, gapbeam_turns; of a support with a law also gapbeam_yields, gapbeam_hardens,
-        !> gapbeam_softens, gapbeam_breaks, gapbeam_unloads, gapbeam_levels
+        !> gapbeam_softens, gapbeam_breaks, gapbeam_unloads
         integer :: change = no_change
         !> Of a history: the stretch that begins with it
         integer :: stretch = 0

@@ -51,8 +51,7 @@ subroutine ghhget(hist, maxst, stfact, istrch, maxev, evfact, ievent, maxlim, lm
     double precision, intent(inout) :: stfact(2, *)
     integer, intent(inout) :: istrch(6, *)
     ! The first MAXEV events: load factor; support; what it is from there on, as from GHEVNT; what happens, 0 opens, 1 closes,
-    ! 3 turns, 4 yields, 5 hardens, 6 softens, 7 breaks, 8 unloads, 11 levels; stretch that begins
-    ! with it
+    ! 3 turns, 4 yields, 5 hardens, 6 softens, 7 breaks, 8 unloads; stretch that begins with it
     double precision, intent(inout) :: evfact(*)
     integer, intent(inout) :: ievent(4, *)
     ! The first MAXLIM limits: load factor; kind, 1 limit point, 2 bifurcation, 3 mechanism; factor that is gone to; last stretch

@@ -72,8 +72,8 @@ module gapbeam
     use gapbeam_events, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
-        gapbeam_unloads, gapbeam_levels, gapbeam_slips, gapbeam_sticks, gapbeam_appears, gapbeam_vanishes, gapbeam_merges, &
-        gapbeam_splits, gapbeam_reaches, gapbeam_leaves
+        gapbeam_unloads, gapbeam_slips, gapbeam_sticks, gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, &
+        gapbeam_reaches, gapbeam_leaves
     use gapbeam_api, only: prepared_type, options_type, result_type, certificate_type, &
         prepare_model, replace_loads, count_supports, count_nodes, &
         solve_beam, follow_load, get_supports, get_friction, get_fields, get_extremes, get_motion, get_certificate

@@ -10,7 +10,7 @@ module gapbeam_pieces
     public :: acting_type, acting_piece, acts_in, what_happens, no_change
     public :: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch
     public :: gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
-        gapbeam_unloads, gapbeam_slips, gapbeam_sticks, gapbeam_levels
+        gapbeam_unloads, gapbeam_slips, gapbeam_sticks
     public :: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
 
     !> States of a support
@@ -23,8 +23,6 @@ module gapbeam_pieces
     integer, parameter :: gapbeam_opens = gapbeam_open, gapbeam_closes = gapbeam_closed, gapbeam_turns = 3
     !> Of supports with a law: on to a piece that is flatter, or steeper; on which the force falls, or drops at once; back
     integer, parameter :: gapbeam_yields = 4, gapbeam_hardens = 5, gapbeam_softens = 6, gapbeam_breaks = 7, gapbeam_unloads = 8
-    !> The same: from a piece on which the force falls on to a level one, which keeps what is left of it
-    integer, parameter :: gapbeam_levels = 11
     !> Of friction: the beam begins to slide over the support, or no longer does
     integer, parameter :: gapbeam_slips = 9, gapbeam_sticks = 10
     !> Of zones of contact with the ground; of their ends, at those of the foundation or of the beam
@@ -107,8 +105,8 @@ contains
     !> The event between two pieces of a law, or between no contact and contact, or none
     pure function what_happens(before, after) result(event)
         type(acting_type), intent(in) :: before, after
-        !> gapbeam_opens, gapbeam_closes, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, gapbeam_unloads,
-        !> gapbeam_levels or nothing
+        !> gapbeam_opens, gapbeam_closes, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, gapbeam_unloads or
+        !> nothing
         integer :: event
         logical :: same_slope
 
@@ -125,8 +123,6 @@ contains
             event = no_change  ! the foot of a drop; it has broken at its top
         else if (after%slope < 0.0_wp) then
             event = merge(gapbeam_breaks, gapbeam_softens, after%slope < -huge(1.0_wp))
-        else if (before%slope < 0.0_wp .and. .not. after%slope > 0.0_wp) then
-            event = gapbeam_levels
         else
             event = merge(gapbeam_hardens, gapbeam_yields, after%slope > before%slope)
         end if

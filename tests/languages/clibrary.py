@@ -41,7 +41,7 @@ GROUND_LAWS = {
 UNLOADING = {"elastic": 0, "plastic": 1, "broken": 2}
 AT_LIMIT = {"stop": 0, "jump": 1, "follow": 2}
 CHANGES = {0: "opens", 1: "closes", 3: "turns", 4: "yields", 5: "hardens", 6: "softens", 7: "breaks", 8: "unloads"} | {
-    9: "slips", 10: "sticks", 11: "levels"
+    9: "slips", 10: "sticks"
 }
 KINDS_OF_LIMIT = {1: "limit", 2: "bifurcation", 3: "mechanism"}
 ENDINGS = {0: "", 3: "mechanism", 4: "ended"}

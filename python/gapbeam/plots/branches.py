@@ -11,7 +11,6 @@ from matplotlib.axes import Axes
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
-from ..results.event_words import EVENT_WORDS
 from ..results.paths.branches import BranchPath
 
 if TYPE_CHECKING:
@@ -119,7 +118,7 @@ class Trace:
         """Say what lines and marks mean, as far as they occur."""
         named = {_kind(mark.what) for mark in self.marks}
         named |= {name for name, way in (("unstable", UNSTABLE), ("jump", JUMP)) if way in self.ways}
-        what = " or ".join(sorted({EVENT_WORDS[mark.what] for mark in self.marks if _kind(mark.what) == "kink"}))
+        what = " or ".join(sorted({mark.what for mark in self.marks if _kind(mark.what) == "kink"}))
         notes = [text.format(what=what) for name, text in NOTES.items() if name in named]
         if self.lands:
             notes[-1] = "arrow and diamonds: where the load would jump to"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -153,9 +155,21 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
     quantity = at_support(scene, "reaction", event.support)
     force = f" ({fmt.value(scene, quantity, abs(reaction))})" if reaction else ""
     words = EVENT_WORDS[event.event]
+    if event.event == "hardens" and _falls_to_a_level(scene.supports[event.support].law):
+        words = "reaches its residual force"
     if scene.supports[event.support].direction != "normal":
         words = WITHOUT_CONTACT.get(event.event, words)
     return f"{fmt.support(scene, event.support)} (x = {x}) {words}{force}"
+
+
+def _falls_to_a_level(law: object) -> bool:
+    """Whether a law gets steeper only where its force has fallen, and stays from there on."""
+    if not isinstance(law, list):
+        return False
+    points = [(0.0, 0.0), *law]
+    slopes = [(s - r) / (e - d) if e != d else math.copysign(math.inf, s - r) for (d, r), (e, s) in pairwise(points)]
+    rises = [(one, two) for one, two in pairwise(slopes) if two > one]
+    return bool(rises) and all(one < 0.0 == two for one, two in rises)
 
 
 def limits_of_load_in_words(result: Result, envelope: PathEnvelope | None, most: int) -> list[str]:

@@ -35,7 +35,7 @@ class Event:
     event : str
         ``opens``, ``closes``, or ``turns``: the beam has lost its hold and turns, at constant load, until this support
         holds it. What opens and closes with that is listed beside it, at the same factor. Of a support with a law also
-        ``yields``, ``hardens``, ``softens``, ``breaks``, ``levels`` and ``unloads``.
+        ``yields``, ``hardens``, ``softens``, ``breaks`` and ``unloads``.
     """
 
     factor: float

@@ -12,7 +12,6 @@ OF_SUPPORTS = {
     0: ("opens", "lifts off"), 1: ("closes", "comes into contact"), 3: ("turns", "stops the beam, which has turned freely"),
     4: ("yields", "yields"), 5: ("hardens", "hardens"), 6: ("softens", "softens"), 7: ("breaks", "breaks"),
     8: ("unloads", "unloads"), 9: ("slips", "begins to slip"), 10: ("sticks", "no longer slips"),
-    11: ("levels", "reaches its residual force"),
 }  # fmt: skip
 OF_ZONES = {
     20: ("zone appears", "a contact zone appears"), 21: ("zone vanishes", "a contact zone vanishes"),
@@ -89,8 +88,6 @@ def what_happens(before: Piece, after: Piece) -> str:
     >>> elastic, flat, falling = Piece(1, 5.0, 1), Piece(2, 0.0, 1), Piece(3, -1.0, 1)
     >>> what_happens(elastic, flat), what_happens(flat, falling), what_happens(flat, elastic)
     ('yields', 'softens', 'unloads')
-    >>> what_happens(falling, Piece(4, 0.0, 1)), what_happens(falling, Piece(4, 2.0, 1))
-    ('levels', 'hardens')
     >>> what_happens(Piece(0, 0.0, 1), elastic), what_happens(elastic, Piece(0, 0.0, 1))
     ('closes', 'opens')
     """
@@ -104,6 +101,4 @@ def what_happens(before: Piece, after: Piece) -> str:
         return ""  # the foot of a drop; it has broken at its top
     if after.slope < 0.0:
         return "breaks" if np.isinf(after.slope) else "softens"
-    if before.slope < 0.0 and after.slope == 0.0:
-        return "levels"
     return "hardens" if after.slope > before.slope else "yields"
