@@ -17,17 +17,15 @@ contains
 
     !> Where the deflection crosses straight lines: all zeros of w - line inside the stretch at which it changes its sign, by more
     !> than rounding
-    pure subroutine find_crossings(stretch, load, ends, lines, xi, number, curved)
+    pure subroutine find_crossings(stretch, load, ends, lines, xi, curved)
         !> The stretch, its load, deflections and moments of its ends
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
         type(stretch_ends_type), intent(in) :: ends
         !> Lines at the left and right end, down, shape (2, lines)
         real(wp), intent(in) :: lines(:, :)
-        !> The places in parts of the length, rising, in (0, 1), line after line, shape (number)
+        !> The places in parts of the length, rising, in (0, 1), line after line
         real(wp), allocatable, intent(out) :: xi(:)
-        !> How many there are
-        integer, intent(out) :: number
         !> The stretch where ground acts on it by curves
         type(curved_type), intent(in), optional :: curved
         type(question_type) :: question
@@ -35,11 +33,10 @@ contains
 
         question = asked(stretch, load, ends, curved)
         call find_zeros(question, [(over_line, k=1, size(lines, 2))], lines, xi, numbers)
-        number = size(xi)
     end subroutine find_crossings
 
     !> Where ground reaches its limit: all zeros of stiffness side (w - line) - limit at which that changes its sign
-    pure subroutine find_limits(stretch, load, ends, line, side, stiffness, limit, xi, number, curved)
+    pure subroutine find_limits(stretch, load, ends, line, side, stiffness, limit, xi, curved)
         !> As for find_crossings
         type(stretch_type), intent(in) :: stretch
         type(stretch_load_type), intent(in) :: load
@@ -49,7 +46,6 @@ contains
         integer, intent(in) :: side
         !> As for find_crossings
         real(wp), allocatable, intent(out) :: xi(:)
-        integer, intent(out) :: number
         type(curved_type), intent(in), optional :: curved
         type(question_type) :: question
         integer :: numbers(1)
@@ -62,7 +58,6 @@ contains
         question%limit_a = limit(1)
         question%limit_b = limit(2)
         call find_zeros(question, [over_line], reshape(line, [2, 1]), xi, numbers)
-        number = numbers(1)
     end subroutine find_limits
 
     !> A question, but for what and the line

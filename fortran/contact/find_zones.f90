@@ -137,7 +137,7 @@ contains
             real(wp) :: lines(2, sum(pieces_of_law(ground%layers(ground%first(piece):ground%first(piece + 1) - 1))))
             real(wp) :: length, limits(parameters_of_law, 2), near
             type(curved_type), allocatable :: curved
-            integer :: i, k, m, law, crossings
+            integer :: i, k, m, law
 
             length = ground%pieces(piece)%length
             near = merge(one_place_on_curves, one_crossing, curves)*length
@@ -168,14 +168,14 @@ contains
                                                  shape(limits))
                                 call find_limits(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), &
                                                  contact_line(layer, [from, to], length), layer%side, limits(1, :), &
-                                                 limits(2, :), xi, crossings, curved)
-                                if (crossings > 0) cuts = [cuts, from + xi*(to - from)]
+                                                 limits(2, :), xi, curved)
+                                if (size(xi) > 0) cuts = [cuts, from + xi*(to - from)]
                             end do
                         end associate
                     end do
                     call find_crossings(grounded%stretches(i), load_of(i), ends_of(grounded, factor, work, i), lines(:, :m), xi, &
-                                        crossings, curved)
-                    if (crossings > 0) cuts = [cuts, from + xi*(to - from)]
+                                        curved)
+                    if (size(xi) > 0) cuts = [cuts, from + xi*(to - from)]
                 end associate
             end do
             call sort(cuts)
