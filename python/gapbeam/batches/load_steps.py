@@ -9,37 +9,44 @@ from collections.abc import Sequence
 from math import inf
 from typing import Any
 
+from msgspec.structs import replace
+
 from ..base.errors import GapbeamError
 from ..results.stepping import solve
-from ..scene.names import DEAD
+from ..scene.analysis import Analysis
+from ..scene.names import DEAD, cases_of
 from ..scene.reading import read_scene
-from .paths import KeyPath, scene_data, varies_by_case
+from ..scene.structs import Scene
+from .paths import KeyPath, varies_by_case
 
 
-def is_held(scene: dict[str, Any]) -> bool:
+def is_held(scene: Scene) -> bool:
     """Whether what holds both ways keeps the beam from moving, so that it can stand under any loads.
 
     Parameters
     ----------
-    scene : dict
-        As plain data.
+    scene : Scene
+        As it is solved.
     """
-    scene = _as_solved(scene)
-    kept = {key: [one for one in scene[key] if one["side"] == "both" and one["law"] is None] for key in ("supports", "foundation")}
+    supports, foundation = (
+        [one for one in items if one.side == "both" and one.law is None] for items in (scene.supports, scene.foundation)
+    )
+    alone = replace(
+        scene, supports=supports, foundation=foundation, loads=[], trains=[], combinations=[], analysis=Analysis()
+    )
     try:
-        nothing = {key: [] for key in ("loads", "trains", "combinations")}
-        return not solve({**scene, **kept, **nothing, "analysis": {}}).steps[-1].indifferent
+        return not solve(alone).steps[-1].indifferent
     except GapbeamError:
         return False
 
 
-def shares_before(scene: dict[str, Any]) -> list[float]:
+def shares_before(scene: Scene) -> list[float]:
     """Give the shares of the live loads at which a beam has to stand, before all of them act, for all load steps to stand.
 
     Parameters
     ----------
-    scene : dict
-        As plain data.
+    scene : Scene
+        As it is solved.
 
     Returns
     -------
@@ -47,22 +54,16 @@ def shares_before(scene: dict[str, Any]) -> list[float]:
         The loads under which supports without laws have an equilibrium are a convex set, in which no load is: where the first
         step stands and the last one, those between do, and without dead loads the last one is enough.
     """
-    scene = _as_solved(scene)
-    steps, held = scene["analysis"]["steps"], (*scene["supports"], *scene["foundation"])
-    if any(one["law"] is not None for one in held) or _is_rigid(scene):
+    steps = scene.analysis.steps
+    if any(one.law is not None for one in (*scene.supports, *scene.foundation)) or _is_rigid(scene):
         return [k / steps for k in range(1, steps)]
-    return [1 / steps] if steps > 1 and any(load["case"] == DEAD for load in scene["loads"]) else []
+    return [1 / steps] if steps > 1 and DEAD in cases_of(scene.loads) else []
 
 
-def _as_solved(scene: dict[str, Any]) -> dict[str, Any]:
-    """The same where what holds rotations by a law, with a slack or one way is a support of its own."""
-    return scene_data(read_scene(scene))
-
-
-def _is_rigid(scene: dict[str, Any]) -> bool:
+def _is_rigid(scene: Scene) -> bool:
     """Whether any stretch is rigid, so that statics may not tell the reactions of some scheme on the way apart."""
-    given = [scene["beam"]["EI"], *(one["EI"] for one in scene["sections"])]
-    return any(inf in (one if isinstance(one, list) else [one]) for one in given)
+    given = [scene.beam.EI, *(one.EI for one in scene.sections)]
+    return any(inf in (one if isinstance(one, list | tuple) else [one]) for one in given)
 
 
 def at_once(scene: dict[str, Any], paths: Sequence[KeyPath]) -> dict[str, Any]:
@@ -86,7 +87,8 @@ def at_once(scene: dict[str, Any], paths: Sequence[KeyPath]) -> dict[str, Any]:
     if not all(path.parts[0] in ("combinations", "trains") or varies_by_case(scene, path) for path in paths):
         return scene
     loose = any(path.parts[0] == "supports" and path.parts[2] == "stiffness" for path in paths)
-    before = shares_before(scene)
-    if before and (loose or len(before) > 1 or not is_held(scene)):
+    solved = read_scene(scene)
+    before = shares_before(solved)
+    if before and (loose or len(before) > 1 or not is_held(solved)):
         return scene
     return {**scene, "analysis": {**analysis, "steps": 1}}

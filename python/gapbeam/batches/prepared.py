@@ -95,20 +95,19 @@ class PreparedCases(OnOneBeam):
 
     def __init__(self, job: Job):
         super().__init__(job)
-        scene, beam = self._prepared, self._solver.beam
+        scene, beam = self._solver.scene, self._solver.beam
         # Shares of the live loads at which a case has to stand before all of them act
         self._before: list[float] = []
-        analysis = scene["analysis"]
-        if (analysis["steps"] > 1 or analysis["follow"] == "events") and not is_held(scene):
-            if analysis["follow"] == "events" or self._solver.movements is not None:
+        if (scene.analysis.steps > 1 or scene.analysis.follow == "events") and not is_held(scene):
+            if scene.analysis.follow == "events" or self._solver.movements is not None:
                 raise SceneError("analysis.follow", "the beam may lose its hold at any share of the loads")
             self._before = shares_before(scene)
         self._sides = beam.sides
-        supports = self._solver.scene.supports
-        x = self._solver.scene.positions(supports)
+        supports = scene.supports
+        x = scene.positions(supports)
         self._nodes = np.abs(beam.node_x - x[:, None]).argmin(axis=1)
         # Reactions and openings then follow from what is known of the nodes
-        self._is_simple = not scene["foundation"] and all(
+        self._is_simple = not scene.foundation and all(
             one.law is None and one.direction == "normal" and one.stiffness > 0.0 for one in supports
         )
         done = ("input", ERRORS, *(("reaction", "opening") if self._is_simple else ()))

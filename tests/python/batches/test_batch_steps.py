@@ -28,13 +28,13 @@ def paths_of(made, *names):
 
 
 def test_which_steps_are_left():
-    assert shares_before(plain(pipe())) == [0.02]
-    assert shares_before(plain(pipe(loads=pipe()["loads"][1:]))) == []
+    assert shares_before(gapbeam.read_scene(pipe())) == [0.02]
+    assert shares_before(gapbeam.read_scene(pipe(loads=pipe()["loads"][1:]))) == []
     rigid = pipe(beam={"spans": [4.0, 4.0, 2.0], "EI": [2e3, float("inf"), 2e3]})
-    assert len(shares_before(plain(rigid))) == 49
+    assert len(shares_before(gapbeam.read_scene(rigid))) == 49
     law = pipe()
     law["supports"][1]["law"] = [[0.01, 5.0], [0.02, 6.0]]
-    assert len(shares_before(plain(law))) == 49
+    assert len(shares_before(gapbeam.read_scene(law))) == 49
 
 
 @pytest.mark.parametrize(
