@@ -198,7 +198,7 @@ class Solution(Record):
     Attributes
     ----------
     status : int
-        SOLVED, NO_EQUILIBRIUM or BUCKLES; else only `motion`, `slides` and `axial_share` have a meaning.
+        SOLVED, NO_EQUILIBRIUM or BUCKLES; else only `motion`, `slides` and `share` have a meaning.
     closed : numpy.ndarray of int
         1 where a support acts, 0 where it is open.
     undecided : numpy.ndarray of int
@@ -217,7 +217,7 @@ class Solution(Record):
         Whether nothing holds the beam along its axis.
     unique : bool
         Whether it is known to be the only one; under compression, and on ground whose force falls, there may be others.
-    axial_share : float
+    share : float
         Share of the axial forces that the beam bears where it buckles, of the load factor where the ground's force falls; else 1.
     state : State
         All the rest.
@@ -235,7 +235,7 @@ class Solution(Record):
     came_back: bool
     slides: bool
     unique: bool
-    axial_share: float
+    share: float
     state: State = field(compare=False)
     chain: Chain | None = field(default=None, compare=False)
 

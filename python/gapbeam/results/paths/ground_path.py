@@ -145,8 +145,7 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     cause = cause_of_fall(result._beam.solve(path.beyond, rule, closed)) if asks else None
     if path.limits:
         result.status = "limit-load"
-        last, beyond = f"{path.limits[0].factor:.12g}", f"{max(path.limits[0].factor, path.beyond):.12g}"
-        where = f"beyond load factor {last}" if beyond == last else f"between the load factors {last} and {beyond}"
+        where = f"beyond {_last_factor(path.limits[0].factor, path.beyond)}"
         result.reason = f"limit load: nothing more resists the load {where}"
         if isinstance(cause, FallingGround):
             result.reason = f"limit load: the force of the ground falls, and the load cannot grow {where}"
@@ -156,14 +155,13 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
                 result.reason += f"; {describe_motion(result._beam, path.motion)}"
         return path
     if not path.stands:
-        where = f"above {_last_factor(path)}" if path.segments else "at load factor 0"
+        where = f"above {_last_factor(path.segments[-1].stop, path.beyond)}" if path.segments else "at load factor 0"
         result._refuse(where, path.motion, cause)
     return path if path.segments else None
 
 
-def _last_factor(path: GroundPath) -> str:
+def _last_factor(last: float, beyond: float) -> str:
     """Word the load factor above which there is no equilibrium; next to it states may be settled no more."""
-    last = path.segments[-1].stop
-    if path.beyond - last <= SAME_FACTOR * last:
-        return f"load factor {last:.16g}"
-    return f"a load factor between {last:.12g} and {path.beyond:.12g}"
+    if beyond - last <= SAME_FACTOR * last:
+        return f"load factor {last:.12g}"
+    return f"a load factor between {last:.12g} and {beyond:.12g}"

@@ -63,8 +63,8 @@ def cause_of_fall(solution: Solution) -> Buckling | FallingGround | None:
         Of a beam that does not stand.
     """
     if solution.status == Status.BUCKLES:
-        return Buckling(solution.axial_share, *buckled_shape(solution.state))
-    return FallingGround(solution.axial_share) if solution.axial_share < 1.0 else None
+        return Buckling(solution.share, *buckled_shape(solution.state))
+    return FallingGround(solution.share) if solution.share < 1.0 else None
 
 
 def describe_buckling(found: Buckling) -> str:
