@@ -133,8 +133,10 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     x, reaction = np.asarray(scene.positions(scene.supports), dtype=float), step.reaction
     across = np.where(normal, reaction, 0.0)
     ground = [zone.resultant for zone in step.contact]
+    with np.errstate(over="ignore"):
+        moment = across * x
     return Sums(
-        _sum([*across.tolist(), *ground]), _sum([*(across * x).tolist(), *(-step.couple).tolist()]),
+        _sum([*across.tolist(), *ground]), _sum([*moment.tolist(), *(-step.couple).tolist()]),
         -_sum([*reaction[axial].tolist(), *step.friction.tolist(), *_ground_along(scene, step)]),
     )  # fmt: skip
 

@@ -21,6 +21,16 @@ JSON_INFINITIES = ("1e999", "-1e999", "1E999", "-1E999")
 LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){100}""")
 """A key of more than a hundred parts: no scene has one, and tomllib takes minutes for some ten thousand parts."""
 
+SYNTAX = {
+    r"Cannot mutate": "it is written in one piece above; add to that, or write all of it as tables of their own",
+    r"Cannot (declare|overwrite)": "it stands above already; leave one of the two out",
+    r".*?: .[“”„\u2018\u2019]": "write straight quotes",
+    r".*?: .[-+]?(Inf|inf|\.inf|∞)": "infinite is inf",
+    r"Expecting.*?: ,[\]}]": "leave out the comma before it",
+    r"(Expecting|Extra data).*?: .(//|/\*|#)": "JSON has no comments; leave them out, or write TOML",
+}
+"""What to do about a mistake of the syntax, by its words, the character before it and what follows."""
+
 
 class Written(dict):
     """Data of a file, with its text for messages that name a line.
@@ -110,7 +120,7 @@ def _decoded(data: bytes, name: str) -> str:
     try:
         text = data[mark:].decode("utf-8")
     except UnicodeDecodeError as error:
-        raise SceneError(name, f"not a text in UTF-8 (byte {mark + error.start + 1} is wrong)") from None
+        raise SceneError(name, f"not a text in UTF-8 (byte {mark + error.start + 1} is wrong); save it as UTF-8") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -187,10 +197,14 @@ def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _syntax(name: str, text: str, line: int, column: int, problem: str) -> NoReturn:
-    source = (text.split("\n")[line - 1 : line] or [""])[0]
+    lines = text.split("\n")
+    source = (lines[line - 1 : line] or [""])[0]
+    before = "\n".join([*lines[: line - 1], source[: column - 1]]).rstrip()[-1:]
+    there = f"{problem}: {before}{source[column - 1 :]}"
     comma = re.search(r"(?<![\d,\[])\s\d+,\d+\s*(#|$)", source)
     hint = f'; write numbers with a point: "{comma[0].strip(" #").replace(",", ".")}"' if comma else ""
     unit = re.search(r"[=\[,]\s*([-+]?\d[\d.eE+-]*)\s?((?:[mck]?m|[kM]?N|kNm)\d?)\b", source)
     hint = f"; numbers have no units: write {unit[1]} if the scene has {unit[2]}, else convert it" if unit else hint
+    hint = next((f"; {words}" for mistake, words in SYNTAX.items() if re.match(mistake, there)), hint)
     quoted = f", in: {source.strip()[:80]}" if source.strip() else ""
     raise SceneError(f"{name}, line {line}, column {column}", f"{problem}{quoted}{hint}") from None

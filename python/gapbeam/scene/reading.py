@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import EngineError, SceneError
-from ..engine.beam import Beam, RefusalError
+from ..engine.arrays import Columns
+from ..engine.beam import Beam, Curve, RefusalError
 from .columns import columns, curves
 from .combinations import plan_combinations
 from .files import Written, read_file
@@ -27,6 +28,9 @@ from .tables import Table, take_arrays, take_tables
 from .trains import check_trains
 from .typed import typed
 from .wording import number, shown
+
+LARGEST_FACTOR = 1e100
+"""Of a history: with greater ones loads leave the range of doubles, and which factor does it is not known there."""
 
 
 def read_scene(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
@@ -155,21 +159,42 @@ def beam_of(scene: Scene) -> Beam:
     scene : Scene
         Keys and types are right.
 
-    Returns
-    -------
-    Beam
+    Raises
+    ------
+    SceneError
+        It makes no sense.
+    """
+    with names_in_errors(scene):
+        taken = columns(scene)
+    return beam_of_columns(scene, taken, curves(scene, taken))
+
+
+def beam_of_columns(scene: Scene, taken: Columns, smooth: tuple[tuple[int, Curve], ...] = ()) -> Beam:
+    """Make the beam of a scene whose numbers are taken already.
+
+    Parameters
+    ----------
+    scene : Scene
+        By whose places it is told what is wrong.
+    taken : Columns
+        Its numbers.
+    smooth : tuple of (int, Curve)
+        Its smooth laws.
 
     Raises
     ------
-    RefusalError
+    SceneError
         It makes no sense.
     """
-    taken = columns(scene)
-    return Beam(taken, curves(scene, taken))
+    with names_in_errors(scene):
+        try:
+            return Beam(taken, smooth)
+        except RefusalError as refused:
+            raise refusal(scene, *refused.codes) from None
 
 
 def prepared_beam(scene: Scene) -> Beam:
-    """Make the beam of a scene, whose refusals are told by its places.
+    """Make the beam of a scene that is solved as it is.
 
     Parameters
     ----------
@@ -179,13 +204,9 @@ def prepared_beam(scene: Scene) -> Beam:
     Raises
     ------
     SceneError
-        It makes no sense.
+        It makes no sense, or its history needs to be followed.
     """
-    with names_in_errors(scene):
-        try:
-            beam = beam_of(scene)
-        except RefusalError as refused:
-            raise refusal(scene, *refused.codes) from None
+    beam = beam_of(scene)
     if scene.analysis.has_history and scene.analysis.follow == "steps":
         raise SceneError("analysis.history", 'a history needs follow = "events"')
     return beam
@@ -247,8 +268,9 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
         problem = "has no load factor other than 0, so there is nothing to follow"
         raise SceneError("analysis.history", f"{problem}; give one, or for dead loads alone leave the others out")
     for i, factor in enumerate(scene.analysis.history):
-        if not isfinite(factor):
-            raise SceneError(f"analysis.history[{i}]", f"expected a finite number, got {number(factor)}")
+        if not abs(factor) <= LARGEST_FACTOR:
+            most = f" of at most {LARGEST_FACTOR:g}" if isfinite(factor) else ""
+            raise SceneError(f"analysis.history[{i}]", f"expected a finite number{most}, got {number(factor)}")
     return scene
 
 

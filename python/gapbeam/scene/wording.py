@@ -242,6 +242,8 @@ def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneE
         problem = f"expected one distance, got {shown(value)}: where it may vary, give a train with together for every distance"
         return SceneError(place, problem)
     expected = _described(kind)
+    if bound := re.search("([<>])= (-?[0-9]+)", text):
+        expected += f" of at {'most' if bound[1] == '<' else 'least'} {int(bound[2]):,}"
     if isinstance(value, int) and abs(value) > sys.float_info.max and "number" in expected and "whole" not in expected:
         return SceneError(place, beyond(as_text(value)))
     return SceneError(place or "the scene", f"expected {expected}, got {shown(value)}{meant_by_value(place, value, expected)}")

@@ -305,14 +305,14 @@ def test_names_that_cannot_be(folder, capsys, name, problem):
     ("data", "problem"),
     [
         (b'{"beam": {"EI": 1, "EI": 2}}', 'the key "EI" stands twice in one table'),
-        (b"title = '\xff'", "not a text in UTF-8 (byte 10 is wrong)"),
-        (b"\xef\xbb\xbftitle = '\xff'", "not a text in UTF-8 (byte 13 is wrong)"),
+        (b"title = '\xff'", "not a text in UTF-8 (byte 10 is wrong); save it as UTF-8"),
+        (b"\xef\xbb\xbftitle = '\xff'", "not a text in UTF-8 (byte 13 is wrong); save it as UTF-8"),
         (b'{"beam":' * 3000, "tables or lists are nested too deeply"),
         (b"a = " + b"[" * 3000, "tables or lists are nested too deeply"),
         (b"a." * 30_000 + b"a = 1", "tables or lists are nested too deeply"),
         (b"[beam]\nEI = " + b"9" * 5000, "a number has more than 4300 digits"),
         (b'{"a": ' + b"9" * 5000 + b"}", "a number has more than 4300 digits"),
-        (b"\xff\xfea\0", "not a text in UTF-8 (byte 1 is wrong)"),
+        (b"\xff\xfea\0", "not a text in UTF-8 (byte 1 is wrong); save it as UTF-8"),
     ],
 )
 def test_standard_input_is_read_as_a_file_is(folder, capsys, data, problem):

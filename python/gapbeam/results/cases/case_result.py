@@ -6,11 +6,10 @@ import numpy as np
 from msgspec.structs import replace
 
 from ...base.errors import EngineError, SceneError
-from ...engine.beam import Beam, RefusalError
+from ...engine.beam import Beam
 from ...engine.combinations import Varied
 from ...scene.combinations import times
-from ...scene.reading import beam_of
-from ...scene.refusals import refusal
+from ...scene.reading import beam_of, beam_of_columns
 from ...scene.structs import Scene
 from ..paths.compression_check import compression_of
 from ..paths.following import follow_path
@@ -43,15 +42,12 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
     columns = beam.columns
     if not varied.is_nothing:
         scene, columns = replace_numbers(scene, columns, varied)
-    try:
-        if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
-            once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
-            scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])
-            beam = beam_of(scene)
-        else:
-            beam = (beam if varied.is_nothing else Beam(columns)).with_factors(factors)
-    except RefusalError as refused:
-        raise refusal(scene, *refused.codes) from None
+    if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
+        once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
+        scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])
+        beam = beam_of(scene)
+    else:
+        beam = (beam if varied.is_nothing else beam_of_columns(scene, columns)).with_factors(factors)
     result = Result(scene, beam, rule)
     if beam.depends_on_path:
         follow_path(result)

@@ -11,13 +11,13 @@ import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, check_status
 from ...base.records import Pickled
-from ...engine.beam import Beam, RefusalError
+from ...engine.beam import Beam
 from ...engine.combinations import Combined
 from ...engine.quantities import QUANTITIES
 from ...scene.combinations import Plan
+from ...scene.movements import replace_settlements
 from ...scene.names import labels, names_in_errors
-from ...scene.reading import beam_of
-from ...scene.refusals import refusal
+from ...scene.reading import beam_of, beam_of_columns
 from ...scene.wording import shown
 from ..envelopes.full_load import at_full_load
 from ..envelopes.tables import extremes_while_trains_pass
@@ -170,10 +170,8 @@ class Combinations(Pickled, Mapping[str, Result]):
         load, support = base.load.copy(order="F"), base.support.copy(order="F")
         load[2:, :-1] *= plan.factors[k]
         support[3, :-1] += plan.settlements[k]
-        try:
-            return self._like_others(Beam(replace(base, load=load, support=support), self._beam.curves))
-        except RefusalError as refused:
-            raise refusal(self._plan.scene_of(k), *refused.codes) from None
+        scene = replace_settlements(plan.scene, plan.settlements[k]) if plan.settlements[k].any() else plan.scene
+        return self._like_others(beam_of_columns(scene, replace(base, load=load, support=support), self._beam.curves))
 
     def _like_others(self, beam: Beam) -> Beam:
         """Give it the fields that all combinations have, so that what is 0 in one of them counts in the envelope."""

@@ -364,7 +364,7 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     SceneError
         A combination makes no sense, or moves supports so that they leave no room for each other.
     """
-    placed, remarks = place_parts(scene, beam, rule)
+    placed, remarks = place_parts(scene, rule)
     plan = plan_combinations(scene, placed)
     if plan.scene is not scene:
         beam = beam_of(plan.scene)

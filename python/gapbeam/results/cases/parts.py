@@ -19,7 +19,7 @@ from ...engine.influence import influence_parts
 from ...scene.combinations import MOST, plan_combinations
 from ...scene.cut_loads import Placement
 from ...scene.loads import UniformLoad
-from ...scene.movements import refuse_movements
+from ...scene.movements import settle_movements
 from ...scene.names import labels
 from ...scene.reading import beam_of
 from ...scene.structs import Scene
@@ -57,11 +57,16 @@ class Parts:
         The case whose loads are placed.
     rule : {"block", "single"}
         How contact states are found.
+
+    Raises
+    ------
+    SceneError
+        Influence lines are not enough: foundations, smooth laws, states that depend on the loading history.
     """
 
     def __init__(self, scene: Scene, i: int, case: str, rule: str):
         alone = replace(scene, combinations=[replace(scene.combinations[i], expand={})])
-        one = plan_combinations(alone).scene_of(0)
+        one = settle_movements(plan_combinations(alone).scene_of(0))  # supports that loads move are where they are at full load
         self.case, self._rule, self._one = case, rule, replace(one, trains=[])
         self._lanes = [load for load in one.loads if load.case == case]
         self._others = [load for load in one.loads if load.case != case]
@@ -72,6 +77,12 @@ class Parts:
             what = "loads on parts of spans beside hinges with a stiffness are not available in this version"
             raise SceneError(f"combinations[{i}].expand", f"{what}; give them as loads of cases of their own")
         self._beam = self._made([])
+        if self._beam.depends_on_path or not self._beam.is_linear_between_events:
+            problem = (
+                '"parts" needs influence lines of straight laws; with foundations, smooth laws and supports whose state '
+                "depends on the loading history write the placements as cases of their own"
+            )
+            raise SceneError(f"combinations[{i}].expand.{key_of(case)}", problem)
         self._end = self._beam.places.end
         self.with_trains = bool(one.trains)
         self.is_exact = not one.trains
@@ -171,15 +182,13 @@ def _in_words(parts: Parts) -> str:
     return f"{values} are a lower bound of the largest for {shown(parts.case)} on any parts of spans, since {why}"
 
 
-def place_parts(scene: Scene, beam: Beam, rule: str) -> tuple[dict[int, list[Placement]], list[str]]:
+def place_parts(scene: Scene, rule: str) -> tuple[dict[int, list[Placement]], list[str]]:
     """Place the loads of all combinations with ``parts``.
 
     Parameters
     ----------
     scene : Scene
         With combinations, checked.
-    beam : Beam
-        Made of it.
     rule : {"block", "single"}
         How contact states are found.
 
@@ -193,21 +202,13 @@ def place_parts(scene: Scene, beam: Beam, rule: str) -> tuple[dict[int, list[Pla
     Raises
     ------
     SceneError
-        Influence lines are not enough: foundations, smooth laws, states that depend on the loading history.
+        As for `Parts`.
     """
     placed, remarks = {}, []
     if any("parts" in one.expand.values() for one in scene.combinations):
         plan_combinations(scene)  # says what makes no sense
     for i, combination in enumerate(scene.combinations):
         for case in [case for case, rule_of in combination.expand.items() if rule_of == "parts"]:
-            if beam.depends_on_path or not beam.is_linear_between_events:
-                if not scene.foundation:
-                    refuse_movements(scene, 'with "parts" supports are not moved by loads')
-                problem = (
-                    '"parts" needs influence lines of straight laws; with foundations, smooth laws and supports whose state '
-                    "depends on the loading history write the placements as cases of their own"
-                )
-                raise SceneError(f"combinations[{i}].expand.{key_of(case)}", problem)
             parts = Parts(scene, i, case, rule)
             if (count := 2 + 2 * len(list(parts.targets()))) > MOST:
                 problem = f'"parts" makes up to {count:,} combinations, and {MOST:,} is the most; take "spans", or fewer spans'

@@ -13,7 +13,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from ...base.errors import GapbeamError, Status
-from ...engine.beam import Beam, RefusalError
+from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...engine.trains import Traversal
 from ...scene.loads import ForceLoad, UniformLoad
@@ -110,7 +110,7 @@ def held_traversal(scene: Scene, course: Course, near: float, from_: float, to: 
         if (traversal.status != Status.SOLVED).any():
             return None
         reactions = [np.abs(one.values[:, 0, : one.count[:, 0].min(), 0]).max() for one in traversal.extremes()[1]]
-    except (GapbeamError, RefusalError):
+    except GapbeamError:
         return None
     load = max(np.abs(course.force).max(initial=0.0), *reactions)
     return traversal if max(reactions[own:]) <= NOTHING * load else None
@@ -131,7 +131,7 @@ def _hold(scene: Scene, course: Course, near: float, position: float) -> Scene |
         carrying_nothing, movable = [], False
         for away in (0.0, AWAY, -AWAY):
             held = _with_support(scene, x, level + away * max(abs(level), AWAY * end))
-            with suppress(GapbeamError, RefusalError):  # beside another support there may be no room for it, or no answer with it
+            with suppress(GapbeamError):  # beside another support there may be no room for it, or no answer with it
                 solution = solution_of(held)
                 if _carries_nothing(solution):
                     carrying_nothing.append((held, solution))

@@ -156,6 +156,24 @@ def test_a_load_on_a_stretch_and_a_batch(tmp_path):
         assert rows[f"{name}.max"] == pytest.approx([largest, 2.0 * largest], rel=1e-12)
 
 
+def test_supports_that_loads_move():
+    """They are where they are at full load, as settlements put them; a case that does not act moves nothing."""
+    made = lanes([at(k, side="below") for k in range(3)], [6.0, 6.0], [uniform(2.0, case="dead")])
+    moved = made | {"loads": [*made["loads"], {"type": "movement", "support": 1, "value": 0.01, "case": "mining"}]}
+    (one,) = made["combinations"]
+
+    def largest(some, **more):
+        result = gapbeam.solve(some | {"combinations": [one | more]})
+        return {name: row["max"].value for name, row in result.envelope().extremes.items()}, EXACT in result.remarks[-1]
+
+    assert largest(moved) == largest(made)
+    acts = largest(moved, factors=one["factors"] | {"mining": 1.5})
+    settled = largest(made, settlements={"1": 0.015})
+    assert acts[0] == pytest.approx(settled[0], rel=1e-12)
+    assert acts[1]
+    assert settled[1]
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -88,3 +88,21 @@ def test_without_the_other_combination_there_is_no_step_and_it_is_said_why():
     })  # fmt: skip
     with pytest.raises(gapbeam.UnsolvedError, match='no load step stands; the combination "falls", whose contact state'):
         result.combinations["takes"].table("supports")
+
+
+@pytest.mark.parametrize(("side", "couple"), [("clockwise", 0.0), ("counterclockwise", 36.0 / 7.0)])
+def test_a_restraint_that_turns_the_beam_one_way_only(side, couple):
+    """Two spans L under q: without a couple at the end 3 q L / 8, held there 11 q L / 28, with a couple of q L^2 / 14."""
+    made = scene([6.0, 6.0], [at(0, rotation={"side": side}), at(1, side="below"), at(2)],
+                 [{"type": "uniform", "q": 2.0, "case": "dead"}, force(3.0, 60.0, case="crane")], EI=1e4)  # fmt: skip
+    factors = {"dead": 1.0, "crane": 1.0}
+    made["combinations"] = [{"name": "x", "factors": factors}, {"name": "y", "factors": {"dead": 1.0}, "scheme_of": "x"}]
+    result = gapbeam.solve(made)
+    state = result.combinations["x"].states["rotation of 0"]
+    assert state == ("closed" if couple else "open")
+    found = result.combinations["y"].reactions
+    assert found["rotation of 0"] == pytest.approx(couple, rel=1e-12)
+    # The three-moment equation: 4 M1 - couple = - q L^2 / 2
+    middle = (-36.0 + couple) / 4
+    left = 6.0 + (middle + couple) / 6
+    assert [found[0], found[2]] == pytest.approx([left, 6.0 + middle / 6], rel=1e-12)

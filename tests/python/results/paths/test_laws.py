@@ -396,6 +396,8 @@ def test_prepared_cases():
             gapbeam.solve(snap(history=factors))
     with pytest.raises(SceneError, match="expected a finite number, got inf"):
         gapbeam.solve(snap(history=[1.0, math.inf]))
+    with pytest.raises(SceneError, match=r"^analysis\.history\[1\]: expected a finite number of at most 1e\+100, got -1e\+101"):
+        gapbeam.solve(snap(history=[1.0, -1e101]))
 
 
 def test_the_report_says_the_limit_first():
