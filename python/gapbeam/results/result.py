@@ -128,9 +128,9 @@ class Result(Verbs):
         ValueError
             The beam is not solved, or a place is outside the beam.
         """
-        places = places_given(self._beam, x)
+        points, places = whole("points", points, least=1), places_given(self._beam, x)
         if self.scene.trains:
-            return TrainEnvelope(self, list(self._members()), places, whole("points", points, least=1))
+            return TrainEnvelope(self, list(self._members()), places, points)
         if is_followed(self):
             return self.path_envelope(points, x=x)
         return envelope_of_one(self, points, places)
@@ -138,7 +138,7 @@ class Result(Verbs):
     @property
     def history_extremes(self) -> Extremes:
         """Largest and smallest fields over the whole way of the load, by field, then by ``max`` and ``min``."""
-        return Extremes(lambda: self.path_envelope().extremes, self.path_envelope, "result.history_extremes, or path_envelope()")
+        return Extremes(self.path_envelope, self.path_envelope, "result.history_extremes, or path_envelope()")
 
     def path_envelope(self, points: int = 20, *, x: Any = None) -> PathEnvelope:
         """Largest and smallest values over the whole way of the load, without trains; with combinations over the ways of all.

@@ -97,7 +97,7 @@ def test_parts_have_ranges(things, name):
             rows = one._ranges.supports[k][quantity]
             assert values[key]["max"].value == rows["max"].value >= values[k]["min"].value
     assert one.states["C"] in (("open",), ("closed", "open"), ("closed",))
-    curves = one.envelope([3.0, 7.0]).fields if name == "train" else one.at([3.0, 7.0])
+    curves = one.envelope(x=[3.0, 7.0]).fields if name == "train" else one.at([3.0, 7.0])
     assert np.all(curves.largest["moment"] >= curves.smallest["moment"])
     assert one.table("supports")["reaction_max"].tolist() == [row["max"].value for row in one.reactions]
     assert "moment_max" in one.table("fields")
@@ -436,3 +436,30 @@ def test_a_step_that_is_not_there_says_why():
     assert caught.value.status == "no-equilibrium"
     with pytest.raises(IndexError, match="there is no load step 3; their numbers go from 0 to 0"):
         gapbeam.solve(scene()).steps[3]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_goes_to_another_process(things, name):
+    """Parts and what is asked of them can be pickled, and have the same values then."""
+    one = things[name]
+    there = pickle.loads(pickle.dumps(one))
+    assert repr(there) == repr(one)
+    assert repr(pickle.loads(pickle.dumps(one.extremes))) == repr(there.extremes) == repr(one.extremes)
+
+
+def test_places_of_curves_are_told_in_one_way(things):
+    for name in ("result", "combined", "train"):
+        one = things[name]
+        assert len(one.envelope(4).fields.x) < len(one.envelope(points=8).fields.x)
+        assert one.envelope(x=[3.0]).fields.x.tolist() == [3.0]
+        with pytest.raises(ValueError, match="points: expected a whole number, 1 or more, got 0"):
+            one.envelope(points=0)
+
+
+def test_parts_say_what_they_are(things):
+    result, combined, train = things["result"], things["combined"], things["train"]
+    assert repr(result.steps[-1]) == "Step(factor=1)"
+    assert repr(combined.combinations).startswith('Combinations("')
+    assert repr(train.state(2.5)) == 'TrainState("crane", position=2.5, direction="right")'
+    assert repr(things["over trains"]._result.trains) == 'Trains("crane")'
+    assert repr(result.steps) == f"{type(result.steps).__name__}({len(result.steps)})"

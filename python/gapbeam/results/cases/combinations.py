@@ -144,8 +144,15 @@ class Combinations(Pickled, Mapping[str, Result]):
             return names.index(key)
         if isinstance(key, int) and -len(names) <= key < len(names):
             return key % len(names)
-        few = ", ".join(map(shown, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
-        raise KeyError(f"there is no combination {shown(key)}; there are {few}")
+        raise KeyError(f"there is no combination {shown(key)}; there are {self._few()}")
+
+    def __repr__(self) -> str:
+        """Show the names, of many only the first."""
+        return f"Combinations({self._few()})"
+
+    def _few(self) -> str:
+        names = self._plan.names
+        return ", ".join(map(shown, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
 
     def beam_of(self, k: int) -> Beam:
         """Make the beam of a combination, with its loads on it and its supports moved.

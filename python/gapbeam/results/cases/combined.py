@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -174,7 +175,7 @@ class CombinedResult(Result):
     @property
     def extremes(self) -> Extremes:
         """Exact extremes of every field over all combinations, with trains over all positions, as of `envelope`."""
-        return Extremes(lambda: self.envelope().extremes, self._chosen, 'result.extremes["moment"]["max"].value')
+        return Extremes(self.envelope, self._chosen, 'result.extremes["moment"]["max"].value')
 
     @property
     def states(self) -> Labelled:
@@ -245,13 +246,14 @@ class CombinedResult(Result):
             There is no such limit state, or none of its combinations is solved.
         """
         places, chosen = places_given(self._beam, x), members_of(limit_state, self._plan.limit_states)
+        points = whole("points", points, least=1)
         if self.scene.trains:
-            return TrainEnvelope(self, list(self._members(chosen)), places, whole("points", points, least=1))
+            return TrainEnvelope(self, list(self._members(chosen)), places, points)
         sources = [Source(name) for name in self.names]
         at_supports, extremes = (without_others(values, chosen) for values in (self._found.at_supports, self._found.extremes))
         envelope = Envelope(
             self, self._beam.fields, sources, at_supports, extremes, self._found.places,
-            lambda k: self.combinations[k], lambda: self._curves(points, places, chosen), places is not None,
+            self.combinations.__getitem__, partial(self._curves, points, places, chosen), places is not None,
         )  # fmt: skip
         envelope.limit_state = limit_state
         return envelope

@@ -214,8 +214,7 @@ class Envelope(PartVerbs):
         state_of: Callable[[int], Step] | None = None, keys: Sequence[str] | None = None,
     ):  # fmt: skip
         self._result, self.sources, self.at_supports = result, list(sources), at_supports
-        self._result_of = result_of
-        self._state_of = (lambda k: result_of(k).steps[-1]) if state_of is None else state_of
+        self._result_of, self._given_state = result_of, state_of
         # What of a source tells where a value comes from
         self._keys = (["combination"] if result.scene.combinations else []) if keys is None else keys
         self._fields, self._values, self._places, self._make = fields, extremes, places, curves
@@ -228,6 +227,10 @@ class Envelope(PartVerbs):
     def _solved(self) -> list[int]:
         """Sources that count."""
         return np.flatnonzero(np.isfinite(self._values[:, 2, 0])).tolist()
+
+    def _state_of(self, k: int) -> Step:
+        """Give the state of a source."""
+        return self._result_of(k).steps[-1] if self._given_state is None else self._given_state(k)
 
     def _seen_states(self) -> Iterator[tuple[str, ...]]:
         return (self._state_of(k).state for k in self._solved)

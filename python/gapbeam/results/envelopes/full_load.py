@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,22 +38,23 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
     ValueError
         It is not solved.
     """
-
-    def curves() -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
-        if x is not None:
-            both = np.tile(x, 2)
-            return both, iter([(slice(0, 1), fields_on_sides(result, both, np.arange(len(both)) >= len(x))[None])])
-        fields = result.fields(points=points).columns()
-        values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
-        for name, column in result._beam.fields.items():
-            values[0, :, column] = fields[name]
-        return fields["x"], iter([(slice(0, 1), values)])
-
     at_supports, extremes, places, _ = at_full_load(result)
     return Envelope(
-        result, result._beam.fields, [Source()], at_supports[None], extremes[None], places[None], lambda _: result, curves,
-        x is not None,
+        result, result._beam.fields, [Source()], at_supports[None], extremes[None], places[None], [result].__getitem__,
+        partial(_curves, result, points, x), x is not None,
     )
+
+
+def _curves(result: Result, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
+    """Places along the beam, and the fields there."""
+    if x is not None:
+        both = np.tile(x, 2)
+        return both, iter([(slice(0, 1), fields_on_sides(result, both, np.arange(len(both)) >= len(x))[None])])
+    fields = result.fields(points=points).columns()
+    values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
+    for name, column in result._beam.fields.items():
+        values[0, :, column] = fields[name]
+    return fields["x"], iter([(slice(0, 1), values)])
 
 
 def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray, state: Step | None = None) -> np.ndarray:

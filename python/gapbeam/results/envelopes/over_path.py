@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -184,7 +185,7 @@ class PathEnvelope(Envelope):
         there = {name: column for _, one in followed for name, column in one._beam.fields.items()}
         super().__init__(
             result, there, sources, *map(read_only, (at_supports, values, places)), self._results.__getitem__,
-            lambda: self._curves(points, x), x is not None, self._states.__getitem__,
+            partial(self._curves, points, x), x is not None, self._states.__getitem__,
             [*(["combination"] if result.combinations else []), "factor", "leg"],
         )  # fmt: skip
 

@@ -6,7 +6,7 @@ axial forces in tension, axial displacements to the right.
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -380,7 +380,7 @@ class States(Pickled, WithModes):
     @property
     def extremes(self) -> Extremes:
         """Exact largest and smallest values of every field at the end of the load; those of a step has ``steps[k].extremes``."""
-        return Extremes(lambda: self._chosen(None).extremes, self._pairs_of_extremes, 'result.extremes["moment"]["max"].value')
+        return Extremes(partial(self._chosen, None), self._pairs_of_extremes, 'result.extremes["moment"]["max"].value')
 
     def _pairs_of_extremes(self, step: int | None = None) -> dict[str, dict[str, tuple[float, float]]]:
         """Give ``{"moment": {"max": (value, x), ...}, ...}`` in a load step, default the last."""

@@ -20,6 +20,7 @@ from ...engine.case_certificates import BOUNDED
 from ...engine.states import Along, Solution
 from ...engine.units import bound_in_scene, scaled
 from ...scene.places import nearest
+from ...scene.wording import number
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
 from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
@@ -91,6 +92,10 @@ class Step(Pickled, StepModes):
         self._along = along
         if solution is not None:
             self._solved = solution, 0.0
+
+    def __repr__(self) -> str:
+        """Show the load factor; what there is more is solved for when it is asked for."""
+        return f"Step(factor={number(self.factor)})"
 
     def __eq__(self, other: object) -> bool:
         """Whether beam, load factor and all values are equal."""

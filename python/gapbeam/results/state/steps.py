@@ -41,6 +41,10 @@ class Steps(Pickled, Sequence[Step]):
         self._kept: dict[str, tuple[int, Step]] = {}
         self.outcome: tuple[str, str | None] = ("solved", None)  # why there are none
 
+    def __repr__(self) -> str:
+        """Show how many there are."""
+        return f"{type(self).__name__}({len(self)})"
+
     @abstractmethod
     def _make(self, k: int) -> Step:
         """Make a step that knows how to solve itself."""

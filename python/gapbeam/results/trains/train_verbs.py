@@ -59,7 +59,7 @@ class TrainVerbs(PartVerbs):
         return self._ranges._seen_states()
 
     def _curves_at(self, x: Any) -> Curves:
-        return self.envelope(x).fields
+        return self.envelope(x=x).fields
 
     def at(
         self, x: Any = None, *old: Any, position: float | None = None, direction: str = RIGHT, side: str = "right"

@@ -33,8 +33,8 @@ from ...engine.tolerances import POSITION_TOLERANCE
 from ...scene.columns import ROTATION
 from ...scene.reading import beam_of
 from ...scene.trains import LEFT, RIGHT, at_ends, courses, fitted, joined, nearest, train_name
-from ...scene.wording import choice, shown
-from ..state.arguments import finite
+from ...scene.wording import choice, number, shown
+from ..state.arguments import finite, whole
 from ..state.schemes import starting_scheme
 from ..state.state_extremes import extremes_of_state
 from ..state.step import Step
@@ -89,6 +89,10 @@ class TrainState(Step):
         self.position = position
         self.direction = direction
         self.result = result
+
+    def __repr__(self) -> str:
+        """Show where the train is."""
+        return f"TrainState({shown(self.name)}, position={number(self.position)}, direction={shown(self.direction)})"
 
     def fields(self, x: Any, side: str = "right") -> Fields:
         """Exact values anywhere along the beam.
@@ -166,13 +170,13 @@ class TrainResult(TrainVerbs):
         """Linear solves."""
         return sum(traversal.solves for traversal in self.traversals)
 
-    def envelope(self, x: Any = None) -> TrainEnvelope:
-        """Largest and smallest values over all positions.
+    def envelope(self, points: int = 20, *, x: Any = None) -> TrainEnvelope:
+        """Largest and smallest values over all positions, as `Result.envelope`.
 
         Parameters
         ----------
-        x : array_like, optional
-            Places for the curves; default: 20 divisions of every span, and all places where something is.
+        points, x
+            As there.
 
         Returns
         -------
@@ -183,7 +187,8 @@ class TrainResult(TrainVerbs):
         ValueError
             A place outside the beam.
         """
-        return TrainEnvelope(self._result, self._members(), places_given(self._result._beam, x))
+        places = places_given(self._result._beam, x)
+        return TrainEnvelope(self._result, self._members(), places, whole("points", points, least=1))
 
     renamed: ClassVar = {"members": "_members"}
 
@@ -307,6 +312,10 @@ class Trains(Mapping[str, TrainResult]):
     def __len__(self) -> int:
         """Count the trains."""
         return len(self._by_name)
+
+    def __repr__(self) -> str:
+        """Show the names."""
+        return f"Trains({', '.join(map(shown, self))})"
 
     def pass_all(self) -> None:
         """Move all trains over the beam, so that what stands in the way of one is said at once."""

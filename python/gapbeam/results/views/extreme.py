@@ -136,7 +136,7 @@ class Extremes(Mapping[str, dict[str, Extreme]]):
     Parameters
     ----------
     find : callable
-        Gives them: by quantity, then by ``max`` and ``min``.
+        Gives them, by quantity, then by ``max`` and ``min``, or what has them as ``extremes``.
     call : callable, optional
         What calling gave when this was a method.
     instead : str
@@ -159,7 +159,7 @@ class Extremes(Mapping[str, dict[str, Extreme]]):
     __hash__ = None
 
     def __init__(
-        self, find: Callable[[], Mapping[str, dict[str, Any]]], call: Callable[..., Any] | None = None, instead: str = ""
+        self, find: Callable[[], Any], call: Callable[..., Any] | None = None, instead: str = ""
     ) -> None:
         self._find, self._call, self._instead = find, call, instead
         self._known: Mapping[str, dict[str, Any]] | None = None
@@ -167,7 +167,8 @@ class Extremes(Mapping[str, dict[str, Extreme]]):
     @property
     def _all(self) -> Mapping[str, dict[str, Any]]:
         if self._known is None:
-            self._known = self._find()
+            found = self._find()
+            self._known = getattr(found, "extremes", found)
         return self._known
 
     def __getitem__(self, key: str) -> dict[str, Extreme]:
