@@ -14,8 +14,8 @@ inf = math.inf
 class Hinge(Point, kw_only=True, gc=False):
     """A hinge inside the beam that turns against a couple; one without anything is as those of ``beam.hinges``.
 
-    Its rotation is that left of it less that right of it, positive with a sagging moment. Not under trains, beside foundations
-    and beside rigid stretches of the beam. With slack, side or law it is a support of direction hinge in results.
+    Its rotation is that left of it less that right of it, positive with a sagging moment. Not beside rigid
+    stretches of the beam. With slack, side or law it is a support of direction hinge in results.
 
     Parameters
     ----------

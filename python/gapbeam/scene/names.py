@@ -100,6 +100,26 @@ def labels(items: Sequence[Any]) -> list[str]:
     return [str(k) if name is None else visible(name) for k, name in enumerate(names_of(items))]
 
 
+def place_of(key: str, k: int, name: str | None) -> str:
+    """Give the place of an entry, by its name where it has one.
+
+    Parameters
+    ----------
+    key : str
+        The list of the scene.
+    k : int
+        Which entry, from 0.
+    name : str or None
+        Its name.
+
+    Examples
+    --------
+    >>> place_of("supports", 2, None), place_of("supports", 2, "R-104")
+    ('supports[2]', 'supports "R-104"')
+    """
+    return f"{key}[{k}]" if name is None else f"{key} {shown(name)}"
+
+
 def find(items: Sequence[Any], key: str | int, place: str, noun: str) -> int:
     """Find an entry by its name or by its number.
 
@@ -211,6 +231,34 @@ def _named(scene: Scene, text: str) -> str:
     def name(found: re.Match) -> str:
         items, k = getattr(scene, found[1]), int(found[2])
         given = items[k].name if k < len(items) else None
-        return found[0] if given is None or found[3] == ".name" else f"{found[1]} {shown(given)}{found[3]}"
+        return found[0] if found[3] == ".name" else f"{place_of(found[1], k, given)}{found[3]}"
 
     return re.sub(rf"\b({'|'.join(NAMED)})\[(\d+)\](\.name\b|)", name, text)
+
+
+@contextmanager
+def in_written_places(places: dict[str, str]) -> Iterator[None]:
+    """Put places of a scene as it is written into what is raised inside.
+
+    Parameters
+    ----------
+    places : dict
+        By places of the scene as it is solved: from `spread_rotations`.
+    """
+    try:
+        yield
+    except SceneError as error:
+        raise SceneError(_written(places, error.place), _written(places, error.problem)) from None
+
+
+def _written(places: dict[str, str], text: str) -> str:
+    if not places:
+        return text
+
+    def written(found: re.Match) -> str:
+        place, key = places[found[1]], found[2]
+        if key == ".at_hinge":
+            return place.removesuffix(".rotation") + key
+        return place + {".gap": ".slack", ".direction": ""}.get(key, key)
+
+    return re.sub(rf"(?<![\w.])({'|'.join(map(re.escape, places))})(\.gap\b|\.direction\b|\.at_hinge\b|)", written, text)

@@ -20,7 +20,7 @@ from .ground_laws import NO_POWER, NOT_FOR_GROUND, LawAt, PowerGround
 from .ground_tables import is_table, least_and_most, settled
 from .limits import check_limits
 from .mistakes import all_mistakes
-from .names import check_names, names_in_errors
+from .names import check_names, in_written_places, names_in_errors
 from .refusals import refusal
 from .rotations import spread_rotations
 from .structs import Scene
@@ -94,8 +94,9 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
     """
     source = _opened(source)
     try:
-        scene = _structured(source)
-        beam = prepared_beam(scene)
+        scene, written = _structured(source)
+        with in_written_places(written):
+            beam = prepared_beam(scene)
         if isinstance(source, Written):
             _plan(scene)
         return scene, beam
@@ -137,8 +138,8 @@ def _opened(source: Any) -> Any:
 
 def _checked(source: Scene | Mapping[str, Any]) -> Scene:
     """Check a scene completely."""
-    scene = _structured(source)
-    with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
+    scene, written = _structured(source)
+    with suppress(EngineError), in_written_places(written):  # it makes sense, though doubles may not hold its numbers
         prepared_beam(scene)
     _plan(scene)
     return scene
@@ -249,12 +250,12 @@ def as_written(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     return scene
 
 
-def _structured(source: Scene | Mapping[str, Any]) -> Scene:
-    """A scene whose keys and types are right, and which asks for nothing that this version has not."""
+def _structured(source: Scene | Mapping[str, Any]) -> tuple[Scene, dict[str, str]]:
+    """A scene whose keys and types are right, and which asks for nothing that this version has not; where its supports stand."""
     scene = as_written(source)
     with names_in_errors(scene):
         _check_laws(scene)
-        spread_rotations(scene)
+        written = spread_rotations(scene)
         _check_foundations(scene)
     check_trains(scene)
     check_limits(scene.limits, scene.beam.width, bool(len(scene.foundation)))
@@ -271,7 +272,7 @@ def _structured(source: Scene | Mapping[str, Any]) -> Scene:
         if not abs(factor) <= LARGEST_FACTOR:
             most = f" of at most {LARGEST_FACTOR:g}" if isfinite(factor) else ""
             raise SceneError(f"analysis.history[{i}]", f"expected a finite number{most}, got {number(factor)}")
-    return scene
+    return scene, written
 
 
 def _check_stretching(scene: Scene) -> None:

@@ -77,7 +77,7 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         return _bad_law(item, path, key, partner, message)
     if reason == BAD_LOAD:
         problem = message.partition(": ")[2].removeprefix(f"{key}: ")
-        return SceneError(f"{path}.{KINDS[kind_of(item)][1] if key == 'value_to' else key}", problem)
+        return SceneError(f"{path}.{key if key == 'from' or hasattr(item, key) else KINDS[kind_of(item)][1]}", problem)
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:

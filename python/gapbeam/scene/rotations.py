@@ -14,11 +14,11 @@ from ..base.characters import visible
 from ..base.errors import SceneError
 from .joints import Hinge, Rotation
 from .loads import MovementLoad
-from .names import column_of
+from .names import column_of, place_of
 from .places import same_place
 from .structs import Scene, Support
 from .tables import Table
-from .wording import number
+from .wording import number, shown
 
 TURNING = ("rotational", "hinge")
 """Directions of supports that hold rotations."""
@@ -83,7 +83,7 @@ def which_turn(supports: Sequence[Support]) -> np.ndarray:
     return np.isin(np.array(column_of(supports, "direction"), dtype=str), TURNING)
 
 
-def spread_rotations(scene: Scene) -> None:
+def spread_rotations(scene: Scene) -> dict[str, str]:
     """Make supports of the rotations that are held by more than a stiffness, or beside a hinge, and of such hinges.
 
     A support that turns both ways freely within a slack gets a law, since only a law has a gap both ways.
@@ -92,6 +92,11 @@ def spread_rotations(scene: Scene) -> None:
     ----------
     scene : Scene
         Keys and types are right; changed in place.
+
+    Returns
+    -------
+    dict
+        Where they are written, by their places.
 
     Raises
     ------
@@ -103,6 +108,7 @@ def spread_rotations(scene: Scene) -> None:
     >>> from gapbeam import Beam
     >>> scene = Scene(beam=Beam([4.0], EI=1.0), supports=[Support(node=0, rotation=Rotation(slack=0.01)), Support(node=1)])
     >>> spread_rotations(scene)
+    {'supports "rotation of 0"': 'supports[0].rotation'}
     >>> scene.supports[2].name, scene.supports[2].direction, scene.supports[2].gap, scene.supports[2].law
     ('rotation of 0', 'rotational', 0.01, [(0.0, 1.0)])
     """
@@ -112,7 +118,7 @@ def spread_rotations(scene: Scene) -> None:
         if taken or beside:
             scene.supports = list(scene.supports)
         else:
-            return
+            return {}
     at_hinges = [k for k, one in enumerate(scene.supports) if one.at_hinge is not None]
     _check_at_hinges(scene, at_hinges)
     if at_hinges:
@@ -121,24 +127,30 @@ def spread_rotations(scene: Scene) -> None:
         places = _places(scene, [scene.hinges[k] for k in elastic])
         taken |= {k for k, x in zip(elastic, places, strict=True) if same_place(x, held).any()}
     if not taken and not any(isinstance(one.rotation, Rotation) or one.at_hinge or turns(one) for one in scene.supports):
-        return
-    found = _Spread(list(scene.supports))
+        return {}
+    found, written = _Spread(list(scene.supports)), {}
     for k, support in enumerate(scene.supports):
         rotation = _as_table(support)
         if rotation is not None:
             _check_slack(rotation, f"supports[{k}].rotation.slack")
             found.supports[k] = replace(support, rotation="free", at_hinge=None)
             name = f"rotation of {k if support.name is None else visible(support.name)}"
+            written[f"supports {shown(name)}"] = f"{place_of('supports', k, support.name)}.rotation"
             made = _held(rotation, rotation.stiffness, direction="rotational", name=name, at_hinge=support.at_hinge)
             found.of_support[k] = found.add(replace(made, node=support.node, x=support.x))
     for k, hinge in enumerate(scene.hinges):
         if k in taken:
             _check_slack(hinge, f"hinges[{k}].slack")
             made = _held(hinge, float("inf") if hinge.stiffness is None else hinge.stiffness, direction="hinge")
-            found.add(replace(made, node=hinge.node, x=hinge.x, name=f"hinge {k}" if hinge.name is None else hinge.name))
-    scene.hinges = [hinge for k, hinge in enumerate(scene.hinges) if k not in taken]
+            name = f"hinge {k}" if hinge.name is None else hinge.name
+            written[f"supports {shown(name)}"] = f"hinges[{k}]"
+            found.add(replace(made, node=hinge.node, x=hinge.x, name=name))
+    left = [k for k in range(len(scene.hinges)) if k not in taken]
+    written |= {f"hinges[{i}]": f"hinges[{k}]" for i, k in enumerate(left)}
+    scene.hinges = [scene.hinges[k] for k in left]
     scene.supports = [_with_slack(one) if turns(one) else one for one in found.supports]
     scene.loads = _on_rotations(scene, found.of_support)
+    return written
 
 
 def _as_table(support: Support) -> Rotation | None:

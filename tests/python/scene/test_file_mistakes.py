@@ -227,3 +227,34 @@ def test_odd_names_have_their_lines_and_what_follows_from_a_mistake_is_none(tmp_
 def test_an_entry_is_replaced_by_the_name_that_messages_show():
     scene = gapbeam.Scene(beam=gapbeam.Beam([6.0], EI=1e4), supports=[gapbeam.Support(node=0, name='a "\\ b')])
     assert gapbeam.replace(scene, r'supports "a \"\\ b".gap', 0.5).supports[0].gap == 0.5
+
+
+def test_mistakes_of_restraints_and_hinges_are_told_where_they_are_written(tmp_path):
+    path = tmp_path / "rotations.toml"
+    path.write_text("""\
+beam = { spans = [6.0, 6.0], EI = 1e4 }
+[[supports]]
+node = 0
+rotation = { law = { type = "plastic", stiffness = -1.0, limit = 1.0 } }
+[[supports]]
+node = 1
+name = "pier"
+rotation = { law = [[0.01, 5.0], [0.02, 5.0]], unloading = "plastic", slack = 0.001 }
+[[hinges]]
+x = 3.0
+law = [[0.01, 5.0], [0.02, 3.0], [0.03, 3.0]]
+""")
+    with pytest.raises(gapbeam.SceneError) as caught:
+        gapbeam.read_scene(path)
+    assert [(line, place) for line, place, _ in caught.value.mistakes] == [
+        (4, "supports[0].rotation.law.stiffness"), (8, 'supports "pier".rotation.slack'), (11, "hinges[0].law"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "key"), [({"x": 20.0}, "x"), ({"x": 9.0, "stiffness": -5.0}, "stiffness")])
+def test_a_hinge_behind_one_with_slack_keeps_its_number(change, key):
+    hinges = [{"x": 3.0, "slack": 0.01}, {"stiffness": 5.0, **change}]
+    made = {"beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": [{"node": 0}, {"node": 1}], "hinges": hinges}
+    with pytest.raises(gapbeam.SceneError) as caught:
+        gapbeam.read_scene(made)
+    assert caught.value.place == f"hinges[1].{key}"

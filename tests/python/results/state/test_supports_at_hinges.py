@@ -224,7 +224,7 @@ def test_names_report_picture_and_file():
     ({"supports": held_by(rotation=-1.0, at_hinge="left")},
      'supports[1].rotation: expected "free", "fixed" or a number, 0 or more'),
     ({"supports": [*BRACKET["supports"], {"node": 1, "direction": "rotational", "at_hinge": "right", "name": "B"}]},
-     'supports "rotation of 1".at_hinge: the other side of the hinge is held too'),
+     'supports[1].at_hinge: the other side of the hinge is held too'),
     ({"beam": {"spans": [4.0, 4.0], "EI": [INF, 1.0], "hinges": [4.0]}}, "beside a rigid beam"),
 ])  # fmt: skip
 def test_refused(changes, words):
