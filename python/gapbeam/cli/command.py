@@ -275,6 +275,8 @@ def _run(arguments: argparse.Namespace) -> int:
     from ..scene.reading import read_scene
 
     scene = read_scene(source(arguments.scene))
+    if arguments.limits and scene.limits is None:
+        raise SceneError("--limits", "the scene has no [limits] that could be exceeded; give some, or leave the option out")
     if scene.combinations and "--path" in outputs:
         raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
                          "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip

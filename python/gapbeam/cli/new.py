@@ -49,8 +49,8 @@ def _new(arguments: argparse.Namespace) -> int:
     name = arguments.name
     if name not in TASKS:
         meant = nearest(name.removesuffix(".toml").replace("_", "-"), TASKS)
-        hint = f"did you mean {meant}? " if meant else ""
-        raise SceneError(f'no scene is called "{name}"; {hint}There are: {", ".join(TASKS)}')
+        hint = f"; did you mean {meant}? There are" if meant else "; there are"
+        raise SceneError(f'no scene is called "{name}"{hint}: {", ".join(TASKS)}')
     file = f"{name}.toml"
     if os.path.lexists(file):
         raise SceneError(file, f"is there already, and is left as it is; move it, or call gapbeam new {name} in another folder")

@@ -65,7 +65,7 @@ def test_an_unknown_name_is_refused(name, tmp_path, monkeypatch, capsys):
     assert main(["new", name]) == 2
     told = capsys.readouterr().err
     assert told.startswith(f'gapbeam: error: no scene is called "{name}"; ')
-    assert told.endswith(f"There are: {', '.join(TASKS)}\n")
+    assert told.endswith(f"here are: {', '.join(TASKS)}\n")
     assert ("did you mean crane-runway? " in told) == (name == "crane_runway")
     assert not list(tmp_path.iterdir())
 

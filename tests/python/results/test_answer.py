@@ -136,6 +136,10 @@ def test_limits_are_used_so_far(tmp_path, capsys):
     assert main(["run", str(scene), "--quiet"]) == 0
     assert main(["run", str(scene), "--quiet", "--limits"]) == 1
     assert "shear" in capsys.readouterr().err
+    del made["limits"]
+    scene.write_text(json.dumps(made))
+    assert main(["run", str(scene), "--quiet", "--limits"]) == 2
+    assert "--limits: the scene has no [limits]" in capsys.readouterr().err
 
 
 def test_a_pressure_per_area_needs_a_width():
