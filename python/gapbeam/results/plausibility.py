@@ -51,7 +51,7 @@ def doubts_of_scene(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     spans = [span for span in scene.beam.spans if span > 0.0]
     longest, shortest = max(spans), min(spans)
     deflection = max((abs(one.value) for one in envelope.extremes["deflection"].values() if one is not None), default=0.0)
-    found = [*_displaced(scene, shortest, deflection, envelope)]
+    found = [*_displaced(scene, shortest, deflection, envelope), *_off_beam(scene)]
     if deflection > LARGE * longest and not found:
         found.append(_soft(result, longest, deflection, envelope))
     elif 0.0 < deflection < SMALL * shortest and math.isfinite(stiffness := _stiffness(scene)):
@@ -101,6 +101,16 @@ def _no_load(scene: Scene) -> str | None:
             return "loads have dT alone, which lengthens a beam that nothing holds along its axis: no force comes of it."
         return "all values of loads are 0, so no load acts."
     return None
+
+
+def _off_beam(scene: Scene) -> list[str]:
+    """Trains that never come to the beam."""
+    end = float(scene.span_ends()[-1])
+    return [
+        f"trains[{k}] has no axle on the beam between its from and to, which are places of its first axle."
+        for k, one in enumerate(scene.trains)
+        if one.axles and ((one.from_ or 0.0) - max(distance for distance, _ in one.axles) > end or (one.to or 0.0) < 0.0)
+    ]
 
 
 def _displaced(scene: Scene, shortest: float, deflection: float, envelope: Envelope | TrainEnvelope) -> list[str]:

@@ -23,6 +23,8 @@ LONG_KEY = re.compile(r"""(?<![\w.-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+
 
 SYNTAX = {
     r"Cannot mutate": "it is written in one piece above; add to that, or write all of it as tables of their own",
+    r"Invalid initial[^:]*: ,\s*}": "leave out the comma before it",
+    r"Invalid initial[^:]*: [{,]\s*(#.*)?$": "a table in braces is written on one line; over several lines write it as [table]",
     r"Cannot (declare|overwrite)": "it stands above already; leave one of the two out",
     r".*?: .[“”„\u2018\u2019]": "write straight quotes",
     r".*?: .[-+]?(Inf|inf|\.inf|∞)": "infinite is inf",

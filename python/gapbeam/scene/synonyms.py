@@ -105,6 +105,10 @@ def meant_by_value(place: str, value: Any, expected: str) -> str:
         return "; an axle is [distance behind the first axle, force]"
     if TAPERED.fullmatch(place) and isinstance(value, list | tuple | Mapping) and len(value) > 1:
         return "; give a stiffness that changes along the beam in [[sections]]: EI = [at from, at to]"
+    if expected == "a list of tables" and isinstance(value, Mapping):
+        return f"; write each as [[{place}]]"
+    if expected == "a table" and isinstance(value, list) and value and isinstance(value[0], Mapping):
+        return f"; write it as [{place}]"
     if not isinstance(value, str | bool):
         return ""
     if key == "law" and place.startswith("foundation"):

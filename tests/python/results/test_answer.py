@@ -199,6 +199,18 @@ def test_slips_are_named(change, words):
     assert words is None or words in text
 
 
+@pytest.mark.parametrize(
+    ("places", "words"), [({"from": 14.5, "to": 20.0}, "trains[0] has no axle on the beam"), ({"to": 20.0}, None)]
+)
+def test_a_train_that_never_comes_to_the_beam_is_named(places, words):
+    made = spans([scenes.uniform(2.0, case="dead")]) | {"trains": [{"axles": [[0.0, 5.0], [2.0, 5.0]], **places}]}
+    made["beam"]["spans"] = [6.0, 6.0]
+    made["supports"] = made["supports"][:3]
+    text = repr(gapbeam.solve(made))
+    assert ("Check:" in text) == (words is not None)
+    assert words is None or words in " ".join(text.split())
+
+
 def test_numbers_near_the_end_of_the_range_are_written():
     scene = gapbeam.read_scene(spans([scenes.uniform(2.0)]))
     assert shown(scene, "deflection", np.float64(1.25e307)) == "1.2500e+310"

@@ -79,8 +79,8 @@ def test_types_in_a_support(given, expected):
 TYPES_AND_KEYS = """
 beam = {EI = 1.0} -> beam.spans: this key is missing; give a list of numbers
 beam = {spans = [1.0]} -> beam.EI: this key is missing; give a number or a list of numbers
-beam = [{spans = [6.0, 6.0, 6.0], EI = 1e4}] -> beam: expected a table, got a list of tables
-supports = {node = 0} -> supports: expected a list of tables, got a table
+beam = [{spans = [6.0, 6.0, 6.0], EI = 1e4}] -> beam: expected a table, got a list of tables; write it as [beam]
+supports = {node = 0} -> supports: expected a list of tables, got a table; write each as [[supports]]
 suports = [] -> suports: unknown key; did you mean "supports"?
 support = [] -> support: unknown key; did you mean "supports"?
 title = 3 -> title: expected a text in quotes, got 3
@@ -507,7 +507,7 @@ def refused(**parts):
             'supports[0].side: a support across the beam is below or above it; use side = "below" or "above", or direction = '
             '"axial", got "left"',
         ),
-        ({"supports": Support(x=6.0)}, "supports: expected a list of tables, got a table"),
+        ({"supports": Support(x=6.0)}, "supports: expected a list of tables, got a table; write each as [[supports]]"),
         (
             {"beam": Beam([6.0, -1.0], EI=1e4)},
             "beam.spans[1]: the span from x = 6 to x = 5 has length -1; give a length above 0 or remove it",
@@ -559,6 +559,9 @@ def write(folder, name, text):
         ("a.toml", "[beam]\nEI = 1\n[beam]\n", ", line 3, column 6: ", "; it stands above already; leave one of the two out"),
         ("a.toml", "loads = []\n[[loads]]\n", ", line 2, column 8: ", "; it is written in one piece above; add to that, or write "
          "all of it as tables of their own"),
+        ("a.toml", "beam = { EI = 1, }\n", ", line 1, column 18: ", "; leave out the comma before it"),
+        ("a.toml", "beam = { EI = 1,\n", ", line 1, column 17: ", "; a table in braces is written on one line; over several lines "
+         "write it as [table]"),
         ("a.toml", "title = “x”\n", ", line 1, column 9: ", "; write straight quotes"),
         ("a.toml", "[beam]\nEI = Infinity\n", ", line 2, column 6: ", "; infinite is inf"),
         ("a.json", '{"supports": [1,\n]}', ", line 2, column 1: ", "; leave out the comma before it"),

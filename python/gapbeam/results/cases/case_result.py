@@ -9,7 +9,7 @@ from ...base.errors import EngineError, SceneError
 from ...engine.beam import Beam
 from ...engine.combinations import Varied
 from ...scene.combinations import times
-from ...scene.reading import beam_of, beam_of_columns
+from ...scene.reading import beam_of
 from ...scene.structs import Scene
 from ..paths.compression_check import compression_of
 from ..paths.following import follow_path
@@ -39,15 +39,14 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
     -------
     Result
     """
-    columns = beam.columns
     if not varied.is_nothing:
-        scene, columns = replace_numbers(scene, columns, varied)
+        scene = replace_numbers(scene, beam.columns, varied)
     if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
         once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
         scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])
         beam = beam_of(scene)
     else:
-        beam = (beam if varied.is_nothing else beam_of_columns(scene, columns)).with_factors(factors)
+        beam = (beam if varied.is_nothing else beam_of(scene)).with_factors(factors)
     result = Result(scene, beam, rule)
     if beam.depends_on_path:
         follow_path(result)

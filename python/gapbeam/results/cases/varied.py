@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import isfinite
 from types import SimpleNamespace
 from typing import Any
@@ -256,41 +255,29 @@ class SupportArrays:
         return values
 
 
-def replace_numbers(scene: Scene, columns: Columns, varied: Varied) -> tuple[Scene, Columns]:
+def replace_numbers(scene: Scene, columns: Columns, varied: Varied) -> Scene:
     """Make the scene of one case.
 
     Parameters
     ----------
     scene, columns
-        The scene; left as it is.
+        The scene and its columns; left as they are.
     varied : Varied
         Of one case.
-
-    Returns
-    -------
-    scene : Scene
-        The same with other numbers.
-    columns : Columns
-        Its columns.
     """
-    support, span, foundation = (one.copy(order="F") for one in (columns.support, columns.span, columns.foundation))
     changed: dict[str, Any] = {}
     if varied.supports is not None:
-        values, base = varied.supports[0, :-1], base_values(columns)[:-1].tolist()
+        values, base = varied.supports[0, :-1].tolist(), base_values(columns)[:-1].tolist()
         changed["supports"] = [
             msgspec.structs.replace(one, **dict(zip(OF_SUPPORTS, row, strict=True))) if row != old else one
-            for one, row, old in zip(scene.supports, values.tolist(), base, strict=True)
+            for one, row, old in zip(scene.supports, values, base, strict=True)
         ]
-        support[[3, 2, 1], :-1] = values.T
     if varied.spans is not None:
-        span[[1, 2]] = varied.spans[0].T
         rows = dict(zip(OF_SPANS, varied.spans[0, :-1].T.tolist(), strict=True))
         changed["beam"] = msgspec.structs.replace(scene.beam, **rows)
     if varied.moduli is not None:
-        values = varied.moduli[0, :-1]
         changed["foundation"] = [
             one if k < 0.0 else msgspec.structs.replace(one, k=k)
-            for one, k in zip(scene.foundation, values.tolist(), strict=True)
+            for one, k in zip(scene.foundation, varied.moduli[0, :-1].tolist(), strict=True)
         ]
-        foundation[2:4, :-1] = np.where(values < 0.0, foundation[2:4, :-1], values)
-    return msgspec.structs.replace(scene, **changed), replace(columns, support=support, span=span, foundation=foundation)
+    return msgspec.structs.replace(scene, **changed)

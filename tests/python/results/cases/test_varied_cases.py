@@ -103,3 +103,15 @@ def test_a_case_out_of_range_is_recorded():
     cases = beam.solve(EI={0: [1.0, 1e-300, 2.0], 1: [1.0, 1e300, 2.0]})
     assert cases.status.tolist() == [0, gapbeam.Status.NOT_FINITE, 0]
     assert np.array_equal(cases.reaction[2], beam.solve(EI=[2.0, 2.0]).reaction)
+
+
+@pytest.mark.parametrize("given", [{"settlement": {0: 0.02}}, {"gap": {1: 0.02}}, {"EI": [2e4, 2e4]}])
+def test_a_case_on_a_curve_has_a_result_on_the_curve(given):
+    law = {"type": "tanh", "stiffness": 1e3, "limit": 50.0}
+    beam = gapbeam.prepare(scene([6.0, 6.0], [at(0), at(1, side="below", law=law), at(2)], [uniform(20.0)], EI=1e4))
+    case = beam.solve([1.0], **given)
+    step = case.result().steps[-1]
+    assert step.exact
+    assert step.reaction == pytest.approx(case.reaction, rel=1e-13)
+    deflection = step.deflection[1] - given.get("gap", {1: 0.0})[1]
+    assert step.reaction[1] == pytest.approx(50.0 * np.tanh(1e3 * deflection / 50.0), rel=1e-13)
