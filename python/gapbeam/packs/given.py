@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from math import isfinite
+from numbers import Real
 
 from ..base.errors import SceneError
 
@@ -48,11 +49,11 @@ def check_between(place: str, name: str, value: float, least: float, most: float
     SceneError
         Names the pack, the number and its value.
     """
-    if not least <= value <= most:
-        raise SceneError(f"{place}: {name}", f"expected {least:g} to {most:g}, got {value:g}")
+    _check(place, {name: value}, lambda value: least <= value <= most, f"{least:g} to {most:g}")
 
 
 def _check(place: str, numbers: Mapping[str, float], is_right: Callable[[float], bool], expected: str) -> None:
     for name, value in numbers.items():
-        if not (isfinite(value) and is_right(value)):
-            raise SceneError(f"{place}: {name}", f"expected {expected}, got {value:g}")
+        is_number = isinstance(value, Real)
+        if not (is_number and isfinite(value) and is_right(value)):
+            raise SceneError(f"{place}: {name}", f"expected {expected}, got {f'{value:g}' if is_number else repr(value)}")

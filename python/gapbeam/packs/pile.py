@@ -73,6 +73,8 @@ def pile_ground(layers: Sequence[Mapping[str, Any]], *, D: float) -> list[dict[s
 
 def _check_layer(place: str, layer: Mapping[str, Any], top: float) -> None:
     """Refuse layers whose keys are not those of their law, or that have no thickness."""
+    if not isinstance(layer, Mapping):
+        raise SceneError(place, f"expected the keys of a layer, got {layer!r}")
     if layer.get("law") not in NEEDS:
         raise SceneError(f"{place}.law", f"expected {', '.join(NEEDS)}, got {layer.get('law')!r}")
     needed, allowed = NEEDS[layer["law"]]
@@ -82,9 +84,11 @@ def _check_layer(place: str, layer: Mapping[str, Any], top: float) -> None:
     for key in layer:
         if key not in ("law", *needed, *allowed):
             raise SceneError(f"{place}.{key}", f"is no key of {layer['law']}; it has {', '.join((*needed, *allowed))}")
+    check_above_zero(place, gamma=layer["gamma"], to=layer["to"])
     if not layer["to"] > top:
         raise SceneError(f"{place}.to", f"expected a depth below {top:g}, where the layer begins, got {layer['to']:g}")
-    check_above_zero(place, gamma=layer["gamma"])
+    if np.shape(layer.get("cu", 0.0)) not in ((), (2,)):
+        raise SceneError(f"{place}.cu", f"expected a number, or a pair at the top and at the bottom, got {layer['cu']!r}")
 
 
 def _depths(top: float, bottom: float, changes: Sequence[float]) -> list[float]:

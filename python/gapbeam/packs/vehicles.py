@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from math import sqrt
 from typing import Any
 
+import numpy as np
+
 from ..base.errors import SceneError
 from .given import check_above_zero, check_between, check_not_negative
 
@@ -204,8 +206,8 @@ def hl93_trucks(count: int = 6, *, dynamic: float = 1.33) -> list[dict[str, Any]
     >>> [truck["name"] for truck in hl93_trucks(3)]
     ['HL-93 truck 4.3 m', 'HL-93 truck 6.65 m', 'HL-93 truck 9 m']
     """
-    if count < 2:
-        raise SceneError("hl93_trucks: count", f"expected 2 or more spacings, got {count}")
+    if not isinstance(count, int) or count < 2:
+        raise SceneError("hl93_trucks: count", f"expected 2 or more spacings, got {count!r}")
     return [hl93_truck(9.0 if k == count - 1 else 4.3 + 4.7 * k / (count - 1), dynamic=dynamic) for k in range(count)]
 
 
@@ -282,7 +284,10 @@ def crane_pair(
     >>> trains[2]["together"]
     [('crane 1', 0.0), ('crane 2', 5.5)]
     """
-    check_above_zero("crane_pair", dynamic=dynamic)
+    check_above_zero("crane_pair", dynamic=dynamic, distance=distance)
+    for name, axles in (("first", first), ("second", second)):
+        if np.asarray(axles, dtype=object).shape[1:] != (2,):
+            raise SceneError(f"crane_pair: {name}", f"expected pairs of a distance and a force, got {axles!r}")
     length = max((place for place, _ in first), default=0.0)
     if not distance > length:
         problem = f"{distance:g} is within the first crane, whose wheels stand over {length:g}; give a greater one"

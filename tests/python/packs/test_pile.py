@@ -117,6 +117,12 @@ def test_a_pile_in_soft_clay_beside_springs_on_the_curve_itself(load):
         ),
         ([LAYERS[0], LAYERS[1] | {"to": 5}], "pile_ground: layers[1].to: expected a depth below 6, where the layer begins, got 5"),
         ([LAYERS[2] | {"gamma": 0.0}], "pile_ground: layers[0]: gamma: expected a number above 0, got 0"),
+        ([LAYERS[0] | {"to": "5 m"}], "pile_ground: layers[0]: to: expected a number above 0, got '5 m'"),
+        (
+            [LAYERS[0] | {"cu": (1.0, 2.0, 3.0)}],
+            "pile_ground: layers[0].cu: expected a number, or a pair at the top and at the bottom, got (1.0, 2.0, 3.0)",
+        ),
+        (LAYERS[0], "pile_ground: layers[0]: expected the keys of a layer, got 'law'"),
         ([LAYERS[2] | {"phi": 60.0}], "api_sand: phi: expected 20 to 45, got 60"),
     ],
 )
