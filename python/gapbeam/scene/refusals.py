@@ -59,10 +59,12 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if not table:
         return SceneError(f"analysis.{key}", message)
     i = entry - 1
-    if table == HINGES and i >= len(scene.beam.hinges):
-        return _hinge_refusal(scene, reason, i - len(scene.beam.hinges), key, message)
     items = scene.beam.hinges if table == HINGES else getattr(scene, NAMES[table])
-    if table == SECTIONS and i >= len(items):  # ground along the beam is given to the layer as sections
+    if table == HINGES and i >= len(items):  # those with a table of their own come after the others
+        path, items, i = _hinge(scene, i), scene.hinges, i - len(items)
+        if items[i].x is None:
+            reason = NO_PLACE if items[i].node is None else reason if 0 <= items[i].node <= len(scene.beam.spans) else NO_NODE
+    elif table == SECTIONS and i >= len(items):  # ground along the beam is given to the layer as sections
         i, items = i - len(items), scene.axial_ground
         ours = OF_AXIAL_GROUND.get(key, key)
         path, message, key = f"axial_ground[{i}]", message.replace(f": {key}: ", f": {ours}: "), ours
@@ -81,9 +83,9 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
     if reason == NOT_EXPECTED:
         return _wrong_number(item, table, path, key)
     if reason == OFF_BEAM:
-        x = item if table == HINGES else getattr(item, "from_" if key == "from" else key)
+        x = item if isinstance(item, float) else getattr(item, "from_" if key == "from" else key or "x")
         problem = f"{number(x)} is outside the beam, which runs from x = 0 to x = {number(end)}"
-        return SceneError(path if table == HINGES else f"{path}.{key}", problem)
+        return SceneError(path if isinstance(item, float) else f"{path}.{key or 'x'}", problem)
     if reason == NO_NODE:
         nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
         return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
@@ -94,36 +96,25 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         return SceneError(path, f"the stretch {stretch} has no length; from must be less than to")
     if table == SUPPORTS:
         return _support_refusal(scene, reason, i, partner - 1, key)
+
+    def x() -> str:
+        return number(item if isinstance(item, float) else scene.positions([item])[0])
+
     words = {
-        AT_END: lambda: f"x = {number(item)} is an end of the beam, where no hinge can be; remove it",
-        TWICE: lambda: f"at x = {number(item)} there is a hinge already (beam.hinges[{partner - 1}]); remove one of them",
+        AT_END: lambda: f"x = {x()} is an end of the beam, where no hinge can be; remove it",
+        TWICE: lambda: f"at x = {x()} there is a hinge already ({_hinge(scene, partner - 1)}); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", friction, or axial_ground',
-        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {number(scene.positions([item])[0])}, so it is unclear "
-        'which side takes it; say at_hinge = "left" or "right"',
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {x()}, so it is unclear which side takes it; say at_hinge = "
+        '"left" or "right"',
     }
     return SceneError(path, words[reason]())
 
 
-def _hinge_refusal(scene: Scene, reason: int, i: int, key: str, message: str) -> SceneError:
-    """Word a refusal of a hinge with a table of its own."""
-    item, path = scene.hinges[i], f"hinges[{i}]"
-    ends = scene.span_ends()
-    if item.node is not None and not 0 <= item.node < len(ends):
-        nodes = f"the nodes of the beam are 0 to {len(scene.beam.spans)}"
-        return SceneError(f"{path}.node", f"there is no node {number(item.node)}; {nodes}")
-    if item.node is None and item.x is None:
-        return SceneError(path, "its position is missing; give node or x")
-    x, end = float(scene.positions([item])[0]), ends[-1]
-    if reason == BAD_LAW:
-        return SceneError(f"{path}.stiffness", message.partition(": ")[2].removeprefix("stiffness: "))
-    if reason == NOT_EXPECTED and key == "stiffness":
-        return SceneError(f"{path}.stiffness", f"expected a finite number, 0 or more, got {shown(item.stiffness)}")
-    if reason == AT_END:
-        return SceneError(path, f"x = {number(x)} is an end of the beam, where no hinge can be; remove it")
-    if reason == TWICE:
-        return SceneError(path, f"at x = {number(x)} there is a hinge already; remove one of them")
-    return SceneError(f"{path}.x", f"{number(item.x)} is outside the beam, which runs from x = 0 to x = {number(end)}")
+def _hinge(scene: Scene, i: int) -> str:
+    """The place of a hinge: those with a table of their own come after the others."""
+    first = len(scene.beam.hinges)
+    return f"beam.hinges[{i}]" if i < first else f"hinges[{i - first}]"
 
 
 def _bad_law(item: Any, path: str, key: str, point: int, message: str) -> SceneError:
@@ -164,14 +155,14 @@ def _beam_refusal(scene: Scene, reason: int, i: int, key: str) -> SceneError:
 
 
 def _wrong_number(item: Any, table: int, path: str, key: str) -> SceneError:
-    if table == HINGES:
+    if isinstance(item, float):
         return SceneError(path, "expected a number, got nan")
     if table == LOADS and key in ("value", "value_to"):
         key = KINDS[kind_of(item)][1]
         if getattr(item, key) is None:
             key = "rotation"
     value = getattr(item, "from_" if key == "from" else key)
-    expected = EXPECTED.get(key, "a finite number") if table != LOADS else "a finite number"
+    expected = EXPECTED.get("limit" if table == HINGES else key, "a finite number") if table != LOADS else "a finite number"
     if table == SECTIONS and key not in ("limit", "N"):
         expected = "a number above 0 (inf = rigid)"
     if isinstance(value, tuple | list):
