@@ -105,8 +105,8 @@ def refusal(scene: Scene, reason: int, table: int, entry: int, partner: int, key
         TWICE: lambda: f"at x = {x()} there is a hinge already ({_hinge(scene, partner - 1)}); remove one of them",
         IDLE: lambda: "changes nothing; give EI, GA or EA",
         NOT_HELD: lambda: 'nothing holds the beam horizontally; give a support direction = "axial", friction, or axial_ground',
-        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {x()}, so it is unclear which side takes it; say at_hinge = "
-        '"left" or "right"',
+        AT_HINGE: lambda: f"the moment acts exactly at the hinge at x = {x()}, so it is unclear which side takes it; say at_hinge "
+        '= "left" or "right"',
     }
     return SceneError(path, words[reason]())
 

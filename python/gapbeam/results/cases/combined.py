@@ -17,7 +17,7 @@ from ...scene.combinations import Plan, plan_combinations
 from ...scene.names import label
 from ...scene.reading import beam_of
 from ...scene.structs import Scene
-from ...scene.wording import shown
+from ...scene.wording import key_of, shown
 from ..envelopes.envelope import AT_SUPPORTS, Envelope
 from ..envelopes.hints import Hint, find_hints
 from ..paths.compression import larger
@@ -209,9 +209,9 @@ class CombinedResult(Result):
             wrong = np.argwhere(~np.isfinite(self._plan.factors * largest))
         if len(wrong):
             k, load = wrong[0].tolist()
-            raise SceneError(
-                f"combinations {shown(self.names[k])}", f"loads[{load}] times its factor is too great"
-            )
+            name, case = self.scene.combinations[self._plan.origin[k]].name, self._plan.scene.loads[load].case
+            place = f"combinations {shown(name)}.factors.{key_of(case)}"
+            raise SceneError(place, f"loads[{load}] times this factor is beyond the range of numbers; give a smaller one")
 
     def _note_compression(self, k: int) -> None:
         """Keep the largest compression of all combinations, and what is to be said of it."""

@@ -356,6 +356,13 @@ def test_supports_inside_spans_have_no_patterns_by_span():
         gapbeam.read_scene(made)
 
 
+def test_a_factor_that_leaves_the_range_of_numbers_is_named():
+    made = scene([4.0], [at(0), at(1)], [uniform(20.0, case="wind")])
+    made["combinations"] = [{"name": "p", "factors": {"wind": 1e308}, "expand": {"wind": "signs"}}]
+    with pytest.raises(gapbeam.SceneError, match=r'^combinations "p"\.factors\.wind: loads\[0\] times this factor is beyond'):
+        gapbeam.solve(made)
+
+
 def test_movements_that_leave_no_room_name_the_combination():
     made = scene([4.0], [at(0), at(1, side="below", gap=0.01), at(1, side="above", gap=0.01)], [uniform(1.0)])
     made["combinations"] = [{"name": "fine", "factors": {"live": 1.0}},
