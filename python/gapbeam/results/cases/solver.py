@@ -161,9 +161,13 @@ class CaseSolver(Pickled):
     def _find(
         self, factors: np.ndarray, closed: np.ndarray, varied: Varied, want: tuple[str, ...], out: Cases | None
     ) -> dict[str, np.ndarray]:
-        """Find the contact states and solve for what is wanted."""
+        """Find the contact states and solve for what is wanted, reactions with columns for the supports across the beam."""
         into = None if out is None else out._take_arrays()
-        return solve_cases(self.beam, factors, self.rule, closed, varied, want, into)
+        found = solve_cases(self.beam, factors, self.rule, closed, varied, want, into)
+        if self._carries is not None and "reaction" in found:
+            idle = np.where(found["status"] == Status.SOLVED, 0.0, np.nan)
+            found["reaction"] = self._by_supports(found["reaction"], self._carries, idle)
+        return found
 
     def _buckling(self, asked: Asked, solved: np.ndarray) -> np.ndarray:
         """Which of the solved cases have a compression beyond the Euler load."""
@@ -183,17 +187,12 @@ class CaseSolver(Pickled):
         return replace(asked, factors=factors), found
 
     def _by_scene(self, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-        """The same with columns for the supports of the scene across the beam."""
-        columns, status = self._carries, found["status"]
-        closed = self._by_supports(found["closed"], columns, np.zeros(len(status), dtype=np.int32))
+        """The same with states of the supports of the scene across the beam."""
+        closed = self._by_supports(found["closed"], self._carries, np.zeros(len(found["status"]), dtype=np.int32))
         for k in self.beam.laws if self.beam.has_laws else ():
             at = np.searchsorted(self.supports, k)
             closed[:, at] = self._acts(k, closed[:, at])
-        found = {**found, "closed": closed}
-        if "reaction" in found and found["reaction"].shape[1] != len(self.supports):
-            idle = np.where(status == Status.SOLVED, 0.0, np.nan)
-            found["reaction"] = self._by_supports(found["reaction"], columns, idle)
-        return found
+        return {**found, "closed": closed}
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
         """Add up the columns of the breakpoints of laws, and add those of supports that can carry nothing."""

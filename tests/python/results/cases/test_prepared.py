@@ -319,3 +319,18 @@ def test_mistakes_in_supports_by_case():
     ):
         with pytest.raises(ValueError, match=words):
             beam.solve(**given)
+
+
+@pytest.mark.parametrize("varied", [{}, {"settlement": {0: 0.001}}])
+def test_reactions_beside_a_support_that_never_carries_and_a_law_of_two_pieces(varied):
+    """As many breakpoints as supports, and yet not one of each."""
+    supports = [at(0), at(1, side="below", stiffness=0.0), at(2, side="below"), at(3)]
+    for law in ([[0.01, 50.0], [0.02, 60.0]], [[0.01, 50.0], [0.02, 60.0], [1.0, 70.0]]):
+        supports[2]["law"] = law
+        beam = gapbeam.prepare(scene([2.0, 3.0, 5.0], supports, [uniform(10.0)], EI=1e4))
+        for factors in ([1.0], [[1.0], [2.0]]):
+            cases = beam.solve(factors, **varied)
+            (first,) = np.atleast_2d(cases.reaction)[:1]
+            expected = beam.result([1.0], **varied).steps[-1].reaction
+            assert first == pytest.approx(expected, rel=1e-12, abs=1e-12 * 50.0)
+            assert np.atleast_2d(cases.closed)[0].tolist() == [1, 0, 1, 1]
