@@ -143,11 +143,13 @@ class PreparedCases(OnOneBeam):
         for share in self._before:
             part = factors * np.where(self._cases == DEAD, 1.0, share)
             solved &= self._solver.solve(part, start, self._solver.moved(part, varied), ()).status == Status.SOLVED
+        states = found._combined() if len(self._rest) > len(self._fields) else None
+        if states is not None:
+            solved &= states.status == Status.SOLVED  # forces along the beam too
         if self._is_simple:
             self._keep_simple(found, moved, solved, numbers)
         for kind, bound in (found.error_bounds() if ERRORS in self._want else {}).items():
             numbers[f"{ERRORS}.{kind}"][solved] = bound[solved]
-        states = found._combined() if len(self._rest) > len(self._fields) else None
         for name in (name for name in self._rest if name in ROWS):
             for k, one in enumerate(self._supports):
                 numbers[f"{name}.{one}"][solved] = states.at_supports[solved, ROWS[name], k]

@@ -174,6 +174,18 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path):
     assert done._failed_chunks() == [0]
 
 
+def test_a_case_without_an_answer_along_the_beam_is_none(tmp_path):
+    """Across the beam there is one, and the row was said to be solved, with not-a-number for every reaction."""
+    scene = {
+        "beam": {"spans": [6.0, 7.0], "EI": 1e4},
+        "supports": [{"node": 0}, {"node": 1, "side": "below", "friction": 0.3}, {"node": 2}, {"x": 3.0, "direction": "axial"}],
+        "loads": [{"type": "force", "x": 4.0, "F": 30.0, "case": "dead"}, {"type": "movement", "support": 3, "value": 0.001}],
+    }
+    found = gapbeam.batch(scene, {"factors.dead": [1.0, 0.5]}, tmp_path).read()
+    assert found["status"].tolist() == ["no-answer"] * 2
+    assert "statics cannot tell" in found["reason"][0]
+
+
 def test_a_stiffness_of_one_span_where_the_scene_has_one_for_all(tmp_path):
     """The other spans keep the scene's number, on both roads."""
     columns = {"beam.EI[1]": [2e4, 5e3], "beam.GA[0]": [1e4, 1e5]}
