@@ -263,8 +263,8 @@ def _clean(takes: _Takes, value: Any) -> Any:
     if np.ma.isMaskedArray(value) or array.ndim != many + takes.is_pair:
         return None
     name, kind = takes.attribute, array.dtype.kind
-    if kind == "U" and name in ("name", "case"):
-        return _own(value)
+    if name in ("name", "case"):
+        return _own(value) if kind == "U" else None
     if kind == "U" and takes.words:
         return _own(value) if _holds(takes.words, array) else None
     if kind not in "iuf" or array.dtype.itemsize > 8 or (takes.words and name != "rotation"):

@@ -149,6 +149,8 @@ REFUSED = [
     ({"supports": {"nodes": [0, 1]}}, 'supports[0].nodes: unknown key; did you mean "node"?'),
     ({"supports": {"node": [0.5, 1.0]}}, "supports[0].node: expected a whole number, got 0.5"),
     ({"supports": {"node": [0, 1], "x": [0.0, 6.0]}}, "supports[0]: has both node = 0 and x = 0; give one of the two"),
+    ({"supports": {"node": [0, 1], "name": [101, 102]}}, "supports[0].name: expected a text in quotes, got 101"),
+    ({"loads": {"type": "uniform", "q": [1.0, 2.0], "case": [1, 2]}}, "loads[0].case: expected a text in quotes, got 1"),
     ({"supports": {"node": 0}}, "supports: expected a list of tables, got a table; write each as [[supports]]"),
     ({"supports": {"node": [0, 1], "gap": [0.0, 0.1]}}, 'supports[1].gap: only a support with side = "below" or "above" has a gap'),
     ({"supports": {"node": [0, 1], "stiffness": [1.0, -2.0]}}, "supports[1].stiffness: expected a number, 0 or more"),
