@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from math import inf, isfinite
+from math import isfinite
 from typing import Any
 
 import msgspec
@@ -16,7 +16,7 @@ from ..base.records import read_only
 from .cut_loads import Placement, check_parts, cut_loads
 from .movements import replace_settlements
 from .names import cases_of, find
-from .rotations import turns
+from .rotations import with_stiffness
 from .sides import SIDES
 from .structs import Combination, Scene, Support
 from .tables import Table
@@ -123,9 +123,8 @@ def _held(support: Support, acts: bool) -> Support:
     """A support as it is in a given scheme: both ways from where it begins to act, or without stiffness."""
     if support.side == "both":
         return support
-    if not acts:  # what holds a rotation must have a stiffness, or a law
-        free = {"stiffness": inf, "law": [(1.0, 0.0)]} if turns(support) else {"stiffness": 0.0}
-        return msgspec.structs.replace(support, **free)
+    if not acts:
+        return with_stiffness(support, 0.0)
     level = support.settlement + SIDES[support.side] * support.gap
     return msgspec.structs.replace(support, side="both", gap=0.0, settlement=level)
 

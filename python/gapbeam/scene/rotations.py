@@ -35,6 +35,20 @@ def turns(support: Support) -> bool:
     return support.direction in TURNING
 
 
+def with_stiffness(support: Support, stiffness: float) -> Support:
+    """Give a support another stiffness, 0 too: what holds a rotation must have a stiffness, or a law.
+
+    Parameters
+    ----------
+    support : Support
+        Left as it is.
+    stiffness : float
+        Its stiffness.
+    """
+    free = {"stiffness": float("inf"), "law": [(1.0, 0.0)]} if turns(support) and not stiffness else {"stiffness": stiffness}
+    return replace(support, **free)
+
+
 @dataclass
 class _Spread:
     """Supports, those that become one included."""

@@ -213,9 +213,11 @@ def courses(train: Train, end: float) -> list[Course]:
     found = []
     for direction in (RIGHT, LEFT) if train.both_directions else (RIGHT,):
         back = direction == LEFT
-        uniform = np.column_stack((train.factor * q, *((first, last) if back else (-last, -first))))
+        with np.errstate(over="ignore"):  # the engine says that it is out of range
+            factored, of_length = train.factor * force, train.factor * q
+        uniform = np.column_stack((of_length, *((first, last) if back else (-last, -first))))
         offset = distance.copy() if back else -distance
-        found.append(Course(direction, offset, train.factor * force, uniform, *_range(train, direction, end, "")))
+        found.append(Course(direction, offset, factored, uniform, *_range(train, direction, end, "")))
     return found
 
 

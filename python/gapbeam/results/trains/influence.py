@@ -29,6 +29,8 @@ from ...scene.ground_laws import (
 from ...scene.ground_tables import is_table
 from ...scene.loads import ForceLoad
 from ...scene.names import label
+from ...scene.reading import beam_of_columns
+from ...scene.rotations import with_stiffness
 from ...scene.structs import Foundation, Scene, Support
 from ..envelopes.envelope import AT_SUPPORTS
 from ..state.breakpoints import piece_of
@@ -72,7 +74,7 @@ def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, p
     for place in places.tolist():
         load = taken.load.copy(order="F")
         load[0, 0] = place
-        beam = Beam(replace(taken, load=load))
+        beam = beam_of_columns(scene, replace(taken, load=load))
         solution = beam.solve(1.0, "block", np.ones(beam.supports, dtype=np.int32))
         if solution.status != SOLVED:
             raise ValueError(f"position: what acts there does not hold the beam against a small force at x = {place:g}")
@@ -113,7 +115,8 @@ def _slopes(state: TrainState, beam: Beam) -> list[float]:
 
 
 def _support(support: Support, slope: float) -> Support:
-    return replace_struct(support, side="both", stiffness=slope, law=None, unloading="elastic", gap=0.0, settlement=0.0)
+    plain = replace_struct(support, side="both", law=None, unloading="elastic", gap=0.0, settlement=0.0)
+    return with_stiffness(plain, slope)
 
 
 def _foundation(scene: Scene, zone: Contact) -> Foundation | None:

@@ -316,3 +316,20 @@ def test_the_place_of_a_couple_is_none_between_two_states():
     exact = gapbeam.solve(made).envelope().extremes["moment"]["max"]
     found = gapbeam.solve(made | {"foundation": [{"k": 1e-9}]}).envelope().extremes["moment"]["max"]
     assert (found.value, found.x, found.position) == pytest.approx((exact.value, exact.x, exact.position), rel=1e-12)
+
+
+@pytest.mark.parametrize(("rotation", "instead"), [
+    ({"side": "clockwise"}, "free"), ({"side": "counterclockwise"}, "fixed"), ({"slack": 0.1}, "free"),
+])  # fmt: skip
+def test_influence_lines_beside_restraints_that_are_open(rotation, instead):
+    """They hold nothing then, or as a clamp does."""
+    made = {
+        "beam": {"spans": [6.0, 6.0], "EI": 1e4}, "foundation": [{"k": 500.0}], "trains": [{"name": "t", "axles": [[0.0, 20.0]]}],
+        "supports": [{"node": 0}, {"node": 1}, {"node": 2}], "loads": [{"type": "uniform", "q": 2.0, "case": "dead"}],
+    }  # fmt: skip
+
+    def line(rotation):
+        supports = [{"node": 0, "rotation": rotation}, *made["supports"][1:]]
+        return gapbeam.solve(made | {"supports": supports}).trains["t"].influence("moment", x=3.0, position=2.0).values
+
+    assert line(rotation) == pytest.approx(line(instead), rel=1e-12, abs=1e-15)
