@@ -182,6 +182,8 @@ def test_old_calls_say_what_to_write(things):
     assert values[0, 2] == result.extremes["moment"]["max"].value
     with pytest.warns(DeprecationWarning, match="is an attribute"):
         assert train.extremes["moment"]["max"].source()["train"] == "crane"
+    with pytest.warns(DeprecationWarning, match=r"x = \[...\]"):
+        assert train.envelope([3.0]).fields.x.tolist() == [3.0]
     for old in ("beam", "rule"):
         with pytest.warns(DeprecationWarning, match=f"{old} is no longer for users"):
             assert getattr(result, old) is getattr(result, f"_{old}")

@@ -187,6 +187,9 @@ class TrainResult(TrainVerbs):
         ValueError
             A place outside the beam.
         """
+        if np.ndim(points):  # they stood there before
+            warnings.warn("places of an envelope are given as x = [...]", DeprecationWarning, stacklevel=2)
+            points, x = 20, points
         places = places_given(self._result._beam, x)
         return TrainEnvelope(self._result, self._members(), places, whole("points", points, least=1))
 

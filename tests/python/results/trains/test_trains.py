@@ -138,7 +138,7 @@ def test_largest_moments_of_simple_beams():
     assert found == [pytest.approx((4.5, 6.5), rel=1e-12), pytest.approx((5.5, 5.5), rel=1e-12)]
     shear = result.envelope().extremes["shear"]
     assert (shear["max"].value, shear["min"].value) == pytest.approx((18.0, -18.0), rel=1e-14)
-    curves = result.trains["train 1"].envelope([2.0, 5.0]).fields
+    curves = result.trains["train 1"].envelope(x=[2.0, 5.0]).fields
     # Influence lines: of the place 2 with ordinates 1.6 and 1.2
     assert curves.largest["moment"] == pytest.approx([28.0, 40.0], rel=1e-14)
     assert curves.smallest["moment"] == pytest.approx([0.0, 0.0], abs=1e-14)
@@ -147,7 +147,7 @@ def test_largest_moments_of_simple_beams():
 def test_uniform_loads_between_distances():
     """Influence lines of a simple beam: of a reaction 1 - x/L, of the moment in the middle a triangle of L/4."""
     train = gapbeam.solve(simple(8.0, (1.5, 0.0), q=[[0.0, 1.0, 6.0], [2.0, 4.0, 3.0]])).trains["train 1"]
-    envelope = train.envelope([4.0])
+    envelope = train.envelope(x=[4.0])
     reaction = envelope.supports[0]["reaction"]["max"]
     assert (reaction.value, reaction.position) == pytest.approx(((6.0 * 4.5 + 6.0 * 7.0) / 8, 4.0), rel=1e-12)
     curves = envelope.fields
@@ -169,7 +169,7 @@ def test_loads_ahead_of_the_first_axle(both):
         assert (way.course.from_ + shift, way.course.to + shift) == (same.course.from_, same.course.to)
     assert (one.traversals[0].course.from_, one.traversals[0].course.to) == (-1.5, 4.0)
     assert [event.event for event in one.events] == [event.event for event in other.events] != []
-    found, true = one.envelope(np.linspace(0.0, 2.0, 9)), other.envelope(np.linspace(0.0, 2.0, 9))
+    found, true = one.envelope(x=np.linspace(0.0, 2.0, 9)), other.envelope(x=np.linspace(0.0, 2.0, 9))
     for name, row in true.extremes.items():
         for kind, extreme in row.items():
             assert found.extremes[name][kind].value == pytest.approx(extreme.value, rel=1e-11)
@@ -225,7 +225,7 @@ def test_nothing_is_beyond_the_envelope(seed):
     except gapbeam.EngineError:
         return
     train = result.trains["train 1"]
-    envelope = train.envelope(np.linspace(0.0, result.scene.span_ends()[-1], 5))
+    envelope = train.envelope(x=np.linspace(0.0, result.scene.span_ends()[-1], 5))
     curves = envelope.fields
     for way in train.traversals:
         passage, course = way.engine, way.course

@@ -64,7 +64,7 @@ def test_a_force_on_a_long_beam():
             found = train.influence(what, x=45.0, position=45.2, places=[45.0 - distance, 45.0 + distance]).values
             assert found == pytest.approx([value, value], abs=1e-13)
     # What passes a place makes there at most what it makes anywhere
-    curves = train.envelope([45.1]).fields
+    curves = train.envelope(x=[45.1]).fields
     assert curves.largest["moment"] == pytest.approx([FORCE / (4 * BETA)], rel=1e-13)
     assert curves.largest_at["moment"] == pytest.approx([45.1], rel=1e-13)
 
@@ -97,7 +97,7 @@ def assert_nothing_beyond(made, result, positions, x):
     """States solved one by one are never beyond the envelope."""
     (train,) = made["trains"]
     found = result.trains["train 1"] if "name" not in train else result.trains[train["name"]]
-    envelope = found.envelope(x)
+    envelope = found.envelope(x=x)
     curves, end = envelope.fields, float(result.scene.span_ends()[-1])
     for way in found.traversals:
         course = way.course
@@ -157,7 +157,7 @@ def test_the_smallest_between_two_states_of_the_grid():
     """Where zones are born beside it, as a search among states nowhere farther than 1e-4 from the next one finds it."""
     made = SCENES["layers"]
     train = gapbeam.solve({**made, "trains": [made["trains"][0] | {"both_directions": False}]}).trains["train 1"]
-    curves = train.envelope([1.75]).fields
+    curves = train.envelope(x=[1.75]).fields
     at = curves.smallest_at["deflection"][0]
     found = min(train.at([1.75], position=position).deflection[0] for position in np.linspace(at - 2e-3, at + 2e-3, 41))
     assert curves.smallest["deflection"][0] == pytest.approx(found, rel=1e-9)
