@@ -97,8 +97,8 @@ def read_beam(source: Scene | Mapping[str, Any] | str | os.PathLike) -> tuple[Sc
         scene, written = _structured(source)
         with in_written_places(written):
             beam = prepared_beam(scene)
-        if isinstance(source, Written):
-            _plan(scene)
+            if isinstance(source, Written):
+                _plan(scene)
         return scene, beam
     except SceneError as error:
         if isinstance(source, Written):
@@ -139,9 +139,10 @@ def _opened(source: Any) -> Any:
 def _checked(source: Scene | Mapping[str, Any]) -> Scene:
     """Check a scene completely."""
     scene, written = _structured(source)
-    with suppress(EngineError), in_written_places(written):  # it makes sense, though doubles may not hold its numbers
-        prepared_beam(scene)
-    _plan(scene)
+    with in_written_places(written):
+        with suppress(EngineError):  # it makes sense, though it cannot be solved in double precision
+            prepared_beam(scene)
+        _plan(scene)
     return scene
 
 
