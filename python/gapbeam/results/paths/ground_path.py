@@ -145,7 +145,7 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     cause = cause_of_fall(result._beam.solve(path.beyond, rule, closed)) if asks else None
     if path.limits:
         result.status = "limit-load"
-        where = f"beyond {_last_factor(path.limits[0].factor, path.beyond)}"
+        where = f"beyond {_last_factor(path.limits[0].factor, path.beyond, digits=12)}"
         result.reason = f"limit load: nothing more resists the load {where}"
         if isinstance(cause, FallingGround):
             result.reason = f"limit load: the force of the ground falls, and the load cannot grow {where}"
@@ -160,8 +160,8 @@ def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPat
     return path if path.segments else None
 
 
-def _last_factor(last: float, beyond: float) -> str:
+def _last_factor(last: float, beyond: float, digits: int = 16) -> str:
     """Word the load factor above which there is no equilibrium; next to it states may be settled no more."""
     if beyond - last <= SAME_FACTOR * last:
-        return f"load factor {last:.12g}"
+        return f"load factor {last:.{digits}g}"
     return f"a load factor between {last:.12g} and {beyond:.12g}"
