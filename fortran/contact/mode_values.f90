@@ -62,7 +62,7 @@ contains
             end if
             do doubling = 1, most_halvings
                 if (.not. low%value > 0.0_wp) exit
-                if (present(near) .or. doubling > 1) low = counted_at(low%value)
+                if (present(near) .or. doubling > 1) call count_at(ground, zones, acting, factor, what, low%value, low, stopped)
                 if (low%number < k) exit
                 ! Another mode has that value too, or a known one is farther off
                 if (.not. present(near)) exit
@@ -73,7 +73,7 @@ contains
             high = low
             do doubling = 1, most_halvings
                 if (high%value > 0.0_wp) then
-                    if (doubling > 1) high = counted_at(high%value)
+                    if (doubling > 1) call count_at(ground, zones, acting, factor, what, high%value, high, stopped)
                     if (high%number >= k .or. stopped) exit
                 end if
                 low = high
@@ -83,84 +83,98 @@ contains
             end do
             lost = stopped .and. (what == by_vibration .or. .not. limit < huge(limit))
             if (stopped .or. doubling > most_halvings) return
-            call narrow(k, merge(mode_width, mode_digits/4, present(near)))
+            call narrow(ground, zones, acting, factor, what, k, merge(mode_width, mode_digits/4, present(near)), low, high, stopped)
             values(k) = high%value
             found = k
             low = high
         end do
-
-    contains
-
-        !> Bring the bracket of mode k together
-        subroutine narrow(k, width)
-            integer, intent(in) :: k
-            !> How narrow, beside its value
-            real(wp), intent(in) :: width
-            type(counted_type) :: one
-            real(wp) :: before, trial, margin
-            !> Evaluations in turn that replaced the same end; evaluations since the bracket was halved
-            integer :: same, idle, step
-            logical :: was_high
-
-            same = 0
-            idle = 0
-            was_high = .false.
-            before = high%value - low%value
-            do step = 1, most_halvings
-                trial = low%value + (high%value - low%value)/2
-                if (.not. (trial > low%value .and. trial < high%value)) exit
-                if (high%value - low%value <= width*high%value) exit
-                if (2*(high%value - low%value) <= before) then
-                    before = high%value - low%value
-                    idle = 0
-                else
-                    idle = idle + 1
-                end if
-                if (high%number - low%number == 1 .and. low%stretches == high%stretches .and. low%stretches > 0 .and. idle < 3) then
-                    ! Not so near to an end that this is all that is cut off
-                    margin = min(width*high%value*8.0_wp**same, high%value - low%value)/2
-                    trial = low%value + (high%value - low%value)/(1 + 2.0_wp**max(-99.0_wp, min(99.0_wp, high%size - low%size)))
-                    trial = min(max(trial, low%value + margin), high%value - margin)
-                end if
-                one = counted_at(trial)
-                if ((one%number >= k .eqv. was_high) .and. step > 1) then
-                    same = same + 1
-                else
-                    same = 0
-                end if
-                was_high = one%number >= k
-                if (was_high) then
-                    high = one
-                    if (same > 0) low%size = low%size - 1
-                else
-                    low = one
-                    if (same > 0) high%size = high%size - 1
-                end if
-            end do
-        end subroutine narrow
-
-        !> Modes at a value, or beside it: where what holds the beam and what moves it nearly cancel, pivots are rounding far around
-        function counted_at(value) result(one)
-            real(wp), intent(in) :: value
-            type(counted_type) :: one
-            type(workspace_type) :: work
-            type(grounded_type) :: grounded
-            integer :: trial
-
-            one%value = value
-            do trial = 0, most_asides
-                call count_modes(ground, zones, acting, what, value*(1 + 8*(4.0_wp**trial - 1)*epsilon(value)), one%number, work, &
-                                 grounded, factor=factor)
-                if (one%number < 0) cycle
-                one%stretches = size(grounded%stretches)
-                one%size = log_determinant(work%nodes(0:one%stretches), work%pivots)
-                return
-            end do
-            stopped = .true.
-            one%number = 0
-        end function counted_at
-
     end subroutine find_mode_values
+
+    !> Bring the bracket of mode k together
+    subroutine narrow(ground, zones, acting, factor, what, k, width, low, high, stopped)
+        !> As for find_mode_values
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        logical, intent(in) :: acting(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: what, k
+        !> How narrow, beside its value
+        real(wp), intent(in) :: width
+        !> Below fewer than k modes, and k at least
+        type(counted_type), intent(inout) :: low, high
+        !> As for count_at
+        logical, intent(inout) :: stopped
+        type(counted_type) :: one
+        real(wp) :: before, trial, margin
+        !> Evaluations in turn that replaced the same end; evaluations since the bracket was halved
+        integer :: same, idle, step
+        logical :: was_high
+
+        same = 0
+        idle = 0
+        was_high = .false.
+        before = high%value - low%value
+        do step = 1, most_halvings
+            trial = low%value + (high%value - low%value)/2
+            if (.not. (trial > low%value .and. trial < high%value)) exit
+            if (high%value - low%value <= width*high%value) exit
+            if (2*(high%value - low%value) <= before) then
+                before = high%value - low%value
+                idle = 0
+            else
+                idle = idle + 1
+            end if
+            if (high%number - low%number == 1 .and. low%stretches == high%stretches .and. low%stretches > 0 .and. idle < 3) then
+                ! Not so near to an end that this is all that is cut off
+                margin = min(width*high%value*8.0_wp**same, high%value - low%value)/2
+                trial = low%value + (high%value - low%value)/(1 + 2.0_wp**max(-99.0_wp, min(99.0_wp, high%size - low%size)))
+                trial = min(max(trial, low%value + margin), high%value - margin)
+            end if
+            call count_at(ground, zones, acting, factor, what, trial, one, stopped)
+            if ((one%number >= k .eqv. was_high) .and. step > 1) then
+                same = same + 1
+            else
+                same = 0
+            end if
+            was_high = one%number >= k
+            if (was_high) then
+                high = one
+                if (same > 0) low%size = low%size - 1
+            else
+                low = one
+                if (same > 0) high%size = high%size - 1
+            end if
+        end do
+    end subroutine narrow
+
+    !> Modes at a value, or beside it: where what holds the beam and what moves it nearly cancel, pivots are rounding far around
+    subroutine count_at(ground, zones, acting, factor, what, value, one, stopped)
+        !> As for find_mode_values
+        type(ground_type), intent(in) :: ground
+        type(zones_type), intent(in) :: zones
+        logical, intent(in) :: acting(:)
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: what
+        real(wp), value :: value
+        type(counted_type), intent(out) :: one
+        !> Becomes true where nothing can be counted
+        logical, intent(inout) :: stopped
+        type(workspace_type) :: work
+        type(grounded_type) :: grounded
+        integer :: trial
+
+        one%value = value
+        do trial = 0, most_asides
+            call count_modes(ground, zones, acting, what, value*(1 + 8*(4.0_wp**trial - 1)*epsilon(value)), one%number, work, &
+                             grounded, factor=factor)
+            if (one%number < 0) cycle
+            one%stretches = size(grounded%stretches)
+            one%size = log_determinant(work%nodes(0:one%stretches), work%pivots)
+            return
+        end do
+        stopped = .true.
+        one%number = 0
+    end subroutine count_at
 
     !> Above which value a beam would give way by shear alone: where its axial force takes all of GA (Engesser)
     pure function greatest_value(ground, what) result(limit)
