@@ -50,6 +50,11 @@ module gapbeam_history_record
         real(wp), allocatable :: x(:)
     end type point_type
 
+    !> The laws of all supports
+    type :: laws_type
+        type(node_support_type), allocatable :: laws(:)
+    end type laws_type
+
     !> What is known on the smooth laws themselves of a path that was followed on their polylines (gapbeam_smooth_path)
     type :: on_laws_type
         !> What there is at the end of every stretch (gapbeam_path_on_laws), and load factors at its ends on the polylines
@@ -64,6 +69,10 @@ module gapbeam_history_record
         real(wp) :: size(2) = 0.0_wp
         !> Is there one state only at every load factor, so that tangents lead to it
         logical :: unique = .false.
+        !> First stretch from which on a support that keeps a set has turned back, and where one does so within a leg; and the laws
+        !> with which the legs begin then, from 0 (gapbeam_unloaded_laws)
+        integer :: unloaded(2) = huge(1)
+        type(laws_type), allocatable :: of_legs(:)
         !> Leg at whose end the load factor was not found, since there is a limit load before it; -1 if none
         integer :: unreached = -1
         !> Stretch that is a branch beyond a bifurcation, 0 if none; its points from the bifurcation on, and the arc that led there

@@ -20,6 +20,7 @@ module gapbeam_path_states
     use gapbeam_history_record, only: history_type, scheme_at, laws_at, same_laws
     use gapbeam_ground_along_states, only: take_ground_along
     use gapbeam_bedding_path, only: take_bedding
+    use gapbeam_unloaded_laws, only: find_unloaded
     use gapbeam_path_on_laws, only: view_type, find_at, is_known, through, given_factor, start_of_stretch, stop_of_stretch
     implicit none
     private
@@ -156,8 +157,14 @@ contains
         type(arc_type) :: arc
         real(wp), allocatable :: x(:)
         integer :: k, first, last, number
-        logical :: not_known
+        logical :: not_known, told
 
+        if (stretch >= history%on_laws%unloaded(1)) then
+            call find_unloaded(beam, history, stretch, factor, laws, told, error)
+            how = merge(with_lines, on_polylines, told)
+            if (.not. told) laws = laws_at(beam, history, stretch)
+            return
+        end if
         view%assembled => beam
         view%dead => beam
         view%history => history

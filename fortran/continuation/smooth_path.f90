@@ -24,6 +24,7 @@ module gapbeam_smooth_path
         stop_of_stretch
     use gapbeam_smooth_turns, only: find_turns, put_turns_on_laws
     use gapbeam_traced_branch, only: branch_off
+    use gapbeam_unloaded_laws, only: mark_unloading, write_laws_of_legs
     implicit none
     private
     public :: follow_on_laws
@@ -81,7 +82,9 @@ contains
                 end if
             end if
             call begin_on_laws(view, error)
+            if (.not. allocated(error)) call mark_unloading(assembled, history)
             if (.not. allocated(error)) call put_on_laws(view, error)
+            if (.not. allocated(error)) call write_laws_of_legs(assembled, history, error)
             if (allocated(error) .or. history%on_laws%unreached /= n) exit
             ! The limit load that keeps it from there lies beyond on the polylines
             to(n) = factors(n) + further_than_asked*factors(n)

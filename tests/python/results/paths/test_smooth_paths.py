@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from gapbeam import SceneError
 from oracle.smooth import Problem
+from scipy.optimize import brentq
 
 from .test_laws import SNAP, midspan
 
@@ -345,3 +346,35 @@ def test_a_steep_curve_that_just_begins_to_act():
     assert 0.0 < closes < 0.01
     assert abs(result.state(closes).reaction[0]) < 1e-9
     assert len(result.to_dict()["steps"]) == 1
+
+
+def test_a_support_that_keeps_a_set_beside_a_curve():
+    """What it turns back from is where the curve leads it: its load and deflection by statics, with w0 = atanh(R0/60) 60/3000."""
+    F, L, EI = 80.0, 6.0, 4500.0
+
+    def middle(load, plastic):
+        end = (load - plastic) / 2.0
+        return math.atanh(end / 60.0) * 0.02 / 2.0 + (load - plastic) * L**3 / (48.0 * EI)
+
+    made = {
+        "beam": {"spans": [L], "EI": EI},
+        "supports": [{"node": 0, "law": {"type": "tanh", "stiffness": 3000.0, "limit": 60.0}}, {"node": 1},
+                     {"x": 3.0, "law": [[0.01, 20.0], [0.1, 20.0]], "unloading": "plastic"}],
+        "loads": [{"type": "force", "x": 3.0, "F": F}], "analysis": {"follow": "events", "history": [1.0, 0.0, 0.8]},
+    }  # fmt: skip
+    result = gapbeam.solve(made)
+    reached = middle(F, 20.0)
+    assert result.state(1.0, leg=0).deflection[2] == pytest.approx(reached, rel=1e-14)
+    for factor in (1.0 - 1e-9, 0.9, 0.5, 0.3):  # back, by 2000 over the way from where it turned
+        plastic = brentq(lambda R, f=factor: middle(f * F, R) - (reached - (20.0 - R) / 2000.0), -20.0, 20.0, xtol=1e-15)
+        step = result.state(factor, leg=1)
+        assert step.exact
+        assert step.reaction[2] == pytest.approx(plastic, rel=1e-12)
+        assert step.set[2] == pytest.approx(reached - 0.01, rel=1e-13)
+    lowest = middle(0.0, -20.0)
+    assert result.state(0.0, leg=1).deflection[2] == pytest.approx(lowest, rel=1e-12)
+    for factor in (0.1, 0.6):
+        plastic = brentq(lambda R, f=factor: middle(f * F, R) - (lowest + (R + 20.0) / 2000.0), -20.0, 20.0, xtol=1e-15)
+        assert result.state(factor, leg=2).reaction[2] == pytest.approx(plastic, rel=1e-11)
+    assert [segment.exact for segment in result.segments if segment.leg == 0] == [True, True]
+    assert not any(segment.exact for segment in result.segments if segment.leg > 0)  # where it yields is known on the polyline
