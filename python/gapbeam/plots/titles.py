@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from warnings import catch_warnings, filterwarnings
+
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import text_to_path
 
@@ -56,7 +58,9 @@ def text_width(text: str, size: float, weight: str = "normal") -> float:
     size, weight : float, str
         Of its letters.
     """
-    return text_to_path.get_text_width_height_descent(text, FontProperties(weight=weight, size=size), ismath=False)[0]
+    with catch_warnings():
+        filterwarnings("ignore", "Glyph .* missing")  # said where the text is drawn
+        return text_to_path.get_text_width_height_descent(text, FontProperties(weight=weight, size=size), ismath=False)[0]
 
 
 def _fits(text: str, width: float) -> bool:

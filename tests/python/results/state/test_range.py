@@ -382,5 +382,8 @@ def test_load_factors_beyond_what_can_be_solved_are_named():
     supports = [{"node": 0}, {"node": 1, "side": "below", "gap": 0.002}, {"node": 2}]
     loads = [{"type": "uniform", "q": 2.0}, {"type": "force", "x": 3.0, "F": 40.0}]
     made = {"beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": supports, "loads": loads}
-    with pytest.raises(EngineError, match=r"left the range of double precision.*; give smaller loads and load factors"):
-        report_text(gapbeam.solve({**made, "analysis": {"follow": "events", "history": [1e300]}}))
+    with pytest.raises(gapbeam.SceneError, match=r"history\[0\]: expected a finite number of at most 1e\+100, got 1e\+300"):
+        gapbeam.solve({**made, "analysis": {"follow": "events", "history": [1e300]}})
+    loads[1]["F"] = 1e250
+    with pytest.raises(EngineError, match=r"left the range of double precision.*; choose a greater unit of force"):
+        report_text(gapbeam.solve({**made, "analysis": {"follow": "events", "history": [1e90]}}))

@@ -53,8 +53,10 @@ def test_sets_and_slacks_of_rotations_are_told_with_rotations():
     heads = next(line for line in supports.splitlines() if "side" in line)
     assert "set" not in heads
     assert "opening" not in heads
-    heads, joint = (next(line for line in rotations.splitlines() if word in line) for word in ("side", "segment 1"))
-    assert heads.split()[-2:] == ["set", "[rad]"]
+    lines = rotations.splitlines()
+    row = next(k for k, line in enumerate(lines) if "side" in line)
+    joint = next(line for line in lines if "segment 1" in line)
+    assert [line.split()[-1] for line in lines[row - 1 : row + 1]] == ["set", "rad"]
     assert joint.split()[-1] == "0.0033333"
 
 
