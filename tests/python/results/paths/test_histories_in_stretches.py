@@ -126,12 +126,13 @@ def test_what_is_along_the_beam_does_not_feel_it():
 
 def test_a_part_that_tips_where_all_has_yielded():
     """Beside its own stretches the ground cuts the beam where its series ask for that: nodes are those of the scene."""
-    prop = {"x": 0.0, "law": [[0.01, 60.0], [0.05, 60.0]], "unloading": "plastic"}
-    result = gapbeam.solve(moored(beam={"spans": [5.0, 50.0], "EI": 1e4, "hinges": [5.0]}, supports=[prop],
-                                  foundation=[{"k": 1e5, "from": 5.0, "to": 55.0}]))  # fmt: skip
+    prop = {"x": 55.0, "law": [[0.01, 60.0], [0.05, 60.0]], "unloading": "plastic"}
+    result = gapbeam.solve(moored(beam={"spans": [50.0, 5.0], "EI": 1e4, "hinges": [50.0]}, supports=[prop],
+                                  foundation=[{"k": [1e5, 3e5], "from": 0.0, "to": 50.0}],
+                                  loads=[{"type": "force", "x": 55.0, "F": 200.0}]))  # fmt: skip
     assert result.status == "limit-load"
     assert result.steps[-1].factor == pytest.approx(0.3, rel=1e-14)
-    assert result.motion == [(0.0, 1.0), (5.0, 0.0), (55.0, 0.0)]
+    assert result.motion == [(0.0, 0.0), (50.0, 0.0), (55.0, 1.0)]
 
 
 @pytest.mark.parametrize(
