@@ -592,6 +592,9 @@ contains
         call solve_on_path(beam, history, 0.0_wp, result, error)
         call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
         call check_close(opening(2), 1.2_wp*c - 0.1_wp, "a gap is left")
+        call solve_on_path(beam, history, 0.75_wp, result, error, stretch=history%events(2)%stretch)
+        call get_supports(beam, result, reaction, deflection, opening, couple, condition, error)
+        call check_close(reaction(2), (1 + 4.5_wp*c)/(1 + 10*c), "along the first slope, from where it was")
         model%foundations = [foundation_type(from=0.0_wp, to=1.0_wp, side=gapbeam_below, k=1.0_wp)]
         call prepare_model(model, beam, error)
         call follow_history(beam, [1.0_wp], gapbeam_limit_stop, history, error)
