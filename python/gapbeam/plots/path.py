@@ -125,7 +125,8 @@ def path_figure(result: Result) -> Figure:
     scene = result.scene
     dots = result.path is None and len(result.steps) <= MOST_DOTS
     trace = Trace(result) if isinstance(result.path, BranchPath) else None
-    stretches = _stretches(result, dots) if scene.foundation else []
+    # Beside a loading history zones never change
+    stretches = _stretches(result, dots) if scene.foundation and trace is None else []
     states = list(chain(*stretches)) or (_states(result, dots) if trace is None else trace.states)
     factors = np.array([step.factor for step in states])
     panels = _panels(result, states, bool(stretches))

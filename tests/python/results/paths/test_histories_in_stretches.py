@@ -10,6 +10,7 @@ import random
 import gapbeam
 import numpy as np
 import pytest
+from gapbeam.plots.path import path_figure
 
 from .test_axial_springs import pile
 from .test_rotation_histories import pair_of
@@ -152,3 +153,15 @@ def test_a_part_that_tips_where_all_has_yielded():
 def test_refusals(change, message):
     with pytest.raises(gapbeam.EngineError, match=message):
         gapbeam.solve(moored(**change))
+
+
+def test_the_picture_goes_where_the_load_goes():
+    """Back and forth, with the values of the path; zones of ground that never change are no panel of it."""
+    result = gapbeam.solve(moored())
+    axes = path_figure(result).axes
+    ends = [result.path.step(segment, factor) for segment in result.segments for factor in (segment.start, segment.stop)]
+    drawn = [line.get_xydata() for line in axes[0].lines if line.get_label() == "support 0"]
+    points = np.concatenate(drawn)
+    assert all(np.abs(points - (step.factor, step.reaction[0])).sum(axis=1).min() < 1e-12 for step in ends)
+    assert all(min(abs(x - step.factor) + abs(y - step.reaction[0]) for step in ends) < 1e-12 for x, y in points)
+    assert not any("contact" in one.get_ylabel() for one in axes)
