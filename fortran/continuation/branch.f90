@@ -63,7 +63,8 @@ contains
         branch%factor = factor
         call new_responses(beam, branch%responses)
         branch%responses%settling(:) = settling
-        call new_local(in_doubles, unloading == parallel, settling, branch%local)
+        ! Stretches on ground and under axial forces have no local updates
+        if (.not. allocated(beam%ground)) call new_local(in_doubles, unloading == parallel, settling, branch%local)
         allocate (branch%deflection(0:last_place(beam)))
         branch%deflection(:) = 0.0_wp
         call solve_responses(branch%beam, closed, branch%responses)

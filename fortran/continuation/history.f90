@@ -10,7 +10,7 @@ module gapbeam_history
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_model_quad, only: beam_type
     use gapbeam_model, only: coarse_beam_type => beam_type
-    use gapbeam_history_beam, only: history_beam_type, make_history_beam
+    use gapbeam_history_beam, only: make_history_beam
     use gapbeam_affine_response, only: drop_live_in_doubles => drop_live
     use gapbeam_affine_response_quad, only: drop_live
     use gapbeam_contact_state_quad, only: outcome_type
@@ -34,7 +34,8 @@ module gapbeam_history
     type :: walk_type
         !> The beam, how its supports unload, and whether laws change on the way
         type(assembled_type), pointer :: assembled => null()
-        type(history_beam_type) :: beam
+        !> Node of its system for every node of the beam, shape (0:n); not allocated where these are the same
+        integer, allocatable :: node(:)
         integer, allocatable :: unloading(:)
         logical :: keeps = .false.
         !> Stretches after which it is cut off
@@ -75,14 +76,13 @@ contains
         real(qp) :: factor
         integer :: leg
 
-        call make_history_beam(assembled, walk%beam, error)
+        call make_history_beam(assembled, beam, walk%node, error)
         if (allocated(error)) return
-        beam = walk%beam%fine
         call new_history(at_limit, history)
-        call new_walk(assembled, most, walk)
+        call new_walk(assembled, beam%supports, most, walk)
         if (has_dead_loads(beam) .or. any(abs(walk%settling) > 0.0_qp) .or. has_dead_along(assembled)) then
             call drop_live(beam, dead)
-            call drop_live_in_doubles(walk%beam%coarse, dead_in_doubles)
+            call drop_live_in_doubles(assembled%beam, dead_in_doubles)
             walk%laws%contact = walk%laws%contact - walk%settling
             call go_leg(walk, dead, dead_in_doubles, 0, 0.0_qp, 1.0_qp, history, error)
             call end_if_stopped(beam%watch, error)
@@ -93,7 +93,7 @@ contains
         factor = 0.0_qp
         do leg = 1, size(factors)
             if (.not. abs(factors(leg) - factor) > 0.0_qp) cycle
-            call go_leg(walk, beam, walk%beam%coarse, leg, factor, real(factors(leg), qp), history, error)
+            call go_leg(walk, beam, assembled%beam, leg, factor, real(factors(leg), qp), history, error)
             call end_if_stopped(beam%watch, error)
             if (allocated(error)) return
             if (history%ending /= no_limit) exit
@@ -109,16 +109,18 @@ contains
     end subroutine follow_history
 
     !> A beam at rest
-    subroutine new_walk(assembled, most, walk)
+    subroutine new_walk(assembled, laws, most, walk)
         type(assembled_type), intent(in), target :: assembled
+        !> Of its supports
+        type(fine_support_type), intent(in) :: laws(:)
         integer, intent(in) :: most
-        !> With its beam
+        !> With the nodes of its system
         type(walk_type), intent(inout) :: walk
 
         walk%assembled => assembled
         walk%most = most
-        walk%laws = walk%beam%fine%supports
-        associate (m => size(walk%laws))
+        walk%laws = laws
+        associate (m => size(laws))
             allocate (walk%unloading(m), walk%closed(m), walk%settling(m))
         end associate
         walk%unloading(:) = assembled%model%supports(assembled%normal)%unloading
@@ -278,12 +280,12 @@ contains
     !> How the nodes of the beam as it was given move
     pure function motion_of_nodes(walk, motion) result(moved)
         type(walk_type), intent(in) :: walk
-        !> Of the nodes of its beam, and rotations that supports hold, shape (0:)
+        !> Of the nodes of its system, and rotations that supports hold, shape (0:)
         real(qp), intent(in) :: motion(0:)
         real(wp) :: moved(size(walk%assembled%beam%links) + 1)
 
-        if (allocated(walk%beam%node)) then
-            moved(:) = real(motion(walk%beam%node), wp)
+        if (allocated(walk%node)) then
+            moved(:) = real(motion(walk%node), wp)
         else
             moved(:) = real(motion(:size(moved) - 1), wp)
         end if

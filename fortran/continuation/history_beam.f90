@@ -8,14 +8,11 @@ module gapbeam_history_beam
     use gapbeam_memory, only: reserve_memory, for_ground, for_following_closely
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
     use gapbeam_axial_force, only: what_stretches
-    use gapbeam_laws, only: is_smooth
     use gapbeam_law, only: both
     use gapbeam_layers, only: layer_type, has_points
-    use gapbeam_model, only: beam_type
-    use gapbeam_model_quad, only: fine_beam_type => beam_type
-    use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact, place_stretches
-    use gapbeam_ground_quad, only: fine_ground_type => ground_type, fine_zones_type => zones_type, &
-        fine_grounded_type => grounded_type, full_fine_contact => full_contact, place_fine_stretches => place_stretches
+    use gapbeam_model_quad, only: beam_type
+    use gapbeam_ground, only: ground_type
+    use gapbeam_ground_quad, only: fine_ground_type => ground_type, zones_type, grounded_type, full_contact, place_stretches
     use gapbeam_refined, only: refine_beam
     use gapbeam_refined_ground, only: refine_ground
     use gapbeam_extended_precision, only: reserve_for
@@ -25,37 +22,28 @@ module gapbeam_history_beam
     use gapbeam_state, only: detail_of, ground_of
     implicit none
     private
-    public :: history_beam_type, make_history_beam
-
-    !> A beam in quadruple and in double precision
-    type :: history_beam_type
-        type(fine_beam_type) :: fine
-        type(beam_type) :: coarse
-        !> Its node for every node of the beam as it was given, shape (0:n); not allocated where these are the same
-        integer, allocatable :: node(:)
-    end type history_beam_type
+    public :: make_history_beam
 
 contains
 
-    !> Make the beam of a history
-    subroutine make_history_beam(assembled, beam, error)
+    !> Make the beam of a history, in quadruple precision
+    subroutine make_history_beam(assembled, beam, node, error)
         type(assembled_type), intent(in), target :: assembled
         !> At load factor 0
-        type(history_beam_type), intent(out) :: beam
+        type(beam_type), intent(out) :: beam
+        !> Its node for every node of the beam as it was given, shape (0:n); not allocated where these are the same
+        integer, allocatable, intent(out) :: node(:)
         !> A beam in stretches that change along the path, or under which supports break; or no memory
         type(error_type), allocatable, intent(out) :: error
         type(ground_type) :: ground
+        type(fine_ground_type) :: fine
         type(zones_type) :: zones
         type(grounded_type) :: grounded
-        type(fine_ground_type) :: fine
-        type(fine_zones_type) :: fine_zones
-        type(fine_grounded_type) :: fine_grounded
 
         call reserve_for(for_following_closely, assembled%beam, detail_of(assembled), error)
         if (allocated(error)) return
         if (.not. allocated(assembled%layers)) then
-            beam%coarse = assembled%beam
-            call refine_beam(assembled%beam, detail_of(assembled), beam%fine)
+            call refine_beam(assembled%beam, detail_of(assembled), beam)
             return
         end if
         call check_supports(assembled, error)
@@ -69,14 +57,12 @@ contains
                              "that hold it both ways")
             return
         end if
-        call full_contact(ground, zones)
-        call place_stretches(ground, zones, 0.0_wp, grounded)
-        beam%coarse = grounded%beam
-        beam%node = grounded%node
         call refine_ground(ground, fine)
-        call full_fine_contact(fine, fine_zones)
-        call place_fine_stretches(fine, fine_zones, 0.0_qp, fine_grounded)
-        beam%fine = fine_grounded%beam
+        call full_contact(fine, zones)
+        call place_stretches(fine, zones, 0.0_qp, grounded)
+        beam = grounded%beam
+        allocate (node(0:ubound(grounded%node, 1)))
+        node(:) = grounded%node
     end subroutine make_history_beam
 
     !> Supports whose forces fall are refused in stretches: nothing there tells stable states from others
@@ -88,9 +74,7 @@ contains
         associate (given => assembled%model%supports, laws => assembled%beam%supports)
             do k = 1, size(laws)
                 associate (number => assembled%normal(k))
-                    if (is_smooth(given(number)%law)) then
-                        call say("law", "a history with a smooth law", "give its points")
-                    else if (given(number)%unloading == gapbeam_broken) then
+                    if (given(number)%unloading == gapbeam_broken) then
                         call say("unloading", "a support that breaks", "give plastic or elastic")
                     else if (laws(k)%breakpoint > 0 .and. min(laws(k)%stiffness, laws(k)%before) < 0.0_wp) then
                         call say("law", "a law whose force falls", "give one that rises")

@@ -68,8 +68,7 @@ contains
         type(local_type), intent(out) :: local
         integer :: i
 
-        local%usable = .not. allocated(beam%ground)
-        if (.not. local%usable) return
+        local%usable = .true.
         local%beam = beam
         local%settling = real(settling, wp)
         local%first_slope = beam%supports%stiffness
