@@ -14,6 +14,7 @@ module gapbeam_unloaded_laws
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_pieces, only: acts_in, what_happens, gapbeam_unloads
+    use gapbeam_history_stretch, only: enter_stretch
     use gapbeam_history_record, only: history_type, pieces_type, find_pieces, scheme_at
     use gapbeam_path_on_laws, only: through, unknown
     implicit none
@@ -28,17 +29,20 @@ contains
         !> With its ends as they would be known
         type(history_type), intent(inout) :: history
         type(pieces_type) :: before, after
+        integer, allocatable :: supports(:)
         integer :: k, n
 
         n = history%number
+        allocate (supports, source=pack(assembled%normal, keeps_set(assembled) .and. assembled%beam%supports%breakpoint == 1))
         associate (s => history%stretches, known => history%on_laws)
             known%unloaded(:) = n + 1
-            if (.not. any(keeps_set(assembled))) return
+            if (size(supports) == 0 .or. n == 0) return
+            call find_pieces(history, 1, after)
             do k = 1, n - 1
                 if (known%unloaded(2) <= n) exit
-                call find_pieces(history, k, before)
-                call find_pieces(history, k + 1, after)
-                if (.not. turns_back(assembled, before, after)) cycle
+                before = after
+                call enter_stretch(s(k + 1), after)
+                if (.not. turns_back(assembled, supports, before, after)) cycle
                 known%unloaded(1) = min(known%unloaded(1), k + 1)
                 if (s(k)%leg == s(k + 1)%leg) known%unloaded(2) = k + 1
             end do
@@ -58,19 +62,19 @@ contains
         end associate
     end function keeps_set
 
-    !> Does one of them turn back between two stretches
-    pure function turns_back(assembled, before, after) result(it_does)
+    !> Does one of some supports turn back between two stretches
+    pure function turns_back(assembled, supports, before, after) result(it_does)
         type(assembled_type), intent(in) :: assembled
+        !> Of the model
+        integer, intent(in) :: supports(:)
         type(pieces_type), intent(in) :: before, after
         logical :: it_does
         integer :: i
 
         it_does = .false.
-        do i = 1, size(assembled%model%supports)
-            if (.not. assembled%with_law(i) .or. assembled%beam_support(i) == 0) cycle
-            if (assembled%model%supports(i)%unloading /= gapbeam_plastic .or. is_smooth(assembled%model%supports(i)%law)) cycle
-            it_does = what_happens(acts_in(assembled, i, before%closed, before%laws), &
-                                   acts_in(assembled, i, after%closed, after%laws)) == gapbeam_unloads
+        do i = 1, size(supports)
+            it_does = what_happens(acts_in(assembled, supports(i), before%closed, before%laws), &
+                                   acts_in(assembled, supports(i), after%closed, after%laws)) == gapbeam_unloads
             if (it_does) return
         end do
     end function turns_back
