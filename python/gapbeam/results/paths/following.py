@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
-from ...engine.beam import Beam
 from ...engine.states import Solution
 from ...scene.movements import refuse_movements
-from ...scene.structs import Scene
 from ..state.motion import cause_of_fall
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
@@ -73,8 +71,6 @@ def follow_load(result: Result, closed: np.ndarray) -> None:
 
 def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
     """Choose how the load of a beam is followed without its trains."""
-    if result._beam.in_stretches:
-        _refuse_on_ground(result.scene, result._beam)
     if result.depends_on_path:
         return follow_path
     if result.scene.analysis.follow == "steps":
@@ -112,17 +108,6 @@ def _refuse_beyond_bounds(result: Result) -> None:
                 result.steps = LoadSteps(result._beam, result._rule, starting_scheme(result._beam), 0)
                 result._refuse(f"at load factor {last.stop:g}", found.motion, cause_of_fall(found))
                 return
-
-
-def _refuse_on_ground(scene: Scene, beam: Beam) -> None:
-    """Refuse what cannot be had on a foundation, and with an axial force that bending feels."""
-    if beam.beyond_one_search != "curve":
-        return
-    forced = "axial loads that bend it" if beam.feels_axial_loads else "an axial force N"
-    rest = "a mass for frequencies" if scene.analysis.frequencies else "trains over what takes stretches"
-    there = "a foundation" if beam.ground_layers else forced if beam.has_axial_force else rest
-    what = f"supports with smooth laws cannot be combined with {there} in this version"
-    raise SceneError("supports", f"{what}; use non-decreasing polylines")
 
 
 def follow_path(result: Result, closed: np.ndarray | None = None) -> None:
