@@ -215,7 +215,7 @@ def check_status(status: int, message: bytes = b"", where: str = "") -> None:
     if status == Status.STOPPED:
         raise EngineError(f"{where}the call was ended before it was done: a signal has ended another call with this beam", status)
     if status not in (Status.SOLVED, *FALLEN):
-        tables = {"support": "supports", "foundation": "foundation"}
-        entry = r"(support|foundation) (\d+) of \d+"
-        words = re.sub(entry, lambda found: f"{tables[found[1]]}[{int(found[2]) - 1}]", message.decode().strip())
+        words = message.decode().strip()
+        for named, key in (("support", "supports"), ("foundation", "foundation")):
+            words = re.sub(rf"{named} (\d+) of \d+", lambda found, key=key: f"{key}[{int(found[1]) - 1}]", words)
         raise EngineError(where + re.sub(r"\]: (law|stiffness|unloading)\b", r"].\1", words), status)

@@ -25,7 +25,7 @@ from .panels import LEFT, WIDTH, Numbers, cut_text, outcome
 from .save import literal, save
 from .sheet import is_upright, positive
 from .support_values import LYING, MOST_CHARACTERS, UPRIGHT, short_names
-from .titles import HEIGHT, SIZE, text_width, title_lines
+from .titles import HEIGHT, SIZE, measured_width, title_lines
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -144,7 +144,7 @@ def path_figure(result: Result) -> Figure:
     if said:
         picture.text(0.02, 1 - (0.36 + lower) / height, said, fontsize=8, va="top", color="0.3", linespacing=1.3)
     styles = _styles(result, panels, trace)
-    longest = max((text_width(name, NAME_SIZE) for panel in panels for name in panel.names.values()), default=0.0)
+    longest = max((measured_width(name, NAME_SIZE) for panel in panels for name in panel.names.values()), default=0.0)
     width = WIDTH - LEFT - max(NAMES, (OFF + SAMPLE + longest + 8.0) / 72)
     for row, panel in enumerate(panels):
         above = len(panels) - 1 - row

@@ -48,7 +48,7 @@ def title_lines(text: str, width: float = WIDTH - 0.48) -> list[str]:
     return [_cut(line, width) for line in lines]
 
 
-def text_width(text: str, size: float, weight: str = "normal") -> float:
+def measured_width(text: str, size: float, weight: str = "normal") -> float:
     """Measure a text (points).
 
     Parameters
@@ -64,7 +64,7 @@ def text_width(text: str, size: float, weight: str = "normal") -> float:
 
 
 def _fits(text: str, width: float) -> bool:
-    return text_width(text, SIZE, "bold") <= 72.0 * width
+    return measured_width(text, SIZE, "bold") <= 72.0 * width
 
 
 def _cut(text: str, width: float) -> str:
