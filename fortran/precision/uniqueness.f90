@@ -7,7 +7,8 @@
 module gapbeam_uniqueness
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_mode_stretches
-    use gapbeam_law, only: always_closed
+    use gapbeam_law, only: node_support_type, always_closed
+    use gapbeam_polyline, only: last_breakpoint
     use gapbeam_law_energy, only: is_convex
     use gapbeam_piece, only: piece_type, is_compressed
     use gapbeam_layers, only: layer_type, law_piece_type, law_piece, has_curves, has_points, pieces_of_law
@@ -44,6 +45,7 @@ contains
         type(zones_type) :: zones
         type(grounded_type) :: grounded
         type(workspace_type) :: work
+        logical :: acting(size(ground%beam%supports))
         integer :: i, k, number
 
         unique = .not. (any(is_compressed(ground%pieces)) .or. any_falls(ground))
@@ -61,9 +63,42 @@ contains
                 end do
             end associate
         end do
-        call count_modes(ground, zones, always_closed(ground%beam%supports), by_axial_force, 1.0_wp, number, work, grounded)
+        acting(:) = .true.
+        acting(:) = weakest_scheme(ground%beam%supports, always_closed(ground%beam%supports), acting)
+        call count_modes(ground, zones, acting, by_axial_force, 1.0_wp, number, work, grounded)
         unique = number == 0
     end function is_unique
+
+    !> Which supports act where they hold least between two schemes: those that act in both, and of every law its flattest piece
+    pure function weakest_scheme(supports, one, other) result(acting)
+        type(node_support_type), intent(in) :: supports(:)
+        logical, intent(in) :: one(:), other(:)
+        logical :: acting(size(supports))
+        real(wp) :: slope, least
+        integer :: first, last, piece, k
+
+        acting(:) = one .and. other
+        first = 1
+        do while (first <= size(supports))
+            last = first
+            if (supports(first)%breakpoint > 0) then
+                last = last_breakpoint(supports, first)
+                associate (a => count(one(first:last)), b => count(other(first:last)))
+                    piece = a
+                    least = huge(least)
+                    do k = min(a, b), max(a, b)
+                        slope = supports(first)%before
+                        if (k > 0) slope = supports(first + k - 1)%stiffness
+                        if (.not. slope < least) cycle
+                        least = slope
+                        piece = k
+                    end do
+                end associate
+                acting(first:last) = [(k <= piece, k=1, last - first + 1)]
+            end if
+            first = last + 1
+        end do
+    end function weakest_scheme
 
     !> Has a layer its least slope on a piece of its law, 0: not in contact, among those from one to another
     pure function weakest_piece(layer, laws, from, to) result(number)
@@ -107,13 +142,10 @@ contains
         bedded = ground
         bedded%pieces%mass = soft_bed*greatest_slope(ground)
         if (allocated(bedded%mass)) deallocate (bedded%mass)
-        ! A support that lets go on the way counts as open, one with a law as it is in the one state and in the other
-        acting(:) = one%closed .and. (other%closed .or. ground%beam%supports%breakpoint > 0)
+        ! A support that lets go on the way counts as open
+        acting(:) = weakest_scheme(ground%beam%supports, one%closed, other%closed)
         it_is = is_stable(one, other)
-        if (.not. it_is) return
-        if (.not. (any(has_curves(ground%layers)) .or. any(ground%beam%supports%breakpoint > 0))) return
-        acting(:) = other%closed .and. (one%closed .or. ground%beam%supports%breakpoint > 0)
-        it_is = is_stable(other, one)
+        if (it_is .and. any(has_curves(ground%layers))) it_is = is_stable(other, one)
 
     contains
 

@@ -418,3 +418,24 @@ def test_compression_beyond_the_shear_stiffness_is_refused():
     data["beam"]["GA"] = 5.0
     with pytest.raises(gapbeam.GapbeamError, match="not below GA there"):
         gapbeam.solve(data)
+
+
+@pytest.mark.parametrize(("force", "deflection"), [(1e-3, 0.0100206489), (1.0, 0.0101209548)])
+def test_a_column_against_a_stop_both_ways_that_hardens(force, deflection):
+    """It counted as held by the stiff ends of the law in the middle of it: refused, and it could have been unstable."""
+    euler = math.pi**2 * 25.0
+    scene = {
+        "beam": {"spans": [1.0, 1.0], "EI": 100.0, "N": -1.05 * euler},
+        "supports": [{"node": 0}, {"node": 1, "law": [[0.01, 0.1], [0.02, 100.0]]}, {"node": 2}],
+        "loads": [{"type": "force", "x": 1.0, "F": force}], "analysis": {"buckling": 1},
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    step = result.steps[-1]
+    k = math.sqrt(1.05 * euler / 100.0)
+    soft = (math.tan(k) / (2 * k) - 0.5) / (1.05 * euler)
+    assert step.deflection[1] == pytest.approx(deflection, rel=1e-8)
+    assert step.deflection[1] == pytest.approx(soft * (force - step.reaction[1]), rel=1e-11)
+    assert result.buckling[0] > 1.0
+    straight = gapbeam.solve(scene | {"loads": []})
+    assert straight.status == "buckles"
+    assert "0.96802 times" in straight.report().replace("\n", " ")
