@@ -1,5 +1,4 @@
-!> Choice of the units in which a model is solved, and its conversion to them.
-!> What does not fit into double precision is refused by name.
+!> Choice of the units in which a model is solved, and its conversion; what does not fit into double precision is refused by name.
 module gapbeam_assemble_units
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
@@ -14,6 +13,7 @@ module gapbeam_assemble_units
     use gapbeam_assemble_foundations, only: note_foundations, scale_foundations, greatest_values
     use gapbeam_words, only: shown
     use gapbeam_assemble_hinges, only: assemble_hinges
+    use gapbeam_slight_supports, only: leave_out_slight
     use gapbeam_input_error, only: refuse_range, named, of_supports, of_foundations
     use gapbeam_scene, only: gapbeam_table_of_k
     implicit none
@@ -40,6 +40,7 @@ contains
         if (.not. allocated(error)) call assemble_hinges(assembled, error)
         if (.not. allocated(error)) call scale_foundations(assembled, assembled%units, error)
         if (.not. allocated(error)) call scale_loads(assembled, error)
+        if (.not. allocated(error)) call leave_out_slight(assembled)
     end subroutine change_units
 
     !> Laws in other units. Where loads are assembled anew they come back to the user's first: unlike all else they are kept in the

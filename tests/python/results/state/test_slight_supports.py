@@ -1,0 +1,39 @@
+"""Springs that are next to nothing beside the beam: they hold nothing, and take no digit from what does."""
+
+import gapbeam
+import pytest
+
+
+def crane(*more):
+    """A beam over two supports with a free end at its left."""
+    return {
+        "beam": {"spans": [2.0, 3.0, 4.0, 5.0], "EI": 1200.0},
+        "supports": [{"node": 3, "stiffness": 300.0, "side": "below", "gap": 0.005}, {"node": 4, "rotation": 1200.0}, *more],
+        "loads": [{"type": "uniform", "q": 5.0}, {"type": "force", "x": 5.94, "F": 45.0}, {"type": "force", "x": 5.0, "F": -8.7}],
+    }
+
+
+@pytest.mark.parametrize("power", [-25, -35, -70, -100, -200, -300])
+@pytest.mark.parametrize("node", [0, 2])
+@pytest.mark.parametrize("side", ["both", "below"])
+def test_they_are_nothing(node, power, side):
+    """At 1e-35 and less a free end had a deflection of 0, or of 32768, and nothing said so."""
+    free = gapbeam.solve(crane())
+    held = gapbeam.solve(crane({"node": node, "stiffness": 10.0**power, "side": side}))
+    for x in (0.0, 2.0, 5.0, 9.0):
+        assert held.at(x).deflection == pytest.approx(free.at(x).deflection, rel=1e-13)
+    assert held.steps[-1].reaction[:2] == pytest.approx(free.steps[-1].reaction, rel=1e-13)
+    assert abs(held.steps[-1].reaction[2]) <= 20 * 10.0**power
+
+
+def test_where_nothing_else_holds_they_count():
+    """Springs that are soft beside a beam that is all but rigid."""
+    scene = {
+        "beam": {"spans": [4.0], "EI": 1e40}, "supports": [{"node": 0, "stiffness": 2.0}, {"node": 1, "stiffness": 1.0}],
+        "loads": [{"type": "force", "x": 1.0, "F": 8.0}],
+    }  # fmt: skip
+    step = gapbeam.solve(scene).steps[-1]
+    assert step.reaction == pytest.approx([6.0, 2.0], rel=1e-14)
+    assert step.deflection == pytest.approx([3.0, 2.0], rel=1e-14)
+    pivot = scene | {"supports": [{"node": 0}, {"node": 1, "stiffness": 1.0}]}
+    assert gapbeam.solve(pivot).steps[-1].deflection == pytest.approx([0.0, 2.0], rel=1e-14)
