@@ -239,6 +239,9 @@ contains
         end do
         if (n > 0) then
             points = points(:, :n)
+            ! What tends to a force carries no more than that, however far it goes
+            if (law_bound(law, p) <= huge(force)) &
+                points = reshape([points, 2*points(1, n), law_bound(law, p), 4*points(1, n), law_bound(law, p)], [2, n + 2])
         else
             points = reshape([scale_of_law, law_force(law, p, scale_of_law)], [2, 1])
         end if

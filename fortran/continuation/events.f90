@@ -5,15 +5,17 @@ module gapbeam_events
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: changes_at_a_time
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_not_converged
     use gapbeam_laws, only: is_smooth
     use gapbeam_contact_state, only: outcome_type
     use gapbeam_extended_precision, only: rule_given, reserve_for
     use gapbeam_path, only: follow_path, path_type
-    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns
+    use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change, gapbeam_turns, gapbeam_open
     use gapbeam_words, only: shown
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_solution, only: state_type, close_all, forget
+    use gapbeam_solution, only: state_type, new_state, close_all, forget
+    use gapbeam_search, only: rule_block
     use gapbeam_state, only: solve_state, detail_of, name_range
     use gapbeam_memory, only: for_following
     use gapbeam_smooth_state, only: solve_on_laws
@@ -160,13 +162,57 @@ contains
             do k = 1, path%count
                 at = path%factor(k)
                 call name_change(assembled, curved, k, now, path, error)
-                if (.not. allocated(error)) cycle
-                factor = at
-                exit
+                if (allocated(error)) then
+                    factor = at
+                    exit
+                end if
+                if (path%factor(k) > limit) then
+                    ! On the curves it happens beyond the end
+                    now(path%support(k)) = .not. now(path%support(k))
+                    closed(:) = now
+                    factor = limit
+                    outcome = outcome_type()
+                    path%count = k - 1
+                    exit
+                end if
             end do
+            if (curved .and. .not. allocated(error) .and. factor >= limit .and. outcome%status == gapbeam_solved) &
+                call check_end(assembled, limit, closed, error)
         end if
         call name_range(assembled, error)
     end subroutine follow_some_events
+
+    !> Refuse a path along polylines that does not end in the state on the curves
+    subroutine check_end(assembled, factor, closed, error)
+        type(assembled_type), intent(in), target :: assembled
+        !> Where it ends, and the scheme there
+        real(wp), intent(in) :: factor
+        logical, intent(in) :: closed(:)
+        !> It does not
+        type(error_type), allocatable, intent(out) :: error
+        type(state_type) :: state
+        type(error_type), allocatable :: unknown
+        type(acting_type) :: one, other
+        integer :: k
+
+        call new_state(assembled, state, error)
+        if (allocated(error)) return
+        call solve_on_laws(assembled, factor, rule_block, state, unknown)
+        if (allocated(unknown)) then
+            if (has_ended(unknown)) call move_alloc(unknown, error)
+            return
+        end if
+        if (state%status /= gapbeam_solved .or. state%indifferent) return
+        do k = 1, size(closed)
+            if (state%undecided(k) .or. assembled%beam%supports(k)%breakpoint > 1) cycle
+            one = acts_in(assembled, assembled%normal(k), closed)
+            other = acts_in(assembled, assembled%normal(k), state%closed)
+            if ((one%condition == gapbeam_open) .eqv. (other%condition == gapbeam_open)) cycle
+            call fatal_error(error, gapbeam_not_converged, "the events on the smooth laws of the supports could not be put in "// &
+                             "order: take steps, or give the laws as polylines")
+            return
+        end do
+    end subroutine check_end
 
     !> Name what changes, and find where that is on smooth laws
     subroutine name_change(assembled, curved, number, now, path, error)

@@ -52,6 +52,8 @@ module gapbeam_ground_events
     type, extends(point_type) :: held_type
         logical, allocatable :: closed(:)
         type(zone_type), allocatable :: zones(:)
+        !> Deflections of the beam at supports whose law is a curve
+        real(wp), allocatable :: on_curves(:)
         !> Where the search for other states may begin
         type(ground_start_type) :: start
         !> Where there is no equilibrium, how the beam moves: displacements of its nodes

@@ -7,6 +7,7 @@ module gapbeam_ground_problem
     use gapbeam_error, only: error_type, gapbeam_buckles, gapbeam_no_equilibrium
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_piece, only: is_compressed
+    use gapbeam_laws, only: is_smooth, law_bound
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground, only: ground_type
     use gapbeam_filled_ground, only: any_falls
@@ -14,6 +15,7 @@ module gapbeam_ground_problem
     use gapbeam_ground_limit, only: find_limit
     use gapbeam_ground_quad, only: fine_ground_type => ground_type
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: ground_of, detail_of
     use gapbeam_ground_states, only: ground_states_type
@@ -43,7 +45,7 @@ module gapbeam_ground_problem
 
     !> With what it takes to end it
     type, extends(ground_states_type) :: ground_problem_type
-        !> Does some ground carry no more than so much, and does it come to that on a curve
+        !> Does some ground, or a curve of a support, carry no more than so much, and does it come to that on a curve
         logical :: yields = .false., levels_off = .false.
         !> The greatest load factor at which the loads begin to do work along a motion that was found
         real(wp) :: by_work = 0.0_wp
@@ -72,6 +74,7 @@ contains
         problem%parameter = "load factor"
         problem%last = last
         problem%state = state
+        problem%on_curves = size(smooth_supports(assembled)) > 0
         allocate (problem%start(size(state%closed)))
         problem%start(:) = state%closed
         do k = 1, size(assembled%layers)
@@ -81,6 +84,14 @@ contains
                 problem%levels_off = problem%levels_off .or. has_curves(layer)
             end associate
         end do
+        associate (supports => assembled%model%supports)
+            do k = 1, size(supports)
+                if (.not. is_smooth(supports(k)%law) .or. assembled%beam_support(k) == 0) cycle
+                if (.not. law_bound(supports(k)%law, supports(k)%parameter) <= huge(last)) cycle
+                problem%yields = .true.
+                problem%levels_off = .true.
+            end do
+        end associate
         problem%falls = any_falls(problem%ground)
         problem%yields = problem%yields .or. problem%falls
         problem%levels_off = problem%levels_off .and. .not. problem%falls

@@ -16,11 +16,15 @@ module gapbeam_ground_states
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from, settle_nearby, take_zones
     use gapbeam_ground_refinement, only: refine_factor
+    use gapbeam_refined_ground, only: refine_ground
+    use gapbeam_state, only: ground_of
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
-    use gapbeam_state, only: solve_state
+    use gapbeam_smooth_laws, only: deflections_at_curves
+    use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_path_problem, only: point_type, path_problem_type, crossing_type
     use gapbeam_ground_changes, only: find_zones
+    use gapbeam_curve_changes, only: is_of_curve, past_curve, narrow_on_curve
     use gapbeam_ground_events, only: ground_path_type, held_type, list_changes_between => list_changes, note_changes, &
         add_segment, same_contact
     implicit none
@@ -43,6 +47,8 @@ module gapbeam_ground_states
         logical, allocatable :: start(:)
         !> The state solved last
         type(state_type) :: state
+        !> Is the law of any support a curve
+        logical :: on_curves = .false.
         !> Does the force of some ground fall, so that there may be other states not far away
         logical :: falls = .false.
         type(ground_path_type) :: path
@@ -75,9 +81,9 @@ contains
         problem%state%closed(:) = problem%start
         if (present(near)) call start_in(near, start)
         if (allocated(start%closed)) then
-            call solve_state(problem%assembled, at, problem%rule, problem%state, error, start)
+            call solve_on_laws(problem%assembled, at, problem%rule, problem%state, error, curves_in(near), start)
         else
-            call solve_state(problem%assembled, at, problem%rule, problem%state, error)
+            call solve_on_laws(problem%assembled, at, problem%rule, problem%state, error)
         end if
         if (allocated(error)) then
             if (error%code == gapbeam_not_converged .or. error%code == gapbeam_not_finite) then
@@ -93,6 +99,7 @@ contains
         if (held%stands) then
             allocate (held%closed(size(problem%start)))
             held%closed(:) = problem%state%closed
+            held%on_curves = deflections_at_curves(problem%assembled, problem%state%deflection)
             call start_from(problem%state%ground, problem%state%closed, held%start)
             call find_zones(problem%assembled, problem%state%ground, held%zones, error)
         else
@@ -114,6 +121,18 @@ contains
         end select
     end subroutine start_in
 
+    !> Deflections at supports on curves in a point
+    pure function curves_in(point) result(deflections)
+        class(point_type), intent(in) :: point
+        real(wp), allocatable :: deflections(:)
+
+        select type (point)
+        type is (held_type)
+            if (allocated(point%on_curves)) deflections = point%on_curves
+        end select
+        if (.not. allocated(deflections)) allocate (deflections(0))
+    end function curves_in
+
     !> The same as far as double precision tells; where that does not tell, and at the last factor, for sure
     subroutine look(problem, at, near, point, error)
         class(ground_states_type), intent(inout) :: problem
@@ -127,7 +146,7 @@ contains
         type(workspace_type) :: work
         logical :: settled, solved
 
-        if (at < problem%last .and. .not. problem%falls) then
+        if (at < problem%last .and. .not. (problem%falls .or. problem%on_curves)) then
             allocate (held)
             held%at = at
             call start_in(near, held%start)
@@ -211,6 +230,10 @@ contains
         type(workspace_type) :: work
         logical :: settled
 
+        if (problem%on_curves) then
+            call measure_on_curves(problem, change, at, near, point, margin, place, known, other)
+            return
+        end if
         allocate (held)
         held%at = at
         call start_in(near, held%start)
@@ -226,14 +249,74 @@ contains
         call move_alloc(held, point)
     end subroutine measure
 
+    !> The same where laws of supports are curves: on the tangents in the state at that factor
+    subroutine measure_on_curves(problem, change, at, near, point, margin, place, known, other)
+        !> As for measure
+        class(ground_states_type), intent(inout) :: problem
+        type(change_type), intent(in) :: change
+        real(wp), intent(in) :: at
+        class(point_type), intent(in) :: near
+        class(point_type), allocatable, intent(out) :: point
+        real(wp), intent(out) :: margin, place
+        logical, intent(out) :: known
+        class(point_type), intent(in), optional :: other
+        type(error_type), allocatable :: error
+        type(ground_start_type) :: start
+        type(grounded_type) :: grounded
+        type(workspace_type) :: work
+        logical :: settled
+
+        margin = 0.0_wp
+        place = -1.0_wp
+        call problem%find(at, point, error, near)
+        known = .not. allocated(error) .and. point%stands
+        if (present(other) .and. .not. known) then
+            call problem%find(at, point, error, other)
+            known = .not. allocated(error) .and. point%stands
+        end if
+        if (.not. known) return
+        if (is_of_curve(problem%assembled, change)) then
+            margin = past_curve(problem%assembled, problem%state, change%support)
+            if (change%closed) margin = -margin
+            return
+        end if
+        call put_tangents(problem)
+        call start_in(point, start)
+        call move_ground(problem%ground, at)
+        call settle_nearby(problem%ground, at, problem%rule, start, grounded, work, problem%solves, settled, known)
+        if (known) call find_margin(problem%ground, grounded, start%zones, at, work, start%closed, change, margin, place)
+    end subroutine measure_on_curves
+
+    !> Put the tangents of the state solved last in place of curves
+    subroutine put_tangents(problem)
+        class(ground_states_type), intent(inout) :: problem
+
+        problem%ground = ground_of(problem%assembled, problem%state%factor, problem%state)
+        call refine_ground(problem%ground, problem%fine)
+    end subroutine put_tangents
+
     !> The factor of a change to all digits
     subroutine refine(problem, crossing, found)
         class(ground_states_type), intent(inout) :: problem
         type(crossing_type), intent(inout) :: crossing
         logical, intent(out) :: found
+        class(point_type), allocatable :: point
+        type(error_type), allocatable :: error
 
         found = .false.
         associate (c => crossing)
+            if (problem%on_curves) then
+                if (is_of_curve(problem%assembled, c%change)) then
+                    c%at = c%one_further
+                    call narrow_on_curve(problem, c, found)
+                    return
+                end if
+                ! On the tangents next to it
+                call problem%find(c%at, point, error, c%near)
+                if (allocated(error)) return
+                if (.not. point%stands) return
+                call put_tangents(problem)
+            end if
             select type (near => crossing%near)
             type is (held_type)
                 call refine_factor(problem%ground, problem%fine, problem%rule, c%change, c%at, c%slope, c%place, near%start, &

@@ -9,6 +9,7 @@ module gapbeam_history_beam
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, bad_law
     use gapbeam_axial_force, only: what_stretches
     use gapbeam_law, only: both
+    use gapbeam_laws, only: is_smooth
     use gapbeam_layers, only: layer_type, has_points
     use gapbeam_model_quad, only: beam_type
     use gapbeam_ground, only: ground_type
@@ -76,8 +77,11 @@ contains
                 associate (number => assembled%normal(k))
                     if (given(number)%unloading == gapbeam_broken) then
                         call say("unloading", "a support that breaks", "give plastic or elastic")
-                    else if (laws(k)%breakpoint > 0 .and. min(laws(k)%stiffness, laws(k)%before) < 0.0_wp) then
+                    else if (any(assembled%normal == number .and. laws%breakpoint > 0 &
+                                 .and. min(laws%stiffness, laws%before) < 0.0_wp)) then
                         call say("law", "a law whose force falls", "give one that rises")
+                    else if (is_smooth(given(number)%law)) then
+                        call say("law", "a curve with a history, or with a support that keeps a set,", "give its points")
                     end if
                     if (allocated(error)) return
                 end associate

@@ -13,7 +13,7 @@ module gapbeam_api_ground
     use gapbeam_ground_events, only: ground_event_type, ground_path_type
     use gapbeam_ground_path, only: follow_on_ground
     use gapbeam_api_objects, only: prepared_type, result_type, options_type, require_result, require_size, require_beam, &
-        require_no_path, require_no_curves, check_call, bad_argument, make_state, summarise
+        require_no_path, check_call, bad_argument, make_state, summarise
     use gapbeam_solution, only: close_all
     implicit none
     private
@@ -46,7 +46,6 @@ contains
         result%status = -1
         call require_beam(beam, error)
         if (.not. allocated(error)) call require_no_path(beam, error)
-        if (.not. allocated(error)) call require_no_curves(beam, error)
         if (.not. allocated(error)) call check_call(factor, options, error)
         if (.not. allocated(error)) call check_way()
         if (.not. allocated(error)) call make_state(beam, result, error)

@@ -9,7 +9,6 @@ module gapbeam_api_objects
     use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_force, only: what_stretches, or_first_order
-    use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_events, only: event_type
     use gapbeam_history, only: path_type => history_type, gapbeam_arrived => no_limit
@@ -23,7 +22,7 @@ module gapbeam_api_objects
     private
     public :: prepared_type, options_type, result_type, certificate_type
     public :: history_type, stretch_type, limit_type, cases_type, passing_type, train_gap_type
-    public :: require_beam, require_no_ground, require_no_ground_along, require_no_path, require_no_curves
+    public :: require_beam, require_no_ground, require_no_ground_along, require_no_path
     public :: require_result, require_size, check_call
     public :: bad_argument, make_state, summarise
 
@@ -196,17 +195,6 @@ contains
                          "of a support falls, keeps a set, or may let go of the beam, or a load moves a support: use "// &
                          "follow_history and solve_on_path")
     end subroutine require_no_path
-
-    !> Refuse a beam with smooth laws of supports where these are not available
-    subroutine require_no_curves(beam, error)
-        type(prepared_type), intent(in) :: beam
-        type(error_type), allocatable, intent(out) :: error
-
-        if (size(smooth_supports(beam%lowered)) == 0) return
-        call fatal_error(error, gapbeam_bad_input, "the law of a support is a curve: in this version such a beam is solved "// &
-                         "with solve_beam, follow_load and follow_history only; give the law by points")
-        error%table = of_supports
-    end subroutine require_no_curves
 
     !> Refuse a beam that is solved in stretches, whose way is followed apart
     subroutine require_no_ground(beam, error)

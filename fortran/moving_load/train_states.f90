@@ -11,7 +11,7 @@ module gapbeam_train_states
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state, ground_of
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, deflection_at, reaction_at
+    use gapbeam_smooth_laws, only: past_the_gap, deflection_at, deflections_at_curves, reaction_at
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_branch
     use gapbeam_ground_changes, only: zone_type, find_zones, same_zones
@@ -83,7 +83,8 @@ contains
             known = known .and. allocated(near%state)
             if (known) known = near%status == gapbeam_solved
             if (known) then
-                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, deflections(near))
+                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
+                                   deflections_at_curves(near%placed, near%state%deflection))
             else
                 call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
             end if
@@ -140,20 +141,6 @@ contains
         known = allocated(near%start%closed)
         if (known) call carry_zones(near%placed, near%start, placed, ground, start)
     end subroutine put_near
-
-    !> Deflections at the smooth laws
-    pure function deflections(kept) result(found)
-        type(kept_type), intent(in) :: kept
-        real(wp), allocatable :: found(:)
-        integer :: j
-
-        associate (numbers => smooth_supports(kept%placed))
-            allocate (found(size(numbers)))
-            do j = 1, size(numbers)
-                found(j) = deflection_at(kept%placed, kept%state%deflection, numbers(j))
-            end do
-        end associate
-    end function deflections
 
     !> What acts of every support
     pure subroutine describe(kept)

@@ -8,8 +8,8 @@ module gapbeam_smooth_laws
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, reaction_at, put_line, &
-        put_pieces
+    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, deflections_at_curves, largest_deflection, &
+        reaction_at, put_line, put_pieces
 
 contains
 
@@ -63,6 +63,22 @@ contains
 
         value = scale(deflection(assembled%beam%supports(assembled%beam_support(support))%node), assembled%units%deflection)
     end function deflection_at
+
+    !> Deflections of the beam at all supports with smooth laws
+    pure function deflections_at_curves(assembled, deflection) result(found)
+        type(assembled_type), intent(in) :: assembled
+        !> As for deflection_at
+        real(wp), intent(in) :: deflection(0:)
+        real(wp), allocatable :: found(:)
+        integer, allocatable :: numbers(:)
+        integer :: j
+
+        numbers = smooth_supports(assembled)
+        allocate (found(size(numbers)))
+        do j = 1, size(numbers)
+            found(j) = deflection_at(assembled, deflection, numbers(j))
+        end do
+    end function deflections_at_curves
 
     !> The largest deflection of the beam at its nodes, either way
     pure function largest_deflection(assembled, deflection) result(value)

@@ -8,8 +8,9 @@ module gapbeam_smooth_state
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
     use gapbeam_memory, only: reserve_memory, for_laws
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
-    use gapbeam_laws, only: is_smooth, law_bound, law_slope
+    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
+        gapbeam_not_converged
+    use gapbeam_laws, only: is_smooth, begins_steep, law_bound, law_slope
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
@@ -20,7 +21,8 @@ module gapbeam_smooth_state
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, &
         reaction_at, put_line, put_pieces
     use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
-    use gapbeam_solution, only: state_type
+    use gapbeam_ground_start, only: ground_start_type, start_from
+    use gapbeam_solution, only: state_type, close_all
     use gapbeam_state, only: solve_state
     implicit none
     private
@@ -36,7 +38,7 @@ module gapbeam_smooth_state
 contains
 
     !> Solve at one load factor; without smooth laws as solve_state
-    subroutine solve_on_laws(assembled, factor, rule, state, error, near)
+    subroutine solve_on_laws(assembled, factor, rule, state, error, near, start)
         !> As for solve_state
         type(assembled_type), intent(in), target :: assembled
         real(wp), intent(in) :: factor
@@ -47,12 +49,14 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> Deflections of the beam at its smooth laws (smooth_supports) in a state nearby, at which tangents begin if that leads on
         real(wp), intent(in), optional :: near(:)
+        !> On the ground: where to begin there
+        type(ground_start_type), intent(in), optional :: start
         integer, allocatable :: numbers(:)
-        logical, allocatable :: start(:)
+        logical, allocatable :: closed(:)
         integer :: how
 
         if (.not. any(is_smooth(assembled%model%supports%law) .and. assembled%beam_support > 0)) then
-            call solve_state(assembled, factor, rule, state, error)
+            call solve_state(assembled, factor, rule, state, error, start)
             return
         end if
         call reserve_memory(for_laws, size(assembled%beam%links), size(assembled%beam%supports), 0, error)
@@ -63,11 +67,11 @@ contains
         how = rule
         if (rule == rule_given) how = rule_extended
         if (present(near)) then
-            allocate (start(size(state%closed)))
-            start(:) = state%closed
+            allocate (closed(size(state%closed)))
+            closed(:) = state%closed
             call begin_with_tangents(assembled, numbers, near, state)
             if (allocated(state%laws)) then
-                call solve_state(assembled, factor, how, state, error)
+                call solve_state(assembled, factor, how, state, error, start)
                 if (is_unique()) call follow_tangents(assembled, numbers, factor, how, state, error)
                 if (is_unique()) then
                     call open_and_close(assembled, numbers, state)
@@ -75,19 +79,31 @@ contains
                 end if
                 if (allocated(error)) deallocate (error)
                 deallocate (state%laws)
-                state%closed(:) = start
+                state%closed(:) = closed
             end if
         end if
         if (how == rule_extended) then
             state%laws = assembled%beam%supports
             call put_pieces(assembled, numbers, state%closed, state%laws)
+            call go_on()
+            if (is_unique() .or. has_ended(error) .or. assembled%depends_on_path) return
+            ! The state is one, so that what is not known from polylines is looked for
+            if (allocated(error)) deallocate (error)
+            if (allocated(state%laws)) deallocate (state%laws)
+            call close_all(assembled, state%closed)
+            how = rule_block
         end if
-        call solve_state(assembled, factor, how, state, error)
-        if (allocated(error) .or. state%status /= gapbeam_solved) return
-        call follow_tangents(assembled, numbers, factor, how, state, error)
-        if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
+        call go_on()
 
     contains
+
+        !> From polylines, or from pieces of them, to the curves
+        subroutine go_on()
+            call solve_state(assembled, factor, how, state, error)
+            if (allocated(error) .or. state%status /= gapbeam_solved) return
+            call follow_tangents(assembled, numbers, factor, how, state, error)
+            if (.not. allocated(error)) call open_and_close(assembled, numbers, state)
+        end subroutine go_on
 
         !> Is there one state so far
         pure function is_unique()
@@ -137,7 +153,8 @@ contains
         type(smooth_line_type) :: line
         real(wp) :: way
         integer :: tangents, solves, stat
-        logical :: searching, settled
+        logical :: searching, settled, unique
+        type(ground_start_type) :: start
 
         allocate (places(size(numbers)), stat=stat)
         if (stat /= 0) call no_memory(error)
@@ -146,6 +163,7 @@ contains
         if (allocated(error)) return
         solves = state%solves
         way = 1.0_wp
+        unique = .true.
         searching = .false.
         do tangents = 0, most_tangents - 1
             ! Where nothing else helps
@@ -170,7 +188,16 @@ contains
             end if
             if (.not. allocated(state%laws)) state%laws = assembled%beam%supports
             call put_tangents(assembled, numbers, tangents, searching, places, state%laws)
-            call solve_state(assembled, factor, rule, state, error)
+            if (allocated(state%ground) .and. state%status == gapbeam_solved) then
+                call start_from(state%ground, state%closed, start)
+                unique = unique .and. state%ground%unique
+            end if
+            if (allocated(start%closed)) then
+                call solve_state(assembled, factor, rule, state, error, start)
+                if (allocated(state%ground)) state%ground%unique = state%ground%unique .and. unique
+            else
+                call solve_state(assembled, factor, rule, state, error)
+            end if
             solves = solves + state%solves
             state%solves = solves
             if (allocated(error)) return
@@ -311,15 +338,25 @@ contains
         integer, intent(in) :: numbers(:)
         type(state_type), intent(inout) :: state
         real(wp) :: past
-        integer :: first, last, j, way
+        integer :: first, last, pieces, j, k, way
 
         if (state%status /= gapbeam_solved) return
         do j = 1, size(numbers)
             associate (s => assembled%model%supports(numbers(j)))
-                if (s%side == 0) cycle
                 call past_the_gap(s, deflection_at(assembled, state%deflection, numbers(j)), past, way)
                 first = assembled%beam_support(numbers(j))
                 last = last_breakpoint(assembled%beam%supports, first)
+                if (allocated(state%ground)) then
+                    ! Nothing looks for the pieces of polylines there: the gap, and the curve on either side of it
+                    pieces = merge((last - first + 1)/2, 0, s%side == 0)
+                    ! Of a law that begins steep the force tells sooner than the displacement
+                    if (begins_steep(s%law, s%parameter)) past = way*reaction_at(assembled, state%reaction, numbers(j))
+                    if (past > 0.0_wp .and. .not. (s%side == 0 .and. .not. abs(s%gap) > 0.0_wp)) &
+                        pieces = pieces + merge(way, 1, s%side == 0)
+                    state%closed(first:last) = [(k <= pieces, k=1, last - first + 1)]
+                    cycle
+                end if
+                if (s%side == 0) cycle
                 if (past > 0.0_wp) state%closed(first) = .true.
                 if (past < 0.0_wp) state%closed(first:last) = .false.
             end associate

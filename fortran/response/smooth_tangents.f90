@@ -5,6 +5,8 @@ module gapbeam_smooth_tangents
     use gapbeam_laws, only: begins_steep, law_displacement
     use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_units, only: stiffness_unit
+    use gapbeam_slight_supports, only: slight_stiffness
     use gapbeam_law_energy, only: line_type
     use gapbeam_smooth_laws, only: past_the_gap, force_and_slope, deflection_at, reaction_at, put_line
     implicit none
@@ -15,6 +17,8 @@ module gapbeam_smooth_tangents
     integer, parameter :: usual_tangents = 10
     !> So often a tangent may lead too far; after that the support has opened
     integer, parameter :: most_shortened = 12
+    !> Slope beside force over displacement which is none
+    real(wp), parameter :: flat_slope = 2.0_wp**(-50)
     !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
     !> digits
     real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
@@ -98,10 +102,11 @@ contains
         type(place_type), intent(inout) :: places(:)
         !> The beam's supports
         type(node_support_type), intent(inout) :: lines(:)
-        real(wp) :: force, slope
+        real(wp) :: force, slope, least
         integer :: j
         logical :: overshot, halved
 
+        least = scale(slight_stiffness(assembled), stiffness_unit(assembled%units))
         do j = 1, size(numbers)
             associate (p => places(j), s => assembled%model%supports(numbers(j)))
                 ! From a flat part of a curve the tangent may lead to its other side: first nearer, on this side
@@ -121,6 +126,8 @@ contains
                 p%way_before = p%way
                 if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
                 call force_and_slope(s, p%past, force, slope)
+                ! So flat that it changes no digit of the force, or of the state
+                if (slope*p%past <= flat_slope*force .or. slope < least) slope = 0.0_wp
                 call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, lines)
             end associate
         end do

@@ -7,6 +7,8 @@ module gapbeam_assemble_laws
         gapbeam_elastic
     use gapbeam_model, only: node_support_type, last_place
     use gapbeam_law, only: always_closed
+    use gapbeam_polyline, only: join_pieces
+    use gapbeam_laws, only: is_smooth
     use gapbeam_kinematics, only: free_motions, motion_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_tolerances, only: position_tolerance
@@ -129,7 +131,8 @@ contains
         if (allocated(assembled%layers)) return
         associate (s => assembled%beam%supports)
             if (.not. any(s%breakpoint > 0 .and. abs(s%force) > 0.0_wp .and. &
-                          .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp))) return
+                          .not. (abs(s%stiffness) > 0.0_wp .and. abs(s%before) > 0.0_wp) .and. &
+                          .not. is_smooth(assembled%model%supports(assembled%normal)%law))) return
         end associate
         call free_motions(assembled%beam, always_closed(assembled%beam%supports), motions)
         depends = size(motions) > 0
@@ -187,6 +190,8 @@ contains
             end do
         end if
         breakpoints(:m - 1)%more = .true.
+        ! Beside gap and settlement the first points of a curve are so near that rounding moves them
+        if (is_smooth(support%law)) call join_pieces(breakpoints)
 
     contains
 

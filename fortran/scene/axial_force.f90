@@ -61,7 +61,8 @@ contains
                        .or. any(loads%kind == gapbeam_temperature .and. abs(loads%value_to) > 0.0_wp) .or. model%stretching)
             if (.not. they_may) return
             they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
-                              .or. any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) .or. any(is_smooth(s%law)) &
+                              .or. any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) &
+                              .or. any(is_smooth(s%law)) .and. model%with_trains &
                               .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle

@@ -5,7 +5,8 @@ module gapbeam_check_axial
     use gapbeam_error, only: error_type, no_memory
     use gapbeam_words, only: shown
     use gapbeam_laws, only: is_smooth
-    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken, &
+        ground_law_point_type
     use gapbeam_assembled_model, only: turns
     use gapbeam_axial_force, only: in_stretches, what_stretches
     use gapbeam_input_error, only: refuse, of_supports, bad_law
@@ -37,7 +38,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         character(len=*), parameter :: in_version = " is not available in this version", &
             beside_curve = " beside a support whose law is a curve"//in_version//"; give the points of the curve"
-        character(len=:), allocatable :: which, where
+        character(len=:), allocatable :: which, where, in_trains
         logical, allocatable :: falls(:)
         logical :: curved, stiff
         integer :: k, stat
@@ -46,6 +47,8 @@ contains
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
         curved = any(is_smooth(model%supports%law))
+        in_trains = " under trains"
+        if (what_stretches(model) == "trains") in_trains = ""
         stiff = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
         do k = 1, size(model%supports)
             associate (s => model%supports(k))
@@ -53,8 +56,10 @@ contains
                 where = which
                 if (turns(s)) which = "that holds a rotation"
                 if (turns(s)) where = "over a rotation"
-                if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. in_stretches(model)) then
-                    call say("law", "a curve beside "//trim(what_stretches(model))//in_version//"; give its points")
+                if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. in_stretches(model) .and. model%with_trains) then
+                    call say("law", "a curve beside "//trim(what_stretches(model))//in_trains//in_version//"; give its points")
+                else if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. any(falls_there(model%ground_law))) then
+                    call say("law", "a curve beside a foundation whose force falls"//in_version//"; give its points")
                 else if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
                     call say("friction", "expected a finite number, 0 or more, got "//trim(shown(s%friction)))
                 else if (s%direction == gapbeam_normal) then
@@ -104,6 +109,20 @@ contains
         end subroutine check_rest
 
     end subroutine check_along
+
+    !> Is the force of ground less at a point of its law than at the one before
+    pure function falls_there(points) result(it_does)
+        type(ground_law_point_type), intent(in) :: points(:)
+        logical :: it_does(size(points))
+        integer :: i
+
+        it_does(:) = .false.
+        do i = 2, size(points)
+            associate (before => points(i - 1), p => points(i))
+                it_does(i) = p%foundation == before%foundation .and. p%force < before%force .and. .not. abs(p%x - before%x) > 0.0_wp
+            end associate
+        end do
+    end function falls_there
 
     !> Does the force of a law fall anywhere
     pure subroutine find_falling(law, number, falls, stat)

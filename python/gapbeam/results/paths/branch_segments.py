@@ -1,43 +1,10 @@
-"""Segments of a path through limit points, its limits, and ways on from there that were not taken."""
+"""Segments of a path through limit points, and ways on from there that were not taken."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..state.step import Step
 from .path import Segment
-
-
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """Where the load cannot go on.
-
-    Attributes
-    ----------
-    factor : float
-        The load factor.
-    kind : str
-        ``limit``: the load must fall; ``bifurcation``: several ways go on, none of them stable; ``mechanism``: none does.
-    leg : int
-        Which factor of the history was gone to, from 0; -1 while the dead loads were put on.
-    causes : tuple of (int, str)
-        Supports and what happens to them there.
-    landing : Step or None
-        The next stable state on the path at the same load factor; dynamics may lead elsewhere. None too while settlements or
-        preloads (negative gaps) grow with the dead loads.
-    released : float or None
-        By how much the potential energy is less there (force times length).
-    exact : bool
-        Whether factor and landing are those of the smooth laws; False where only those of their polylines are known.
-    """
-
-    factor: float
-    kind: str
-    leg: int
-    causes: tuple[tuple[int, str], ...]
-    landing: Step | None
-    released: float | None
-    exact: bool
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from ...engine.paths import ENDINGS, Followed, OnStretch
 from ...engine.tolerances import MOST_PATH_SEGMENTS
 from ..state.breakpoints import EVENTS, piece_of, what_happens
 from ..state.step import Step
-from .branch_segments import BranchSegment, Limit, OtherWay
-from .path import Event
+from .branch_segments import BranchSegment, OtherWay
+from .path import Event, Limit
 
 if TYPE_CHECKING:
     from ...scene.structs import Scene

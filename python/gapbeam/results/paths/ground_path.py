@@ -15,8 +15,7 @@ from ...scene.ground_laws import any_falls
 from ..state.breakpoints import EVENTS
 from ..state.motion import FallingGround, cause_of_fall, describe_motion
 from ..state.step import Step
-from .branches import Limit
-from .path import Segment
+from .path import Limit, Segment
 
 if TYPE_CHECKING:
     from ..result import Result

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...base.errors import EngineError
 from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
 from ...engine.paths import NO_EVENT, TURNS, follow_stretch
 from ...engine.tolerances import CHANGES_AT_A_TIME
 from ..state.breakpoints import EVENTS
-from ..state.step import Step
+from ..state.step import Step, solve_step
 
 if TYPE_CHECKING:
     from ..result import Result
+
+MISSING = (2.0**-20, 2.0**-10)
+"""Curves come to their limit where the beam has gone without end: shares of it by which a path may end before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +66,38 @@ class Segment:
     changes: int
 
 
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """Where the load cannot go on.
+
+    Attributes
+    ----------
+    factor : float
+        The load factor.
+    kind : str
+        ``limit``: the load must fall; ``bifurcation``: several ways go on, none of them stable; ``mechanism``: none does.
+    leg : int
+        Which factor of the history was gone to, from 0; -1 while the dead loads were put on.
+    causes : tuple of (int, str)
+        Supports and what happens to them there.
+    landing : Step or None
+        The next stable state on the path at the same load factor; dynamics may lead elsewhere. None too while settlements or
+        preloads (negative gaps) grow with the dead loads.
+    released : float or None
+        By how much the potential energy is less there (force times length).
+    exact : bool
+        Whether factor and landing are those of the smooth laws; False where only those of their polylines are known.
+    """
+
+    factor: float
+    kind: str
+    leg: int
+    causes: tuple[tuple[int, str], ...]
+    landing: Step | None
+    released: float | None
+    exact: bool
+
+
 class Path:
     """The schemes along the load, kept as the changes from one to the next.
 
@@ -76,6 +113,10 @@ class Path:
         Nodes at which the solution was made anew besides.
     seconds : float
         Time of these.
+    limits : list of Limit
+        The load factor that curves of supports can carry at most, if the path ends there.
+    motion : numpy.ndarray or None
+        How the beam moves there.
     """
 
     def __init__(self, beam: Beam, closed: np.ndarray, stretches: list[Stretch], solves: int, seconds: float):
@@ -90,6 +131,8 @@ class Path:
         self.events: list[Event] = []
         counted = self._name_events()
         self.segments = self._between(stretches[-1].factor, counted)
+        self.limits: list[Limit] = []
+        self.motion: np.ndarray | None = None
 
     def _between(self, end: float, counted: np.ndarray) -> list[Segment]:
         """Segments between the changes that count; all of them do but those along smooth laws."""
@@ -171,6 +214,30 @@ class Path:
         """
         return Step(self._beam, factor, GIVEN, read_only(self.closed(segment)))
 
+    def end_on_curves(self, motion: np.ndarray) -> bool:
+        """End a path along polylines where the curves themselves still carry the load.
+
+        Parameters
+        ----------
+        motion : numpy.ndarray
+            Displacements of the nodes in the motion that begins at its end.
+
+        Returns
+        -------
+        bool
+            Whether they carry it anywhere: at the end, or next to a limit, which is noted.
+        """
+        last = self.segments[-1]
+        for share in (0.0, *MISSING):
+            stop = last.stop * (1.0 - share)
+            with suppress(EngineError):
+                if stop > last.start and isinstance(solve_step(self._beam, stop, GIVEN, self.closed(last)), Step):
+                    if share > 0.0:
+                        self.segments[-1], self.motion = replace(last, stop=stop), motion
+                        self.limits = [Limit(last.stop, "mechanism", 0, (), None, None, True)]
+                    return True
+        return False
+
     def _name_events(self) -> np.ndarray:
         """List the events, and tell which changes are any."""
         beam = self._beam
@@ -219,6 +286,13 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
         stretches.append(piece)
         factor, scheme, marginal = piece.factor, piece.closed, piece.marginal
         if piece.status == NO_EQUILIBRIUM:
-            result._refuse(f"above load factor {factor:.16g}", piece.motion)
             break
-    return Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)
+    path = Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)
+    if piece.status != NO_EQUILIBRIUM:
+        return path
+    stands = not (beam.curves and path.segments) or path.end_on_curves(piece.motion)
+    if path.limits:
+        result._refuse_limit(path)
+    else:
+        result._refuse(f"above load factor {factor:.16g}", piece.motion)
+    return path if stands else None

@@ -35,13 +35,13 @@ from .steps import LoadSteps, Steps
 from .system import System, system_of
 
 if TYPE_CHECKING:
-    from ..paths.branches import BranchPath, Limit
+    from ..paths.branches import BranchPath
     from ..paths.compression import Compression
     from ..paths.ground_path import GroundEvent, GroundPath
-    from ..paths.path import Event, Path, Segment
+    from ..paths.path import Event, Limit, Path, Segment
 
 MOVING, SLIDING = "solved, but free to move: its position is not unique", "solved, but free to slide along its axis"
-"""Of a beam in neutral equilibrium, across its axis or along it only."""
+"""Of a beam in neutral equilibrium, across its axis or along it."""
 BYTES_PER_PLACE = 120
 """Memory that a row of a table of fields takes while it is made."""
 
@@ -164,12 +164,12 @@ class States(Pickled, WithModes):
         self.steps = LoadSteps(self._beam, self._rule, np.ones(self._beam.supports, dtype=np.int32), 0)
         self.steps.outcome = self.status, self.reason
 
-    def _refuse_limit(self, path: BranchPath) -> None:
+    def _refuse_limit(self, path: BranchPath | Path) -> None:
         """Note that the load cannot go to its last factor.
 
         Parameters
         ----------
-        path : BranchPath
+        path : BranchPath or Path
             As far as it goes.
         """
         self.path = path

@@ -182,12 +182,3 @@ def test_axial_supports_beside_a_curve_are_not_moved():
     }  # fmt: skip
     with pytest.raises(gapbeam.SceneError, match=r"supports\[3\]\.direction: a load that moves an axial support beside a support"):
         gapbeam.solve(scene)
-
-
-@pytest.mark.parametrize("more", [{"foundation": [{"k": 1.0}]}, {"beam": {"spans": [4.0], "EI": 1e4, "N": 5.0}}])
-def test_curves_of_supports_in_stretches_are_refused_by_the_engine(more):
-    """In C and Fortran trains had values of a polyline there."""
-    scene = {"beam": {"spans": [4.0], "EI": 1e4}, "loads": [{"type": "uniform", "q": 2.0}],
-             "supports": [{"node": 0}, {"node": 1, "law": {"type": "cubic", "k1": 5.0, "k3": 30.0}}]}  # fmt: skip
-    with pytest.raises(gapbeam.SceneError, match=r"supports\[1\]\.law: a curve beside .*; give its points"):
-        gapbeam.solve(scene | more)

@@ -1,5 +1,7 @@
 """Smooth laws of supports, beside roots in many digits."""
 
+import re
+
 import gapbeam
 import mpmath as mp
 import numpy as np
@@ -127,6 +129,67 @@ def test_loads_beyond_what_a_law_tends_to(follow):
     supports.append({"node": 1, "side": "both", "gap": 0.001, "law": law})
     made = {"beam": {"spans": [2.5, 4.5], "EI": 2e3}, "supports": supports, "analysis": {"follow": follow}}
     result = gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -4.0}]})
-    assert (result.status, len(result.steps)) == ("no-equilibrium", 0)
-    assert result.reason.startswith("no equilibrium at load factor 1: the beam tips about the support at x = 0: ")
+    if follow == "steps":
+        assert (result.status, len(result.steps)) == ("no-equilibrium", 0)
+        assert result.reason.startswith("no equilibrium at load factor 1: the beam tips about the support at x = 0: ")
+    else:
+        # 28 * 3.5 * factor = 31 * 2.5
+        assert result.status == "no-equilibrium"
+        assert float(re.search(r"above load factor ([0-9.]+):", result.reason)[1]) == pytest.approx(77.5 / 98, rel=1e-14)
+        assert result.state(0.79).reaction == pytest.approx([8.848, 0.0, -30.968], rel=1e-12)
     assert gapbeam.solve({**made, "loads": [{"type": "uniform", "q": -3.0}]}).status == "solved"  # 21 * 3.5 < 31 * 2.5
+
+
+def test_what_happens_beyond_the_end_on_the_curves_only():
+    """On the polylines it lifts off at full load; it was followed to a load factor of 1.0074, where it does on the curve."""
+    law = {"type": "cubic", "k1": 17.467762644554078, "k2": 1746.7762644554077, "k3": 63316.91138959399}
+    scene = {
+        "beam": {"spans": [6.0, 6.0], "EI": 1715.295908980719}, "analysis": {"follow": "events"},
+        "supports": [{"node": 0, "side": "above", "gap": 0.005, "settlement": 0.001}, {"node": 1, "law": law},
+                     {"node": 2, "settlement": 0.001}],
+        "loads": [{"type": "force", "x": 10.21, "F": -8.0}],
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    assert [event.event for event in result.events] == ["closes"]
+    assert result.steps[-1].factor == 1.0
+    at_once = gapbeam.solve(scene | {"analysis": {}}).steps[-1]
+    assert result.steps[-1].reaction == pytest.approx(at_once.reaction, rel=1e-12)
+
+
+def test_a_curve_that_begins_steep_closes_where_it_is_met():
+    """Past its beginning its deflection hardly grows; it closed at 0.0708256480 beside another curve."""
+    scene = {
+        "beam": {"spans": [6.0, 6.0, 4.0, 5.0], "EI": 6.4e4}, "loads": [{"type": "uniform", "q": 5.0}],
+        "supports": [
+            {"node": 0, "side": "below", "gap": 0.002, "law": {"type": "power", "d0": 0.0015, "limit": 8.0, "n": 0.5}},
+            {"node": 1, "stiffness": 2.7e4}, {"node": 2, "law": {"type": "hyperbolic", "stiffness": 36.0, "limit": 1.4}},
+            {"node": 3, "rotation": 6.4e4}, {"node": 4},
+        ],
+        "analysis": {"follow": "events"},
+    }  # fmt: skip
+    (event,) = gapbeam.solve(scene).events
+    below, above = (
+        gapbeam.solve(scene | {"loads": [{"type": "uniform", "q": 5.0 * event.factor * share}], "analysis": {}}).steps[-1]
+        for share in (1 - 1e-12, 1 + 1e-12)
+    )
+    assert below.opening[0] > 0.0
+    assert above.reaction[0] > 0.0
+
+
+def test_an_event_next_to_a_curve_that_is_next_to_level():
+    """Its slope of 1e-40 of the beam's gave a free end no deflection at all, and the event was at 0.4541."""
+    scene = {
+        "beam": {"spans": [6.0, 5.0, 3.0], "EI": 7331.474546899111}, "loads": [{"type": "uniform", "q": -1.5}],
+        "supports": [
+            {"node": 0, "side": "above", "law": {"type": "power", "d0": 0.0004526080385813654, "limit": 31.89713258527872, "n": 3}},
+            {"node": 1, "law": {"type": "tanh", "stiffness": 18669.64888891069, "limit": 35.424183284876555}},
+            {"node": 2, "side": "above", "gap": 0.005, "law": {"type": "cubic", "k1": 0.0, "k2": 0.0, "k3": 178897.2852748831}},
+            {"node": 3, "side": "below"},
+        ],
+        "analysis": {"follow": "events"},
+    }  # fmt: skip
+    event = gapbeam.solve(scene).events[-1]
+    load = [{"type": "uniform", "q": -1.5 * event.factor}]
+    at_once = gapbeam.solve(scene | {"loads": load, "analysis": {}}).steps[-1]
+    assert (event.support, event.event) == (0, "closes")
+    assert abs(at_once.deflection[0]) < 1e-15
