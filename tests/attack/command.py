@@ -9,6 +9,7 @@ from . import (
     axial_force,
     batches,
     combinations,
+    curves,
     doubled,
     enumeration,
     events,
@@ -28,8 +29,8 @@ from . import (
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, yielding, doubled, ground, falling, layers, trains, combinations, batches, roads,
-    axial_force, mutants, models, memory,
+    enumeration, events, signs, hinges, laws, yielding, curves, doubled, ground, falling, layers, trains, combinations, batches,
+    roads, axial_force, mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 

@@ -27,7 +27,8 @@ from attack.workers import Ended, judge_all
 TOP = Path(__file__).resolve().parents[2]
 SMALL = {
     "events": 60, "signs": 150, "hinges": 60, "mutants": 60, "memory": 15,
-    "laws": 60, "yielding": 40, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40, "roads": 36,
+    "laws": 60, "yielding": 40, "curves": 40, "doubled": 60, "ground": 60, "trains": 12, "combinations": 25, "batches": 40,
+    "roads": 36,
 }  # fmt: skip
 
 
@@ -65,7 +66,7 @@ def with_more_load(made):
     return {**made, "loads": [times(load) for load in made["loads"]]} | ({"trains": trains} if trains else {})
 
 
-@pytest.mark.parametrize("family", ["laws", "yielding", "doubled", "ground", "trains", "combinations", "batches"])
+@pytest.mark.parametrize("family", ["laws", "yielding", "curves", "doubled", "ground", "trains", "combinations", "batches"])
 def test_answers_to_a_little_more_load_are_seen(family, monkeypatch):
     judge, seen, solved = command.FAMILIES[family], 0, 0
     cases = [judge.draw(seed)[1] for seed in range(16)]
