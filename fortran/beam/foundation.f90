@@ -59,7 +59,6 @@ contains
     !> modulus is linear or negative, the stretch tapers, or the beam is compressed, it is the caller's to cut stretches until this
     !> is 1 at most; others may be as long as they are
     elemental function decay_lengths(stretch) result(number)
-        !> The stretch
         type(stretch_type), intent(in) :: stretch
         real(wp) :: number
         real(wp) :: k, soft(2)
@@ -80,10 +79,13 @@ contains
         !> turn_a, -turn_b: rotations; shear_a, -shear_b: shears, shape (size(loads))
         real(wp), intent(out) :: turn_a(:), turn_b(:), shear_a(:), shear_b(:)
         type(end_functions_type) :: h
+        type(half_type) :: a, b
         integer :: k
 
         if (is_sloped(stretch)) then
-            call condense_sloped(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
+            call half_link(stretch, loads, a, turn_a, shear_a)
+            call half_link(mirrored(stretch), turned(loads), b, turn_b, shear_b)
+            call link_of_halves(shear_softness(stretch), a, b, link)
         else
             h = end_functions(stretch)
             call condense_even(stretch, h, link)
@@ -136,20 +138,6 @@ contains
         link%fbb = link%faa
         link%gbb = link%gaa
     end subroutine condense_even
-
-    !> The same where modulus or stiffness change along the stretch
-    pure subroutine condense_sloped(stretch, loads, link, turn_a, turn_b, shear_a, shear_b)
-        !> As for condense_loaded
-        type(stretch_type), intent(in) :: stretch
-        type(stretch_load_type), intent(in) :: loads(:)
-        type(stretch_link_type), intent(out) :: link
-        real(wp), intent(out) :: turn_a(:), turn_b(:), shear_a(:), shear_b(:)
-        type(half_type) :: a, b
-
-        call half_link(stretch, loads, a, turn_a, shear_a)
-        call half_link(mirrored(stretch), turned(loads), b, turn_b, shear_b)
-        call link_of_halves(shear_softness(stretch), a, b, link)
-    end subroutine condense_sloped
 
     !> 1/GA at both ends of a stretch
     pure function shear_softness(stretch) result(g)

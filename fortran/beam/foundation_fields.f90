@@ -30,10 +30,14 @@ contains
         type(decay_type) :: decay
         type(long_type) :: long
         type(stretch_ends_type) :: over
-        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised, straight(2)
+        real(wp) :: sigma, tau, eta, l, f, k, y(5), raised, straight(2), start(4, 2)
+        integer :: side
 
         if (is_sloped(stretch)) then
-            call sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
+            ! From the nearer end
+            side = merge(1, 2, xi <= 0.5_wp)
+            start(:, side) = sloped_start(stretch, load, ends, side)
+            call sloped_fields_from(stretch, load, start, xi, w, psi, moment, shear)
             if (present(transverse)) transverse = transverse_of(stretch, xi, psi, shear)
             return
         end if
@@ -145,21 +149,6 @@ contains
             y(5) = y(5) + ((l**2*stretch%modulus_a*slope%be + stretch%tension*slope%al)*w + slope%al*moment)/l
         end associate
     end subroutine fade
-
-    !> Fields where modulus or stiffness change along the stretch, from its nearer end
-    pure subroutine sloped_fields(stretch, load, ends, xi, w, psi, moment, shear)
-        type(stretch_type), intent(in) :: stretch
-        type(stretch_load_type), intent(in) :: load
-        type(stretch_ends_type), intent(in) :: ends
-        real(wp), intent(in) :: xi
-        real(wp), intent(out) :: w, psi, moment, shear
-        real(wp) :: start(4, 2)
-        integer :: side
-
-        side = merge(1, 2, xi <= 0.5_wp)
-        start(:, side) = sloped_start(stretch, load, ends, side)
-        call sloped_fields_from(stretch, load, start, xi, w, psi, moment, shear)
-    end subroutine sloped_fields
 
     !> v = w - M/GA, psi, M and V at an end of a stretch whose modulus or stiffness changes, seen from there
     pure function sloped_start(stretch, load, ends, side) result(y)

@@ -205,7 +205,6 @@ contains
 
     !> How many terms it takes until the next ones are below rounding
     pure function terms_of(stretch, step) result(n)
-        !> The stretch
         type(stretch_type), intent(in) :: stretch
         !> Distance in parts of its length
         real(wp), intent(in) :: step

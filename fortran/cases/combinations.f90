@@ -39,7 +39,6 @@ contains
 
     !> Put a combination on a beam
     subroutine combine(base, factors, settlements, combined, error, varied)
-        !> The beam
         type(assembled_type), intent(in) :: base
         !> Factor of every load, shape (nload); the products are within range
         real(wp), intent(in) :: factors(:)

@@ -80,7 +80,6 @@ contains
 
     !> Find the responses in a scheme
     subroutine find_responses(assembled, factors, response)
-        !> The beam
         type(assembled_type), intent(in) :: assembled
         !> Factors of the loads; those that change the axial force are in all responses
         real(wp), intent(in) :: factors(:)
@@ -90,7 +89,7 @@ contains
         type(error_type), allocatable :: error
         real(qp), allocatable :: rest(:), found(:)
         logical :: axial(size(factors)), solved
-        integer :: n, m, j, stat
+        integer :: n, m, j, k, stat
 
         response%is_useless = .true.
         n = size(assembled%beam%links) + 1
@@ -99,7 +98,8 @@ contains
         if (stat /= 0) return
         axial = changes_axial_force(assembled)
         do j = 0, size(factors)
-            call combine(assembled, merge(factors, one_load(j), axial), 0*assembled%model%supports%settlement, combined, error)
+            call combine(assembled, merge(factors, merge(1.0_wp, 0.0_wp, [(k == j, k=1, size(factors))]), axial), &
+                         0*assembled%model%supports%settlement, combined, error)
             solved = .not. allocated(error)
             if (solved) call numbers_of_scheme(combined%assembled, response%closed, found, solved)
             if (.not. solved) return
@@ -108,18 +108,6 @@ contains
             response%values(:, j) = real(found, wp)
         end do
         response%is_useless = .not. all(abs(response%values) <= huge(1.0_wp))
-
-    contains
-
-        !> Factors of which one is 1
-        pure function one_load(which) result(shares)
-            integer, intent(in) :: which
-            real(wp) :: shares(size(factors))
-
-            shares(:) = 0.0_wp
-            if (which > 0) shares(which) = 1.0_wp
-        end function one_load
-
     end subroutine find_responses
 
     !> The numbers of a beam under its loads in a given scheme

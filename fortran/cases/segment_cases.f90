@@ -61,7 +61,7 @@ contains
         type(case_solutions_type), intent(inout) :: solutions
         logical, intent(inout) :: done(:)
         real(wp) :: units(3), largest
-        integer :: i, j
+        integer :: i, j, k
         logical :: lost, couples, doubtful, with_own_supports
 
         if (.not. segments%made) call make_segments(assembled, segments)
@@ -79,7 +79,11 @@ contains
                 if (lost) cycle
                 call add_loads(loads, numbers%factors(:, i), segments%beam%n, room, couples)
                 if (couples) cycle
-                call take_start(assembled, solutions%closed(:, i), room)
+                do k = 1, size(assembled%beam%supports)
+                    associate (s => assembled%beam%supports(k))
+                        room%closed(s%node) = merge(1.0_wp, 0.0_wp, solutions%closed(k, i) /= 0 .or. s%side == both)
+                    end associate
+                end do
                 call segments%compiled%solve_long_beam(segments%beam, room, solutions%solves(i), doubtful)
                 if (.not. doubtful) call segments%compiled%audit_long_beam(segments%beam, room, doubtful)
                 if (doubtful) cycle
@@ -223,20 +227,5 @@ contains
             end associate
         end do
     end subroutine take_supports
-
-    !> Where the search starts
-    pure subroutine take_start(assembled, closed, room)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: closed(:)
-        !> Open where there is no support
-        type(segment_room_type), intent(inout) :: room
-        integer :: k
-
-        do k = 1, size(assembled%beam%supports)
-            associate (s => assembled%beam%supports(k))
-                room%closed(s%node) = merge(1.0_wp, 0.0_wp, closed(k) /= 0 .or. s%side == both)
-            end associate
-        end do
-    end subroutine take_start
 
 end module gapbeam_segment_cases

@@ -20,7 +20,6 @@ contains
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme, solution and reactions out, by nodes
         type(segment_room_type), intent(inout) :: room
-        !> Linear solves
         integer, intent(out) :: solves
         !> Has no scheme been found, is a sign wrong or within its rounding error, are digits lost, or numbers not finite
         logical, intent(out) :: doubtful

@@ -21,7 +21,6 @@ contains
         type(segment_beam_type), intent(in) :: beam
         !> Loads, supports and start in; scheme and solution out
         type(segment_room_type), intent(inout) :: room
-        !> Linear solves
         integer, intent(out) :: solves
         !> Is there a scheme in which nothing is wrong
         logical, intent(out) :: found

@@ -36,7 +36,6 @@ contains
 
     !> Find where boundaries can be: single one-sided supports at plain nodes
     pure subroutine find_base(beam, base)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Its supports by nodes
         type(base_type), intent(out) :: base

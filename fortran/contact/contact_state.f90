@@ -57,7 +57,6 @@ contains
 
     !> Find the contact state and its solution
     subroutine find_contact_state(beam, factor, rule, closed, work, outcome, error)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Load factor (the loads themselves are in work, by set_loads)
         real(wp), intent(in) :: factor
@@ -171,7 +170,8 @@ contains
             if (work%solves > work%most_solves) exit
             work%proximal_weight = proximal_weight
             call settle(beam, rule, .true., closed, work, settled, error)
-            if (.not. settled .and. move == 1 .and. is_unloaded(work)) then
+            if (.not. settled .and. move == 1 .and. work%without_couples .and. &
+                .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))) then
                 ! Weak springs press it onto lacks of fit, which takes very long to settle; off all supports it rests as well
                 there_is = .false.
                 if (.not. allocated(beam%turning)) call find_free_level(beam%supports, way, there_is)
@@ -283,13 +283,5 @@ contains
             numbers = [numbers, beam%order(beam%first(v):beam%first(v + 1) - 1)]
         end do
     end function supports_between
-
-    !> Are there no loads, couples and imposed curvatures
-    pure function is_unloaded(work) result(unloaded)
-        type(workspace_type), intent(in) :: work
-        logical :: unloaded
-
-        unloaded = work%without_couples .and. .not. (any(work%load_size > 0.0_wp) .or. any(work%turn_size > 0.0_wp))
-    end function is_unloaded
 
 end module gapbeam_contact_state

@@ -120,11 +120,11 @@ contains
     !> All layers act everywhere, on the first piece of their law
     pure subroutine full_contact(ground, zones)
         type(ground_type), intent(in) :: ground
-        !> The zones
         type(zones_type), intent(out) :: zones
         integer :: j, k, m
 
-        call new_zones(sum(steps_of(ground)), most_layers(ground), steps_of(ground), zones)
+        call new_zones(sum(steps_of(ground)), maxval(ground%first(2:) - ground%first(:size(ground%pieces))), steps_of(ground), &
+                       zones)
         m = 0
         do j = 1, size(ground%pieces)
             do k = 1, zones%steps(j)
@@ -152,14 +152,6 @@ contains
         end function line_of_contact
 
     end subroutine full_contact
-
-    !> Largest number of layers under a piece
-    pure function most_layers(ground) result(most)
-        type(ground_type), intent(in) :: ground
-        integer :: most
-
-        most = maxval(ground%first(2:) - ground%first(:size(ground%pieces)))
-    end function most_layers
 
     !> Steps of all pieces
     pure function steps_of(ground) result(steps)

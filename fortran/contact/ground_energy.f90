@@ -91,7 +91,7 @@ contains
                 if (.not. stopped) return
                 cycle
             end if
-            if (.not. succeeded()) then
+            if (allocated(error) .or. outcome%status /= gapbeam_solved) then
                 ! Held by so little that springs have to help, here or from the start
                 if (allocated(proximal_weight)) exit
                 proximal_weight = proximal_ratio*softest(beam)
@@ -159,13 +159,6 @@ contains
             call find_contact_state(beam, factor, rule_block, acting, work, outcome, error)
             solves = solves + work%solves
         end subroutine solve_model
-
-        !> Has the model a solution
-        pure function succeeded() result(has)
-            logical :: has
-
-            has = .not. allocated(error) .and. outcome%status == gapbeam_solved
-        end function succeeded
 
         !> Its forces, the way to it, and what the beam asks for there
         subroutine take_model()

@@ -90,13 +90,15 @@ contains
         logical, intent(in) :: only_stiffer
         !> Are there any more parts now
         logical, intent(out) :: refined
-        integer :: into(size(mesh%piece)), i, m
+        integer :: into(size(mesh%piece)), i, k, m
         logical :: changes(0:size(mesh%piece) + 1)
 
         m = size(mesh%piece)
         changes(:) = .false.
         do i = 1, m
-            changes(i) = zone_ends(i)
+            do k = ground%first(mesh%piece(i)), ground%first(mesh%piece(i) + 1) - 1
+                if (acts_at(ground, mesh, k, i, 1) /= acts_at(ground, mesh, k, i, 2)) changes(i) = .true.
+            end do
         end do
         do i = 1, m
             into(i) = max(1, min(mesh_cuts, ceiling(parts_of_decay/2*decays_between(ground%pieces(mesh%piece(i)), mesh%from(i), &
@@ -110,18 +112,6 @@ contains
         if (refined) call split(into, mesh)
 
     contains
-
-        !> Does any layer change along a part
-        pure function zone_ends(part) result(ends)
-            integer, intent(in) :: part
-            logical :: ends
-            integer :: k
-
-            ends = .false.
-            do k = ground%first(mesh%piece(part)), ground%first(mesh%piece(part) + 1) - 1
-                ends = ends .or. acts_at(ground, mesh, k, part, 1) /= acts_at(ground, mesh, k, part, 2)
-            end do
-        end function zone_ends
 
         !> Is the force of a curve along a part other than straight between its ends, as where the beam goes far beyond a short
         !> stretch in which its force grows

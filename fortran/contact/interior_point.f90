@@ -32,7 +32,6 @@ contains
 
     !> Set up the iterate from one solve with equal springs
     subroutine start_interior(beam, closed, work, iterate, state, place)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Any scheme
         logical, intent(in) :: closed(:)

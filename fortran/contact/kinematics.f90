@@ -43,7 +43,6 @@ contains
 
     !> All independent free motions while the given supports act
     subroutine free_motions(beam, acting, motions)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act, shape (size(beam%supports))
         logical, intent(in) :: acting(:)

@@ -50,14 +50,11 @@ contains
 
     !> A beam from arrays; see the components of the type for their meaning
     pure subroutine new_beam(links, kind, compliance, force, couple, supports, beam, turning, turned)
-        !> Links, shape (n)
         type(link_type), intent(in) :: links(:)
         !> Nodes, shape (0:n)
         integer, intent(in) :: kind(0:)
         real(wp), intent(in) :: compliance(0:), force(:, 0:), couple(:, 0:)
-        !> Supports
         type(node_support_type), intent(in) :: supports(:)
-        !> The beam
         type(beam_type), intent(out) :: beam
         !> Rotations that supports hold, if any
         integer, intent(in), optional :: turning(:), turned(:)
@@ -101,7 +98,6 @@ contains
 
     !> Give a beam its supports, and put them in order from left to right, those at the same node in the caller's order
     pure subroutine order_supports(supports, beam)
-        !> The supports
         type(node_support_type), intent(in) :: supports(:)
         !> A beam whose links, and rotations that supports hold, are there
         type(beam_type), intent(inout) :: beam

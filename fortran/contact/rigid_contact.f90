@@ -209,6 +209,7 @@ contains
 
         !> Hold the beam at an end of a contact, once where two meet
         subroutine hold(border, contact, at)
+            !> Right end of which stretch, the contact, and the distance from the left end of the piece
             integer, intent(in) :: border
             type(contact_type), intent(in) :: contact
             real(wp), intent(in) :: at
@@ -217,24 +218,12 @@ contains
                 if (holds(h)%border == border .and. holds(h)%side == ground%layers(contact%layer)%side) return
             end if
             h = h + 1
-            holds(h) = hold_of(ground, contact, border, at)
+            holds(h) = hold_type(border, contact%layer, ground%layers(contact%layer)%side, &
+                                 level_of(ground, contact%piece, contact%layer, at), contact%to > contact%from, &
+                                 slope_of(ground, contact%piece, contact%layer))
+            if (.not. holds(h)%follows) holds(h)%compliance = contact%compliance
         end subroutine hold
 
     end subroutine lay_out
-
-    !> What holds the beam at a place of a contact
-    pure function hold_of(ground, contact, border, at) result(hold)
-        type(ground_type), intent(in) :: ground
-        type(contact_type), intent(in) :: contact
-        !> Right end of which stretch, and the distance from the left end of the piece
-        integer, intent(in) :: border
-        real(wp), intent(in) :: at
-        type(hold_type) :: hold
-
-        hold = hold_type(border, contact%layer, ground%layers(contact%layer)%side, &
-                         level_of(ground, contact%piece, contact%layer, at), contact%to > contact%from, &
-                         slope_of(ground, contact%piece, contact%layer))
-        if (.not. hold%follows) hold%compliance = contact%compliance
-    end function hold_of
 
 end module gapbeam_rigid_contact

@@ -47,7 +47,6 @@ contains
 
     !> Change supports until none is wrong
     recursive subroutine settle(beam, rule, may_float, closed, work, settled, error, rounds, carefully)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> rule_block, rule_single or rule_least_index
         integer, intent(in) :: rule

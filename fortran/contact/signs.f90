@@ -39,7 +39,6 @@ contains
 
     !> Take what signs need from a beam and its loads
     pure subroutine prepare_signs(beam, work, signs)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Its loads, by set_loads
         type(workspace_type), intent(in) :: work

@@ -68,7 +68,6 @@ contains
 
     !> Solve a scheme for deflections and moments only
     subroutine solve_deflections(beam, acting, work, state, place, applied)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act
         logical, intent(in) :: acting(:)

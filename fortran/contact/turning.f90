@@ -20,7 +20,6 @@ contains
 
     !> Nodes as the supports that hold their rotations make them
     pure subroutine apply_turning(beam, acting, range, nodes, rhs, level)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act
         logical, intent(in) :: acting(:)
@@ -112,7 +111,6 @@ contains
 
     !> Rotations from the solution at the nodes of the beam, and the couples that go with them
     pure subroutine find_turning(beam, nodes, rhs, loads, turn_size, answers, rotation_size, couple, couple_size)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Nodes and right-hand sides as apply_turning left them; the loads alone
         type(node_type), intent(in) :: nodes(0:)

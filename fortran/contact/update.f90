@@ -24,7 +24,6 @@ contains
 
     !> Solve a scheme so that its solution can be kept up to date
     subroutine start_updates(beam, acting, work, solved, follows)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act
         logical, intent(in) :: acting(:)
@@ -106,7 +105,6 @@ contains
 
     !> Solve a scheme from the solution of another one that differs at one node, or at some nodes beside each other
     subroutine update_scheme(beam, acting, changed, refined, work, window, state)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports act now
         logical, intent(in) :: acting(:)

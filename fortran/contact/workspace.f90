@@ -80,7 +80,6 @@ contains
 
     !> Workspace for a beam
     pure subroutine new_workspace(beam, work)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The workspace, no load set
         type(workspace_type), intent(out) :: work

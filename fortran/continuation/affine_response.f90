@@ -29,7 +29,6 @@ contains
 
     !> Room for the solutions of a beam, their loads set
     subroutine new_lines(beam, lines)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Nothing solved yet
         type(lines_type), intent(out) :: lines
@@ -43,7 +42,6 @@ contains
 
     !> The beam of v1: dead loads and contact levels are left out
     subroutine without_dead_loads(beam, incremental)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The same without them
         type(beam_type), intent(out) :: incremental
@@ -55,7 +53,6 @@ contains
 
     !> The beam while its dead loads are put on: they grow with the factor, and there is no other load
     pure subroutine drop_live(beam, growing)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The same with its dead loads as live ones
         type(beam_type), intent(out) :: growing
@@ -76,7 +73,6 @@ contains
 
     !> The line of a support
     pure function response_of(beam, closed, k, lines) result(response)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The scheme, and the number of the support
         logical, intent(in) :: closed(:)

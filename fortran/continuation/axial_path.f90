@@ -56,6 +56,7 @@ contains
         !> No memory; two rigid links whose forces cannot be told apart; friction where the beam jumps
         type(error_type), allocatable, intent(out) :: error
         type(walk_type) :: walk
+        type(assembled_type), pointer :: beam
         integer :: first(0:history%number), last(0:history%number), k
 
         walk%assembled => assembled
@@ -70,7 +71,9 @@ contains
         do k = 1, history%number
             first(k) = walk%path%number + 1
             walk%begun = .false.
-            call pass_stretch(walk, merge_beams(k), history, k, error)
+            beam => assembled
+            if (history%stretches(k)%leg == 0) beam => dead
+            call pass_stretch(walk, beam, history, k, error)
             if (allocated(error)) return
             last(k) = walk%path%number
             first(k) = min(first(k), max(1, walk%path%number))
@@ -82,18 +85,6 @@ contains
         history%number = walk%path%number
         if (walk%path%ending /= no_limit) history%ending = walk%path%ending
         history%solves = history%solves + walk%chain%solves
-
-    contains
-
-        !> The beam with the loads of a stretch
-        function merge_beams(k) result(beam)
-            integer, intent(in) :: k
-            type(assembled_type), pointer :: beam
-
-            beam => assembled
-            if (history%stretches(k)%leg == 0) beam => dead
-        end function merge_beams
-
     end subroutine follow_along_axis
 
     !> Go along a stretch of bending

@@ -45,7 +45,6 @@ contains
     !> Follow the load from factor 0 to `factor`: every change of the contact state at its load factor. The state is that at
     !> the end, or at the factor above which there is no equilibrium, with the motion that begins there
     subroutine follow_events(assembled, factor, rule, state, events, number, error)
-        !> The beam
         type(assembled_type), intent(in), target :: assembled
         !> End of the path, above 0
         real(wp), intent(in) :: factor

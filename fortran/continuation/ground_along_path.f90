@@ -48,7 +48,8 @@ contains
                         leg = s%leg
                         way = sign(1.0_wp, s%to - s%from)
                         call start_leg(ground)
-                        call end_short_parts(ground)
+                        ! What is as short as rounding, where all is at rest
+                        call remove_parts(ground, [(length_of(ground, k) <= shortest_part, k=1, size(ground%parts))])
                         call set_loads(assembled, merge(1, 2, leg == 0), way, ground)
                     end if
                 end if
@@ -259,14 +260,6 @@ contains
         if (sound) sound = all(ground%way*rates%displacement >= -no_return*maxval(abs(rates%displacement))) &
             .and. .not. any(are_pushed(ground, rates))
     end function is_sound
-
-    !> Take out what is as short as rounding, where all is at rest
-    pure subroutine end_short_parts(ground)
-        type(ground_along_type), intent(inout) :: ground
-        integer :: k
-
-        call remove_parts(ground, [(length_of(ground, k) <= shortest_part, k=1, size(ground%parts))])
-    end subroutine end_short_parts
 
     !> Take out what has become as short as rounding
     pure subroutine end_parts(ground)

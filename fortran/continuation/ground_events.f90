@@ -11,8 +11,8 @@ module gapbeam_ground_events
     use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
     implicit none
     private
-    public :: ground_path_type, ground_event_type, ground_segment_type, held_type, new_path, &
-              note_changes, list_changes, add_segment, same_contact
+    public :: ground_path_type, ground_event_type, ground_segment_type, held_type, note_changes, list_changes, add_segment, &
+        same_contact
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -63,13 +63,6 @@ module gapbeam_ground_events
     end type held_type
 
 contains
-
-    !> A path without events
-    pure subroutine new_path(path)
-        type(ground_path_type), intent(out) :: path
-
-        allocate (path%events(8), path%segment(8))
-    end subroutine new_path
 
     !> The events between two factors in the order of their factors; at the same one of supports, then of zones
     subroutine note_changes(assembled, before, after, factor, place, path, error)

@@ -20,7 +20,7 @@ module gapbeam_ground_problem
     use gapbeam_state, only: ground_of, detail_of
     use gapbeam_ground_states, only: ground_states_type
     use gapbeam_path_problem, only: point_type
-    use gapbeam_ground_events, only: held_type, new_path
+    use gapbeam_ground_events, only: held_type
     implicit none
     private
     public :: ground_problem_type, new_ground_problem
@@ -96,7 +96,7 @@ contains
         problem%yields = problem%yields .or. problem%falls
         problem%levels_off = problem%levels_off .and. .not. problem%falls
         if (problem%levels_off) problem%neighbours_at_end = near_on_curves
-        call new_path(problem%path)
+        allocate (problem%path%events(8), problem%path%segment(8))
         problem%path%beyond = last
     end subroutine new_ground_problem
 

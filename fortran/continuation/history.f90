@@ -59,7 +59,6 @@ contains
 
     !> Put on the dead loads, and with them settlements and lacks of fit, then go through load factors in turn
     subroutine follow_history(assembled, factors, at_limit, most, history, error)
-        !> The beam
         type(assembled_type), intent(in), target :: assembled
         !> Load factors to go to
         real(wp), intent(in) :: factors(:)

@@ -38,7 +38,6 @@ contains
 
     !> Find the stretch that begins at a factor
     subroutine find_region(beam, factor, limit, start, region, outcome, error)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The factor, and the end of the path
         real(wp), intent(in) :: factor, limit

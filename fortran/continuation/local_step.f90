@@ -60,7 +60,6 @@ contains
 
     !> Room for a path in double precision
     subroutine new_local(beam, keeps_set, settling, local)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Which supports unload parallel to their first piece; how fast they move themselves, shape (size(supports))
         logical, intent(in) :: keeps_set(:)

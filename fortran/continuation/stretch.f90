@@ -52,7 +52,6 @@ contains
 
     !> Room for what is known on a stretch of the path
     subroutine new_stretch(beam, stretch)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> Nothing solved yet
         type(stretch_type), intent(out) :: stretch

@@ -232,15 +232,6 @@ contains
         end do
     end subroutine eliminate
 
-    !> Is what carries a node so soft that the link beside it is stiff
-    pure function is_weak(pivot, link) result(weak)
-        type(pivot_type), intent(in) :: pivot
-        type(stretch_link_type), intent(in) :: link
-        logical :: weak
-
-        weak = abs(pivot%c*link%fbb) < link%p2**2
-    end function is_weak
-
     !> Backward
     pure subroutine substitute(nodes, links, lengths, pivots, given, rhs, answers)
         type(node_type), intent(in) :: nodes(0:)
@@ -279,8 +270,9 @@ contains
                             m = (link%pb*m_next + link%gab*w + (link%gbb + nodes(i + 1)%stiffness)*w_next &
                                  - given(i + 1)%shear - shear_right)*v%reciprocal
                         case (m_known)
-                            if (is_weak(v, link) .and. nodes(i + 1)%kind == plain .and. pivots(i + 1)%kind /= end_of_beam) then
-                                ! What next to nothing carries is known better from the slope of what follows
+                            if (abs(v%c*link%fbb) < link%p2**2 .and. nodes(i + 1)%kind == plain &
+                                .and. pivots(i + 1)%kind /= end_of_beam) then
+                                ! What is so soft that the link beside it is stiff is known better from the slope of what follows
                                 w = (link%pb*w_next - link%fab*m - link%fbb*m_next - given(i + 1)%left &
                                      - (psi_right + given(i + 1)%right))/link%p2
                             else

@@ -31,7 +31,6 @@ module gapbeam_capi
 
 contains
 
-    !> See the header
     function c_options_init(options, size) result(status) bind(c, name="gapbeam_options_init")
         type(c_options), intent(inout), optional :: options
         integer(c_size_t), intent(in), value :: size
@@ -46,7 +45,6 @@ contains
         status = gapbeam_solved
     end function c_options_init
 
-    !> See the header
     function c_solve(beam, factor, options, state, message, message_size) result(status) bind(c, name="gapbeam_solve")
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(in), value :: factor
@@ -66,7 +64,6 @@ contains
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve
 
-    !> See the header
     function c_follow(beam, factor, options, capacity, event_factor, event_support, event_condition, number, state, &
                       message, message_size) result(status) bind(c, name="gapbeam_follow")
         type(c_ptr), intent(in), value :: beam, state
@@ -99,7 +96,6 @@ contains
         if (present(event_condition)) event_condition(1:n) = events(:n)%state
     end function c_follow
 
-    !> See the header
     function c_get_info(state, info) result(status) bind(c, name="gapbeam_get_info")
         type(c_ptr), intent(in), value :: state
         type(c_info), intent(inout), optional :: info
@@ -121,7 +117,6 @@ contains
         status = gapbeam_solved
     end function c_get_info
 
-    !> See the header
     function c_get_supports(beam, state, reaction, deflection, opening, couple, condition) result(status) &
         bind(c, name="gapbeam_get_supports")
         type(c_ptr), intent(in), value :: beam, state
@@ -162,7 +157,6 @@ contains
         if (present(condition)) condition(1:m) = conditions
     end subroutine copy_supports
 
-    !> See the header
     function c_get_friction(beam, state, force, slip, slides) result(status) bind(c, name="gapbeam_get_friction")
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: force(*), slip(*)
@@ -190,7 +184,6 @@ contains
         call report(error, status)
     end function c_get_friction
 
-    !> See the header
     function c_get_fields(beam, state, count, x, from_left, fields, message, message_size) result(status) &
         bind(c, name="gapbeam_get_fields")
         type(c_ptr), intent(in), value :: beam, state
@@ -212,7 +205,6 @@ contains
         call report(error, status, message, message_size)
     end function c_get_fields
 
-    !> See the header
     function c_get_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_extremes")
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2, 6), x(2, 6)
@@ -221,7 +213,6 @@ contains
         status = c_get_quantity_extremes(beam, state, 6, [0, 1, 2, 3, 4, 5], value, x, message_size=0_c_size_t)
     end function c_get_extremes
 
-    !> See the header
     function c_get_motion(beam, state, x, motion) result(status) bind(c, name="gapbeam_get_motion")
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: x(*), motion(*)
@@ -241,7 +232,6 @@ contains
         call report(error, status)
     end function c_get_motion
 
-    !> See the header
     function c_get_certificate(beam, state, certificate, undecided) result(status) bind(c, name="gapbeam_get_certificate")
         type(c_ptr), intent(in), value :: beam, state
         type(c_certificate), intent(inout), optional :: certificate
@@ -273,7 +263,6 @@ contains
         if (present(undecided)) undecided(1:size(doubtful)) = merge(1, 0, doubtful)
     end function c_get_certificate
 
-    !> See the header
     function c_solve_model(model, factor, options, reaction, deflection, opening, couple, condition, count, x, fields, &
                            message, message_size) result(status) bind(c, name="gapbeam_solve_model")
         type(c_model), intent(in), optional :: model

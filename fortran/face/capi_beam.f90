@@ -13,7 +13,6 @@ module gapbeam_capi_beam
 
 contains
 
-    !> See the header
     function c_model_init(model, size) result(status) bind(c, name="gapbeam_model_init")
         type(c_model), intent(inout), optional :: model
         integer(c_size_t), intent(in), value :: size
@@ -27,7 +26,6 @@ contains
         status = gapbeam_solved
     end function c_model_init
 
-    !> See the header
     function c_prepare(model, beam, message, message_size) result(status) bind(c, name="gapbeam_prepare")
         type(c_model), intent(in), optional :: model
         type(c_ptr), intent(out), optional :: beam
@@ -49,14 +47,12 @@ contains
         call report(error, status, message, message_size)
     end function c_prepare
 
-    !> See the header
     subroutine c_free_beam(beam) bind(c, name="gapbeam_free_beam")
         type(c_ptr), intent(in), value :: beam
 
         call free_handle(beam, beam_tag)
     end subroutine c_free_beam
 
-    !> See the header
     function c_replace_loads(beam, loads, message, message_size) result(status) bind(c, name="gapbeam_replace_loads")
         type(c_ptr), intent(in), value :: beam
         type(c_model), intent(in), optional :: loads
@@ -74,7 +70,6 @@ contains
         call report(error, status, message, message_size)
     end function c_replace_loads
 
-    !> See the header
     function c_count_supports(beam) result(number) bind(c, name="gapbeam_count_supports")
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
@@ -85,7 +80,6 @@ contains
         if (associated(handle)) number = count_supports(handle%beam)
     end function c_count_supports
 
-    !> See the header
     function c_count_nodes(beam) result(number) bind(c, name="gapbeam_count_nodes")
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
@@ -96,7 +90,6 @@ contains
         if (associated(handle)) number = count_nodes(handle%beam)
     end function c_count_nodes
 
-    !> See the header
     function c_new_state(state) result(status) bind(c, name="gapbeam_new_state")
         type(c_ptr), intent(out), optional :: state
         integer(c_int) :: status
@@ -110,7 +103,6 @@ contains
         call report(error, status)
     end function c_new_state
 
-    !> See the header
     subroutine c_free_state(state) bind(c, name="gapbeam_free_state")
         type(c_ptr), intent(in), value :: state
 

@@ -12,7 +12,6 @@ module gapbeam_capi_cases
 
 contains
 
-    !> See the header
     function c_prepare_cases(beam, cases, message, message_size) result(status) bind(c, name="gapbeam_prepare_cases")
         type(c_ptr), intent(in), value :: beam
         type(c_ptr), intent(out), optional :: cases
@@ -30,14 +29,12 @@ contains
         call report(error, status, message, message_size)
     end function c_prepare_cases
 
-    !> See the header
     subroutine c_free_cases(cases) bind(c, name="gapbeam_free_cases")
         type(c_ptr), intent(in), value :: cases
 
         call free_handle(cases, cases_tag)
     end subroutine c_free_cases
 
-    !> See the header
     function c_solve_cases(beam, cases, count, factors, settlement, gap, stiffness, options, status_of, reaction, condition, &
                            deflection, moment_left, moment_right, message, message_size) result(status) &
         bind(c, name="gapbeam_solve_cases")
@@ -92,7 +89,6 @@ contains
         call report(error, status, message, message_size)
     end function c_solve_cases
 
-    !> See the header
     function c_get_nodes(beam, x, support_node) result(status) bind(c, name="gapbeam_get_nodes")
         type(c_ptr), intent(in), value :: beam
         real(c_double), intent(inout), optional :: x(*)

@@ -10,7 +10,6 @@ module gapbeam_capi_combinations
 
 contains
 
-    !> See the header
     function c_combine_loads(beam, factors, settlements, combined, message, message_size) result(status) &
         bind(c, name="gapbeam_combine_loads")
         type(c_ptr), intent(in), value :: beam

@@ -12,7 +12,6 @@ module gapbeam_capi_ground
 
 contains
 
-    !> See the header
     function c_follow_ground(beam, factor, options, capacity, event_factor, event_support, event_foundation, event_branch, &
                              event_x, event_change, number, state, message, message_size) result(status) &
         bind(c, name="gapbeam_follow_ground")
@@ -49,7 +48,6 @@ contains
         if (present(event_change)) event_change(1:n) = events(:n)%change
     end function c_follow_ground
 
-    !> See the header
     function c_get_contact(beam, state, capacity, foundation, from, to, condition, resultant, number) result(status) &
         bind(c, name="gapbeam_get_contact")
         type(c_ptr), intent(in), value :: beam, state
@@ -76,7 +74,6 @@ contains
         if (present(resultant)) resultant(1:n) = zones(:n)%resultant
     end function c_get_contact
 
-    !> See the header
     function c_get_free_spans(beam, state, capacity, foundation, from, to, sag, number) result(status) &
         bind(c, name="gapbeam_get_free_spans")
         type(c_ptr), intent(in), value :: beam, state
@@ -102,7 +99,6 @@ contains
         if (present(sag)) sag(1:n) = spans(:n)%sag
     end function c_get_free_spans
 
-    !> See the header
     function c_get_pressure(beam, state, count, x, from_left, pressure, message, message_size) result(status) &
         bind(c, name="gapbeam_get_pressure")
         type(c_ptr), intent(in), value :: beam, state
@@ -124,7 +120,6 @@ contains
         call report(error, status, message, message_size)
     end function c_get_pressure
 
-    !> See the header
     function c_get_pressure_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_pressure_extremes")
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2), x(2)

@@ -20,7 +20,6 @@ module gapbeam_capi_history
 
 contains
 
-    !> See the header
     function c_follow_history(beam, count, factors, at_limit, history, message, message_size) result(status) &
         bind(c, name="gapbeam_follow_history")
         type(c_ptr), intent(in), value :: beam
@@ -48,14 +47,12 @@ contains
         call report(error, status, message, message_size)
     end function c_follow_history
 
-    !> See the header
     subroutine c_free_history(history) bind(c, name="gapbeam_free_history")
         type(c_ptr), intent(in), value :: history
 
         call free_handle(history, history_tag)
     end subroutine c_free_history
 
-    !> See the header
     function c_get_history_info(history, info) result(status) bind(c, name="gapbeam_get_history_info")
         type(c_ptr), intent(in), value :: history
         type(c_history_info), intent(inout), optional :: info
@@ -76,7 +73,6 @@ contains
         end associate
     end function c_get_history_info
 
-    !> See the header
     function c_get_stretches(history, from, to, leg, direction, stable, index, ways, skipped) result(status) &
         bind(c, name="gapbeam_get_stretches")
         type(c_ptr), intent(in), value :: history
@@ -99,7 +95,6 @@ contains
         end associate
     end function c_get_stretches
 
-    !> See the header
     function c_get_events(history, factor, support, condition, change, stretch) result(status) bind(c, name="gapbeam_get_events")
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: factor(*)
@@ -118,7 +113,6 @@ contains
         end associate
     end function c_get_events
 
-    !> See the header
     function c_get_limits(history, factor, kind, leg, stretch, landing) result(status) bind(c, name="gapbeam_get_limits")
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: factor(*)
@@ -137,7 +131,6 @@ contains
         end associate
     end function c_get_limits
 
-    !> See the header
     function c_get_exact(history, stretches, limits) result(status) bind(c, name="gapbeam_get_exact")
         type(c_ptr), intent(in), value :: history
         integer(c_int), intent(inout), optional :: stretches(*), limits(*)
@@ -152,7 +145,6 @@ contains
         end associate
     end function c_get_exact
 
-    !> See the header
     function c_get_history_motion(history, x, motion) result(status) bind(c, name="gapbeam_get_history_motion")
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: x(*), motion(*)
@@ -170,7 +162,6 @@ contains
         status = gapbeam_solved
     end function c_get_history_motion
 
-    !> See the header
     function c_solve_on_path(beam, history, stretch, factor, state, message, message_size) result(status) &
         bind(c, name="gapbeam_solve_on_path")
         type(c_ptr), intent(in), value :: beam, history, state
@@ -196,7 +187,6 @@ contains
         if (.not. allocated(error)) status = solved%result%status
     end function c_solve_on_path
 
-    !> See the header
     function c_get_released_energy(beam, history, limit, energy, message, message_size) result(status) &
         bind(c, name="gapbeam_get_released_energy")
         type(c_ptr), intent(in), value :: beam, history

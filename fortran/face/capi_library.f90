@@ -16,7 +16,6 @@ module gapbeam_capi_library
 
 contains
 
-    !> See the header
     subroutine c_get_version(major, minor, patch) bind(c, name="gapbeam_get_version")
         integer(c_int), intent(out), optional :: major, minor, patch
 
@@ -25,14 +24,12 @@ contains
         if (present(patch)) patch = gapbeam_version_patch
     end subroutine c_get_version
 
-    !> See the header
     function c_version_text() result(text) bind(c, name="gapbeam_version_text")
         type(c_ptr) :: text
 
         text = c_loc(version)
     end function c_version_text
 
-    !> See the header
     function c_status_message(status) result(text) bind(c, name="gapbeam_status_message")
         integer(c_int), intent(in), value :: status
         type(c_ptr) :: text
@@ -43,7 +40,6 @@ contains
         if (i > 0) text = c_loc(texts(i))
     end function c_status_message
 
-    !> See the header
     function c_infinity() result(value) bind(c, name="gapbeam_infinity")
         real(c_double) :: value
 

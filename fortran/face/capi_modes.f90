@@ -10,7 +10,6 @@ module gapbeam_capi_modes
 
 contains
 
-    !> See the header
     function c_get_modes(beam, state, kind, count, values, number, message, message_size) result(status) &
         bind(c, name="gapbeam_get_modes")
         type(c_ptr), intent(in), value :: beam, state
@@ -38,7 +37,6 @@ contains
         if (present(number)) number = known
     end function c_get_modes
 
-    !> See the header
     function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, message, message_size) &
         result(status) bind(c, name="gapbeam_get_mode_shape")
         type(c_ptr), intent(in), value :: beam, state
@@ -66,7 +64,6 @@ contains
         if (present(moment)) moment(:, 1:n) = moments(:, :n)
     end function c_get_mode_shape
 
-    !> See the header
     function c_get_mode_amplitude(beam, state, kind, value, parts, amplitude, support, message, message_size) result(status) &
         bind(c, name="gapbeam_get_mode_amplitude")
         type(c_ptr), intent(in), value :: beam, state
@@ -91,7 +88,6 @@ contains
         if (present(support)) support = first - 1
     end function c_get_mode_amplitude
 
-    !> See the header
     function c_get_buckling(beam, state, share, capacity, x, deflection, number) result(status) &
         bind(c, name="gapbeam_get_buckling")
         type(c_ptr), intent(in), value :: beam, state

@@ -15,7 +15,6 @@ module gapbeam_capi_quantities
 
 contains
 
-    !> See the header
     function c_get_quantities(beam, state, quantities, quantity, count, x, from_left, values, message, message_size) &
         result(status) bind(c, name="gapbeam_get_quantities")
         type(c_ptr), intent(in), value :: beam, state
@@ -40,7 +39,6 @@ contains
         call report(error, status, message, message_size)
     end function c_get_quantities
 
-    !> See the header
     function c_get_quantity_extremes(beam, state, quantities, quantity, value, x, message, message_size) result(status) &
         bind(c, name="gapbeam_get_quantity_extremes")
         type(c_ptr), intent(in), value :: beam, state
@@ -65,7 +63,6 @@ contains
         if (present(x)) x(:, 1:quantities) = places
     end function c_get_quantity_extremes
 
-    !> See the header
     function c_get_train_quantity_extremes(beam, passing, quantities, quantity, values, message, message_size) result(status) &
         bind(c, name="gapbeam_get_train_quantity_extremes")
         type(c_ptr), intent(in), value :: beam, passing
@@ -89,7 +86,6 @@ contains
         call copy_extremes(found, values(:, :, 1:quantities))
     end function c_get_train_quantity_extremes
 
-    !> See the header
     function c_get_train_quantity_curves(beam, passing, quantities, quantity, count, x, value, position, message, message_size) &
         result(status) bind(c, name="gapbeam_get_train_quantity_curves")
         type(c_ptr), intent(in), value :: beam, passing

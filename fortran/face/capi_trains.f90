@@ -13,7 +13,6 @@ module gapbeam_capi_trains
 
 contains
 
-    !> See the header
     function c_follow_train(beam, axles, distance, force, q, to_the_left, from, to, passing, message, message_size) result(status) &
         bind(c, name="gapbeam_follow_train")
         type(c_ptr), intent(in), value :: beam
@@ -55,14 +54,12 @@ contains
         call report(error, status, message, message_size)
     end function c_follow_train
 
-    !> See the header
     subroutine c_free_passing(passing) bind(c, name="gapbeam_free_passing")
         type(c_ptr), intent(in), value :: passing
 
         call free_handle(passing, passing_tag)
     end subroutine c_free_passing
 
-    !> See the header
     function c_get_train_events(passing, capacity, position, support, condition, change, number) result(status) &
         bind(c, name="gapbeam_get_train_events")
         type(c_ptr), intent(in), value :: passing
@@ -84,7 +81,6 @@ contains
         end associate
     end function c_get_train_events
 
-    !> See the header
     function c_get_train_gaps(passing, capacity, from, to, reason, number) result(status) &
         bind(c, name="gapbeam_get_train_gaps")
         type(c_ptr), intent(in), value :: passing
@@ -105,7 +101,6 @@ contains
         end associate
     end function c_get_train_gaps
 
-    !> See the header
     function c_get_train_extremes(beam, passing, fields, supports) result(status) bind(c, name="gapbeam_get_train_extremes")
         type(c_ptr), intent(in), value :: beam, passing
         real(c_double), intent(inout), optional :: fields(4, 2, 4), supports(4, 2, 4, *)
@@ -134,7 +129,6 @@ contains
         end do
     end function c_get_train_extremes
 
-    !> See the header
     function c_get_train_curves(beam, passing, count, x, value, position, message, message_size) result(status) &
         bind(c, name="gapbeam_get_train_curves")
         type(c_ptr), intent(in), value :: beam, passing

@@ -10,7 +10,6 @@ module gapbeam_capi_watch
 
 contains
 
-    !> See the header
     function c_set_watch(beam, ask, data, seconds) result(status) bind(c, name="gapbeam_set_watch")
         type(c_ptr), intent(in), value :: beam
         type(c_funptr), intent(in), value :: ask
@@ -29,7 +28,6 @@ contains
         status = gapbeam_solved
     end function c_set_watch
 
-    !> See the header
     subroutine c_stop(beam) bind(c, name="gapbeam_stop")
         type(c_ptr), intent(in), value :: beam
         type(handle_type), pointer :: handle

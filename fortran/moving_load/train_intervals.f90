@@ -68,7 +68,8 @@ contains
         end if
         count = 0
         do k = 1, number
-            call add_single(place(k))
+            count = count + 1
+            found(count) = interval_at(track, train, place(k), place(k), place(k), near)
             if (k == number) exit
             count = count + 1
             found(count) = interval_at(track, train, place(k), place(k + 1), place(k) + (place(k + 1) - place(k))/2, near)
@@ -88,14 +89,6 @@ contains
                 place(count) = track%x(j) - offset
             end do
         end subroutine add
-
-        !> Add a place by itself
-        subroutine add_single(s)
-            real(wp), intent(in) :: s
-
-            count = count + 1
-            found(count) = interval_at(track, train, s, s, s, near)
-        end subroutine add_single
 
         !> Keep those places by themselves at which other axles act than on both sides
         subroutine drop_singles()

@@ -59,7 +59,11 @@ contains
         call take_limits(assembled, runs, limits, lines)
         allocate (greatest(size(tables)))
         do i = 1, size(tables)
-            call take_states(tables(i), lines)
+            do n = 1, size(tables(i)%at)
+                do k = 1, size(x)
+                    call take_all(lines, k, tables(i)%value(:, k, n), tables(i)%at(n))
+                end do
+            end do
             greatest(i) = maxval(abs(tables(i)%value))
         end do
         ! The more is known, the fewer places may have more
@@ -136,19 +140,6 @@ contains
             end associate
         end do
     end subroutine fill_tables
-
-    !> Consider all states of a run
-    pure subroutine take_states(table, lines)
-        type(table_type), intent(in) :: table
-        type(lines_type), intent(inout) :: lines
-        integer :: i, k
-
-        do i = 1, size(table%at)
-            do k = 1, size(lines%x)
-                call take_all(lines, k, table%value(:, k, i), table%at(i))
-            end do
-        end do
-    end subroutine take_states
 
     !> Consider shears between an axle and the support or force to which it comes
     pure subroutine take_limits(assembled, runs, limits, lines)

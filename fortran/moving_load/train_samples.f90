@@ -216,16 +216,6 @@ contains
         low(:) = min(first, last) - deviation
     end subroutine bound_fields
 
-    !> Degree of the load in the cells
-    pure function load_degree(loads) result(degree)
-        type(piece_load_type), intent(in) :: loads(:)
-        integer :: degree
-
-        degree = 0
-        if (any(max(abs(loads%qa), abs(loads%qb)) > 0.0_wp)) degree = 1
-        if (any(abs(loads%qb - loads%qa) > 0.0_wp)) degree = 2
-    end function load_degree
-
     !> Degree of a quantity of bending along the cells: one more from shear to moment to rotation; the deflection under shear has no
     !> more than that under bending
     pure function degree_along(quantity, loads) result(degree)
@@ -240,7 +230,12 @@ contains
             is_term(:, :) = terms_of_derived()
             first = findloc(is_term(:, quantity - state_count), .true., 1)
         end if
-        degree = 4 - first + load_degree(loads)
+        degree = 4 - first
+        if (any(abs(loads%qb - loads%qa) > 0.0_wp)) then
+            degree = degree + 2
+        else if (any(max(abs(loads%qa), abs(loads%qb)) > 0.0_wp)) then
+            degree = degree + 1
+        end if
     end function degree_along
 
     !> Bernstein coefficients of a quantity of bending along a cell

@@ -53,7 +53,6 @@ contains
 
     !> Solve at a position
     subroutine solve_at(assembled, train, rule, position, acts, kept, solves, error, near)
-        !> The beam
         type(assembled_type), intent(in) :: assembled
         type(train_type), intent(in) :: train
         !> rule_block or rule_single

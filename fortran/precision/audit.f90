@@ -25,7 +25,6 @@ contains
 
     !> Audit a solution of a beam
     subroutine audit_beam(beam, closed, undecided, floats, leeway, answers, shear, reaction, work, ledger, measured)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The scheme, and which supports may have either state, shape (m)
         logical, intent(in) :: closed(:), undecided(:)

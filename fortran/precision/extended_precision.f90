@@ -272,7 +272,8 @@ contains
         work%solves = work%solves + fine_work%solves
         do try = 1, 2
             ! Rigid stretches may touch more supports than they need: whether there is an answer must not depend on the start
-            if (.not. statics_cannot_tell(error)) exit
+            if (.not. allocated(error)) exit
+            if (error%code /= gapbeam_indeterminate) exit
             deallocate (error)
             closed(:) = try == 1 .or. always_closed(beam%supports)
             call find_fine_contact_state(fine, real(factor, qp), rule_block, closed, fine_work, found, error)
@@ -327,14 +328,5 @@ contains
         call fatal_error(error, gapbeam_not_converged, "stiffnesses lie so far apart, or gaps, lacks of fit or settlements are "// &
                          "so great that reactions to the loads are lost in rounding errors: check their numbers and units")
     end subroutine refuse_hidden
-
-    !> Did a search end at a rigid stretch over more rigid supports than statics can tell apart
-    pure function statics_cannot_tell(error) result(ended)
-        type(error_type), allocatable, intent(in) :: error
-        logical :: ended
-
-        ended = allocated(error)
-        if (ended) ended = error%code == gapbeam_indeterminate
-    end function statics_cannot_tell
 
 end module gapbeam_extended_precision

@@ -50,7 +50,6 @@ contains
     !> Do moments balance at a node whose rotations supports hold, do its ends turn as they are held, and is every support on its
     !> law, in the right state
     subroutine audit_rotations(beam, node, numbers, closed, undecided, leeway, ends, turned, reaction, ledger)
-        !> The beam
         type(beam_type), intent(in) :: beam
         !> The node, and its rotations by find_turned
         integer, intent(in) :: node, numbers(2)

@@ -66,7 +66,6 @@ contains
     pure subroutine refuse_misfit(worst, audited, factor, error)
         !> By how much of its size, and how much may be rounding
         real(wp), intent(in) :: worst, audited
-        !> Load factor
         real(wp), intent(in) :: factor
         type(error_type), allocatable, intent(out) :: error
 

@@ -65,7 +65,6 @@ contains
 
     !> A state for a beam, nothing solved, all supports closed, those with a law on its first piece
     subroutine new_state(assembled, state, error)
-        !> The beam
         type(assembled_type), intent(in) :: assembled
         !> Ready for solve_state
         type(state_type), intent(out) :: state

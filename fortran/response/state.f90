@@ -34,7 +34,6 @@ contains
 
     !> Solve at one load factor; the search starts from the scheme the state holds
     subroutine solve_state(assembled, factor, rule, state, error, near)
-        !> The beam
         type(assembled_type), intent(in), target :: assembled
         !> Factor of the live loads
         real(wp), intent(in) :: factor
@@ -349,7 +348,6 @@ contains
 
     !> Residuals of a solved state, and bounds for its errors in the engine's units
     subroutine certify_state(assembled, state, certificate, error)
-        !> The beam
         type(assembled_type), intent(in), target :: assembled
         !> Solved
         type(state_type), intent(in) :: state

@@ -15,7 +15,7 @@ module gapbeam_assemble
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
     use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
     use gapbeam_support_laws, only: gather_points
-    use gapbeam_check_laws, only: check_laws, have_laws
+    use gapbeam_check_laws, only: check_laws
     use gapbeam_check_axial, only: check_along
     use gapbeam_check_foundations, only: check_foundations
     use gapbeam_input_error, only: refuse, of_sections, of_foundations, of_loads, no_stretch, at_hinge, bad_load
@@ -99,7 +99,8 @@ contains
             allocate (assembled%with_law(size(model%supports)), stat=stat)
             if (stat /= 0) call no_memory(error)
             if (allocated(error)) return
-            assembled%with_law(:) = have_laws(model, assembled%law)
+            assembled%with_law(:) = .false.
+            assembled%with_law(assembled%law%support) = .true.
             model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
             if (model%axial_loads_bend) call copy_model(model, given, stat)
             if (stat /= 0) call no_memory(error)
@@ -294,7 +295,10 @@ contains
                                 "of the hinge")
                 end if
                 if (.not. allocated(error) .and. any(model%loads(i)%kind == [gapbeam_couple_left, gapbeam_couple_right])) then
-                    call check_couple(i, assembled%load_from(i), error)
+                    if (.not. is_hinge(assembled%load_from(i))) then
+                        call refuse(error, of_loads, i, size(model%loads), bad_load, "at_hinge", &
+                                    "there is no hinge at its place; leave it out")
+                    end if
                 end if
                 if (allocated(error)) return
             end do
@@ -307,18 +311,6 @@ contains
         end associate
 
     contains
-
-        !> A couple on one side of a hinge
-        subroutine check_couple(i, point, error)
-            integer, intent(in) :: i, point
-            type(error_type), allocatable, intent(out) :: error
-
-            associate (n => size(assembled%model%loads))
-                if (.not. is_hinge(point)) then
-                    call refuse(error, of_loads, i, n, bad_load, "at_hinge", "there is no hinge at its place; leave it out")
-                end if
-            end associate
-        end subroutine check_couple
 
         !> Is there a hinge, elastic or not
         pure function is_hinge(point)

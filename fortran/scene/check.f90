@@ -291,7 +291,9 @@ contains
         else if (load%node < 1 .or. load%node > size(model%supports)) then
             call refuse_entry(error, here, "support", bad_load, "there is no such support")
         else if (load%kind == gapbeam_support_rotation) then
-            call check_rotation(model, load, here, error)
+            if (model%supports(load%node)%rotation > 0.0_wp) return
+            call refuse_entry(error, here, "support", bad_load, "it leaves the rotation of the beam free, so it cannot "// &
+                              "turn it; make its rotation fixed, or give it a stiffness")
         else if (load%case == gapbeam_dead .or. .not. abs(load%value) > 0.0_wp) then
             return
         else if (is_smooth(model%supports(load%node)%law)) then
@@ -302,21 +304,6 @@ contains
                               "in this version")
         end if
     end subroutine check_movement
-
-    !> A rotation of a support
-    pure subroutine check_rotation(model, load, here, error)
-        type(model_type), intent(in) :: model
-        type(load_type), intent(in) :: load
-        type(entry_type), intent(in) :: here
-        type(error_type), allocatable, intent(out) :: error
-
-        associate (s => model%supports(load%node))
-            if (.not. s%rotation > 0.0_wp) then
-                call refuse_entry(error, here, "support", bad_load, "it leaves the rotation of the beam free, so it cannot "// &
-                                  "turn it; make its rotation fixed, or give it a stiffness")
-            end if
-        end associate
-    end subroutine check_rotation
 
     !> Refuse an entry
     pure subroutine refuse_entry(error, here, key, reason, problem)

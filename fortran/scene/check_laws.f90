@@ -9,20 +9,9 @@ module gapbeam_check_laws
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private
-    public :: check_laws, have_laws
+    public :: check_laws
 
 contains
-
-    !> Which supports have a law
-    pure function have_laws(model, law) result(have)
-        type(model_type), intent(in) :: model
-        !> Points of all laws
-        type(law_point_type), intent(in) :: law(:)
-        logical :: have(size(model%supports))
-
-        have(:) = .false.
-        have(law%support) = .true.
-    end function have_laws
 
     !> All laws
     subroutine check_laws(model, law, error)

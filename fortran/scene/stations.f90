@@ -44,7 +44,6 @@ contains
     !> Span and distance from its left end of a place. The right end of the beam is the left end of a span that does
     !> not exist, and a place that differs from a span end by rounding only is that span end
     pure subroutine locate(x, ends, span, offset)
-        !> The place
         real(wp), intent(in) :: x
         !> Span ends, shape (0:n)
         real(wp), intent(in) :: ends(0:)

@@ -24,7 +24,6 @@ contains
         type(answer_type), intent(in) :: answer
         !> The contact state, shape (0:n)
         logical, intent(out) :: closed(0:)
-        !> Linear solves
         integer, intent(out) :: solves
         !> solved or singular
         integer, intent(out) :: status
