@@ -157,10 +157,6 @@ def no_such_name(name: str) -> str:
     name : str
         What was asked for.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> no_such_name("PointLoad"), no_such_name("Suport")

@@ -18,10 +18,6 @@ def nearest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str | None:
     cutoff : float
         How like it must be, from 0 to 1.
 
-    Returns
-    -------
-    str or None
-
     Examples
     --------
     >>> nearest("reaction", ["reactions", "openings"]), nearest("Moment", ["moment"]), nearest("x", ["shear"])
@@ -49,10 +45,6 @@ def missing(owner: str, name: str, known: Iterable[str], meant: Mapping[str, str
         What to write instead, by words of others in lower case without underscores.
     before : str
         What stands before the names when they are written.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -30,10 +30,6 @@ def line(words: str, seconds: float, done: int = 0, total: int = 0, before: int 
     before : int
         How many of them were done when it began.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> line("solving", 2.3)

@@ -204,12 +204,7 @@ class Batch(BatchVerbs):
     renamed: ClassVar = {"failed_chunks": "_failed_chunks"}
 
     def _failed_chunks(self) -> list[int]:
-        """Give the files with cases that were refused, have no answer or failed, by number.
-
-        Returns
-        -------
-        list of int
-        """
+        """Give the files with cases that were refused, have no answer or failed, by number."""
         return [chunk for chunk in self._chunks if FAILED & self._statuses_of(chunk).keys()]
 
     def summary(self, names: Iterable[str] | None = None, **options: Any) -> Summary:

@@ -139,10 +139,6 @@ def open_folder(path: str | os.PathLike, share: Share | None = None) -> Folder:
     share : (int, int), optional
         What of the batch is looked at.
 
-    Returns
-    -------
-    Folder
-
     Raises
     ------
     SceneError
@@ -195,10 +191,6 @@ def begin_folder(path: Path, manifest: Mapping[str, Any], share: Share | None = 
         What is to be solved.
     share : (int, int), optional
         What of it is solved here, while others may solve the rest.
-
-    Returns
-    -------
-    Folder
 
     Raises
     ------

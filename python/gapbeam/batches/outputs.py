@@ -61,10 +61,6 @@ def find_outputs(scene: Scene, beam: Beam, names: Sequence[str]) -> tuple[Output
     names : sequence of str
         Of the outputs.
 
-    Returns
-    -------
-    tuple of Output
-
     Raises
     ------
     SceneError

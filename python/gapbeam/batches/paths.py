@@ -95,10 +95,6 @@ def find_paths(scene: Scene, names: Sequence[str]) -> tuple[KeyPath, ...]:
     names : sequence of str
         Of the columns.
 
-    Returns
-    -------
-    tuple of KeyPath
-
     Raises
     ------
     SceneError

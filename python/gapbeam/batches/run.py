@@ -115,10 +115,6 @@ def run_batch(
         As for `batch`.
     by_processes : bool
         Whether processes work instead of threads where cases are solved one by one, mostly in Python.
-
-    Returns
-    -------
-    Batch
     """
     if not os.fspath(out):
         raise SceneError("out", "give a folder for the results")

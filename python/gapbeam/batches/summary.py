@@ -121,7 +121,6 @@ def summarize(
     Parameters
     ----------
     batch : Batch
-        The batch.
     names : iterable of str, optional
         Of results; default all but the places of extremes.
     shares : sequence of float
@@ -130,10 +129,6 @@ def summarize(
         By name of a result one or more limits, to count the cases above.
     bins : int
         Parts of the histograms.
-
-    Returns
-    -------
-    Summary
 
     Raises
     ------
@@ -180,10 +175,6 @@ def distribution(values: np.ndarray, shares: Sequence[float] = SHARES, bins: int
         The numbers.
     shares, bins
         As for `summarize`.
-
-    Returns
-    -------
-    Distribution
     """
     counter = _Counter([], list(shares), bins)
     counter.range(values)

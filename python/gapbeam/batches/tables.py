@@ -270,10 +270,6 @@ def take_table(source: Any) -> Table:
         Name of a .csv or .parquet file; arrays by column; pairs of a name and an array; or what has rows of its own, as
         `gapbeam.sample.draw` gives it.
 
-    Returns
-    -------
-    Table
-
     Raises
     ------
     SceneError

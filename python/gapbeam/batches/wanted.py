@@ -57,10 +57,6 @@ def job_of(written: Scene, scene: Scene, beam: Beam, columns: Sequence[str], wan
     want : tuple of str or None
         What is kept of every case; None: `WANTED`.
 
-    Returns
-    -------
-    Job
-
     Raises
     ------
     SceneError

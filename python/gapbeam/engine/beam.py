@@ -130,10 +130,6 @@ class Beam(Layout):
         factors : numpy.ndarray
             Of all loads.
 
-        Returns
-        -------
-        Beam
-
         Raises
         ------
         EngineError

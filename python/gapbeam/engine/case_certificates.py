@@ -29,7 +29,6 @@ def case_certificates(
     Parameters
     ----------
     beam : Beam
-        The beam.
     rule : {"block", "single"}
         How contact states are found.
     factors : numpy.ndarray

@@ -90,7 +90,6 @@ def solve_combinations(
     Parameters
     ----------
     beam : Beam
-        The beam.
     factors : numpy.ndarray
         Factor of every load, combinations by loads.
     settlements : numpy.ndarray or None

@@ -16,7 +16,6 @@ def ground_runs(beam: Beam, ground: Ground) -> tuple[np.ndarray, np.ndarray]:
     Parameters
     ----------
     beam : Beam
-        The beam.
     ground : Ground
         A solution.
 

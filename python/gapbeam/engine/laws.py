@@ -39,10 +39,6 @@ def curve_values(code: int, parameters: list[float], d: float) -> CurveValues:
         Its parameters.
     d : float
         Displacement past the gap, 0 or more.
-
-    Returns
-    -------
-    CurveValues
     """
     return CurveValues(*_engine.gblawv(code, np.array(parameters), d).tolist())
 

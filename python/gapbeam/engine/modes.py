@@ -91,10 +91,6 @@ def shape_of_mode(state: State, what: int, value: float) -> Shape:
     value : float
         One of its values.
 
-    Returns
-    -------
-    Shape
-
     Raises
     ------
     EngineError

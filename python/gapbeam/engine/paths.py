@@ -27,7 +27,6 @@ def follow_stretch(beam: Beam, factor: float, closed: np.ndarray, marginal: np.n
     Parameters
     ----------
     beam : Beam
-        The beam.
     factor, closed
         As for `Beam.solve`; `closed` is the scheme at the factor.
     marginal : numpy.ndarray of int
@@ -87,10 +86,6 @@ class Followed:
     def history(self) -> History:
         """Give what there is along the path.
 
-        Returns
-        -------
-        History
-
         Raises
         ------
         EngineError
@@ -135,7 +130,6 @@ class Followed:
         stretch : int
             One of its run, from 0.
         factor : float
-            The load factor.
 
         Returns
         -------
@@ -168,7 +162,6 @@ class Followed:
         stretch : int
             From 0.
         factor : float
-            The load factor.
         state : Owned
             Its state there.
 
@@ -249,15 +242,10 @@ def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:
     Parameters
     ----------
     beam : Beam
-        The beam.
     rule : {"block", "single"}
         How schemes of the supports are found.
     closed : numpy.ndarray of int
         Where every search starts.
-
-    Returns
-    -------
-    GroundChanges
 
     Raises
     ------

@@ -248,12 +248,7 @@ class Solution(Record):
         return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs) and self.ground == other.ground
 
     def slopes(self) -> np.ndarray:
-        """Give the slopes of the smooth laws in the scene's units, in the order of `Beam.curves`.
-
-        Returns
-        -------
-        numpy.ndarray
-        """
+        """Give the slopes of the smooth laws in the scene's units, in the order of `Beam.curves`."""
         beam = self.state.beam
         return _engine.gbslop(beam.handle, self.state.handle, len(beam.curves) + 1)[:-1]
 

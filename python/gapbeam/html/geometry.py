@@ -82,7 +82,6 @@ def supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
     Parameters
     ----------
     scene : Scene
-        The scene.
     levels : numpy.ndarray
         Deflection at which each begins to act.
     """

@@ -130,10 +130,6 @@ def written(values: Any, most: int = 16) -> str:
     most : int
         Terms that are written out; longer sums stand in the table only.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> written([160.0, -71.5, 0.0])

@@ -244,7 +244,6 @@ def of_event(scene: Scene, event: Event | GroundEvent | TrainEvent) -> dict[str,
     Parameters
     ----------
     scene : Scene
-        The scene.
     event : Event, GroundEvent or TrainEvent
         What happens.
     """

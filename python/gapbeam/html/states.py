@@ -39,10 +39,6 @@ def packed(values: np.ndarray) -> str:
     values : numpy.ndarray
         The numbers.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> packed(np.array([1.0, -2.5]))

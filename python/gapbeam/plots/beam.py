@@ -135,7 +135,6 @@ def draw_beam(axes: Axes | Turned, scene: "Scene", states: tuple[str, ...], lane
     axes : matplotlib.axes.Axes or Turned
         The panel; its vertical unit is one point.
     scene : Scene
-        The scene.
     states : tuple of str
         State of each support.
     lanes : SupportLanes
@@ -173,7 +172,6 @@ def draw_contacts(
     axes : matplotlib.axes.Axes or Turned
         The panel, positive downward.
     scene : Scene
-        The scene.
     lanes : SupportLanes
         What each support does.
     step : Step

@@ -43,7 +43,6 @@ def draw_field(
     axes : matplotlib.axes.Axes or Turned
         The panel.
     scene : Scene
-        The scene.
     cells : Cells
         The fields.
     quantity : str
@@ -53,7 +52,6 @@ def draw_field(
     avoid : sequence of (float, float)
         Points that labels keep clear of.
     factor : float
-        Load factor.
     seats : sequence of (float, float)
         Points that are in the panel too.
 

@@ -53,7 +53,6 @@ def draw_table(scene: "Scene", table: "Columns", quantity: str, axes: Axes | Non
     Parameters
     ----------
     scene : Scene
-        The scene.
     table : Columns
         Table of fields of an envelope, a train or cases.
     quantity : str
@@ -75,7 +74,6 @@ def draw_tables(scene: "Scene", table: "Columns", title: str) -> Figure:
     Parameters
     ----------
     scene : Scene
-        The scene.
     table : Columns
         As for `draw_table`.
     title : str

@@ -151,7 +151,6 @@ def surface(scene: Scene, item: Foundation) -> tuple[np.ndarray, np.ndarray]:
     Parameters
     ----------
     scene : Scene
-        The scene.
     item : Foundation
         One of its foundations.
 
@@ -241,7 +240,6 @@ def contact_lines(scene: Scene, factor: float) -> Iterator[tuple[int, float, np.
     Parameters
     ----------
     scene : Scene
-        The scene.
     factor : float
         Load factor, to which loads have moved them.
     """
@@ -258,13 +256,11 @@ def near_surface(scene: Scene, cells: Cells, length: float, factor: float) -> li
     Parameters
     ----------
     scene : Scene
-        The scene.
     cells : Cells
         Its fields.
     length : float
         Length of the drawn beam (points).
     factor : float
-        Load factor.
 
     Returns
     -------
@@ -292,13 +288,11 @@ def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float, f
     axes : matplotlib.axes.Axes or Turned
         The panel with the deflection, positive downward.
     scene : Scene
-        The scene.
     width : float
         Length of the drawn beam (points).
     room : float
         What is left free beyond the surface, as a share of the range.
     factor : float
-        Load factor.
     """
     high, low = sorted(axes.get_ylim())
     size = low - high
@@ -318,7 +312,6 @@ def cells_a_span(scene: Scene, beam: Beam) -> int:
     Parameters
     ----------
     scene : Scene
-        The scene.
     beam : Beam
         Made of it.
     """
@@ -333,7 +326,6 @@ def points_a_span(scene: Scene, beam: Beam) -> float:
     Parameters
     ----------
     scene : Scene
-        The scene.
     beam : Beam
         Made of it.
 

@@ -53,10 +53,6 @@ def spread(wanted: list[float], apart: float, top: float) -> list[float]:
     apart, top : float
         Distance, and the upper end.
 
-    Returns
-    -------
-    list of float
-
     Examples
     --------
     >>> spread([0.0, 1.0, 50.0], 10.0, 100.0)

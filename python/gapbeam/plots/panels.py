@@ -83,7 +83,6 @@ def axis_label(scene: "Scene", quantity: str, words: str, positive: str | None =
     Parameters
     ----------
     scene : Scene
-        The scene.
     quantity, words : str
         What it shows, and what is written.
     positive : str, optional

@@ -62,10 +62,6 @@ def compact(svg: bytes) -> bytes:
     svg : bytes
         As matplotlib writes it; a unit is a point.
 
-    Returns
-    -------
-    bytes
-
     Examples
     --------
     >>> compact(b'<path d="M 0.12345 1" style="a"/>\n<path d="M 2 3" style="a"/><use x="1.23456" y="2"/>')

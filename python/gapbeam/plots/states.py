@@ -73,7 +73,6 @@ def kinds_of(beam: Beam, step: Step) -> tuple[str, ...]:
     Parameters
     ----------
     beam : Beam
-        The beam.
     step : Step
         The state.
 
@@ -107,13 +106,8 @@ def symbols_of(scene: Scene, kinds: tuple[str, ...]) -> tuple[str, ...]:
     Parameters
     ----------
     scene : Scene
-        The scene.
     kinds : tuple of str
         Of all supports.
-
-    Returns
-    -------
-    tuple of str
     """
     drawn = (not turns(one) and not (one.rotation == "fixed" and one.side == "both" and one.direction == "normal")
              for one in scene.supports)  # fmt: skip

@@ -213,7 +213,6 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
     Parameters
     ----------
     scene : Scene
-        The scene.
     k : int
         Number of the support.
 

@@ -25,10 +25,6 @@ def title_lines(text: str, width: float = WIDTH - 0.48) -> list[str]:
     width : float
         Of the page (inches).
 
-    Returns
-    -------
-    list of str
-
     Examples
     --------
     >>> title_lines("Bridge 7"), title_lines("Bridge 7, western abutment", 1.2)

@@ -49,10 +49,6 @@ def names_with_units(scene: Scene) -> list[str]:
     ----------
     scene : Scene
         The scene with its unit labels.
-
-    Returns
-    -------
-    list of str
     """
     units = ", ".join(filter(None, (fmt.unit(scene, "couple"), "rad")))
     return [

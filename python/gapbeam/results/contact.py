@@ -63,13 +63,8 @@ def position_in_words(scene: Scene, x: float, digits: int = fmt.DIGITS) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     x, digits : float, int
         The position, and significant digits.
-
-    Returns
-    -------
-    str
     """
     return fmt.number(x if abs(x) > fmt.NOISE * float(scene.span_ends()[-1]) else 0.0, digits)
 

@@ -57,13 +57,8 @@ def sum_of_loads(scene: Scene, factor: float) -> Sums:
     Parameters
     ----------
     scene : Scene
-        The scene.
     factor : float
         Load factor of all loads but the dead ones.
-
-    Returns
-    -------
-    Sums
 
     Examples
     --------
@@ -119,7 +114,6 @@ def sum_of_reactions(scene: Scene, step: Step) -> Sums:
     Parameters
     ----------
     scene : Scene
-        The scene.
     step : Step
         A state of it.
 
@@ -173,15 +167,6 @@ class AxialRun(NamedTuple):
 def axial_forces(scene: Scene) -> list[AxialRun]:
     """Give the axial forces that are given, from left to right.
 
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-
-    Returns
-    -------
-    list of AxialRun
-
     Examples
     --------
     >>> from gapbeam import Beam, Scene, Section
@@ -231,10 +216,6 @@ def acting_axial_forces(result: Result, step: Step) -> list[AxialRun]:
         Of one load.
     step : Step
         One of its states.
-
-    Returns
-    -------
-    list of AxialRun
     """
     scene, beam = result.scene, result._beam
     share = step.factor if scene.analysis.N_with == "live" else 1.0

@@ -61,10 +61,6 @@ def state_in_words(state: str) -> str:
     state : str
         As in results.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> state_in_words("closed"), state_in_words("branch 2"), state_in_words("touching")
@@ -75,17 +71,6 @@ def state_in_words(state: str) -> str:
 
 def share_in_words(scene: Scene, factor: float) -> str:
     """Word a load factor in a sentence: a share of the load where it scales all of it.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    factor : float
-        The load factor.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -111,7 +96,6 @@ def reaction_at(result: Result, envelope: PathEnvelope | None, support: int, fac
     support : int
         Its number.
     factor : float
-        The load factor.
     event : str
         What happens.
 
@@ -134,7 +118,6 @@ def event_in_words(scene: Scene, event: Event | GroundEvent | TrainEvent, reacti
     Parameters
     ----------
     scene : Scene
-        The scene.
     event : Event, GroundEvent or TrainEvent
         What happens.
     reaction : float, optional

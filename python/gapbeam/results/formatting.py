@@ -24,7 +24,6 @@ def support(scene: Scene, k: int) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     k : int
         Number of the support.
 
@@ -62,10 +61,6 @@ def number(value: float, digits: int = 6) -> str:
     digits : int
         Significant digits; whole numbers up to ten million are written out all the same.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> number(0.07718909), number(-0.0), number(44500.0), number(2.5e-9), number(1234567.8)
@@ -85,10 +80,6 @@ def column(values: Iterable[float], digits: int = 6) -> list[str]:
         The column.
     digits : int
         Significant digits of the largest value. Where most values are far smaller, all get some more decimals.
-
-    Returns
-    -------
-    list of str
 
     Examples
     --------
@@ -121,10 +112,6 @@ def without_noise(values: Iterable[float], bound: float | None = None) -> list[f
         Of one kind.
     bound : float, optional
         Error bound as a share of the largest value.
-
-    Returns
-    -------
-    list of float
 
     Examples
     --------
@@ -207,13 +194,8 @@ def title(scene: Scene, without: str = "Beam without a title") -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     without : str
         What to call it where it has none.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -263,10 +245,6 @@ def unit(scene: Scene, quantity: str) -> str:
         The scene with its unit labels.
     quantity : str
         ``"x"``, ``"deflection"``, ``"moment"``, ...; the names used in the results.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

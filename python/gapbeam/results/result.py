@@ -68,7 +68,6 @@ class Result(Verbs):
         Parameters
         ----------
         scene : Scene
-            The scene.
         beam : Beam
             Its beam.
         rule : str

@@ -67,13 +67,7 @@ def with_ground(sections: np.ndarray, grounds: Sequence[AxialGround], not_given:
 
 
 def places_of_marks(scene: Scene) -> list[float]:
-    """Give the places at which pictures mark that ground holds the beam along its axis.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    """
+    """Give the places at which pictures mark that ground holds the beam along its axis."""
     end, found = float(scene.span_ends()[-1]), []
     middles = (np.arange(MOST_MARKS) + 0.5) * (end / MOST_MARKS)
     for one in scene.axial_ground:

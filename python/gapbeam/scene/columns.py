@@ -73,10 +73,6 @@ def columns(scene: Scene) -> Columns:
     scene : Scene
         Keys and types are right.
 
-    Returns
-    -------
-    Columns
-
     Raises
     ------
     SceneError

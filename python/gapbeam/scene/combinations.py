@@ -139,10 +139,6 @@ def plan_combinations(scene: Scene, placed: Mapping[int, Sequence[Placement]] | 
     placed : mapping, optional
         Of combinations with ``parts``, by number, where the loads of that case stand; without it they stand everywhere.
 
-    Returns
-    -------
-    Plan
-
     Raises
     ------
     SceneError

@@ -64,7 +64,6 @@ def check_parts(place: str, combination: Combination) -> None:
     place : str
         Of the combination in the scene.
     combination : Combination
-        The combination.
 
     Raises
     ------

@@ -71,10 +71,6 @@ def to_toml(data: Mapping[str, Any]) -> str:
     data : mapping
         As of `Scene.to_dict`.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> print(to_toml({"title": "Two spans", "beam": {"spans": [6.0, 6.0], "EI": 1e4}, "supports": [{"node": 0}, {"node": 1}]}))
@@ -129,7 +125,6 @@ def replace(scene: S, path: str, value: Any) -> S:
     Parameters
     ----------
     scene : Scene
-        The scene.
     path : str
         Where the value is, as in messages: keys, numbers and names of entries.
     value : object
@@ -213,10 +208,6 @@ def unquoted(text: str) -> str:
     ----------
     text : str
         Without the quotation marks.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -104,10 +104,6 @@ def least_between(value: Any, stretch: tuple[float, float], start: float, stop: 
     start, stop : float
         The places.
 
-    Returns
-    -------
-    float
-
     Examples
     --------
     >>> least_between([(0.0, 1.0), (2.0, 3.0), (2.0, 0.5), (9.0, 4.0)], (0.0, 9.0), 1.0, 3.0)

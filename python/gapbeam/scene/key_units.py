@@ -40,7 +40,6 @@ def key_unit(scene: Scene, parts: Sequence[str | int]) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     parts : sequence of (str or int)
         Keys and numbers of entries from the top of the scene, as of `gapbeam.batches.paths.KeyPath`.
 

@@ -104,26 +104,12 @@ def settle_movements(scene: Scene) -> Scene:
 
 
 def moves_with_load(scene: Scene) -> bool:
-    """Whether supports or ground move with the load factor.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    """
+    """Whether supports or ground move with the load factor."""
     return any(isinstance(load, MovementLoad) and load.case != DEAD for load in scene.loads)
 
 
 def supports_moved(scene: Scene, factor: float) -> np.ndarray:
-    """Give how far loads have moved every support.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    factor : float
-        Load factor.
-    """
+    """Give how far loads have moved every support."""
     moves = np.zeros(len(scene.supports))
     for k, load in enumerate(scene.loads):
         if moves_support(load):
@@ -152,7 +138,6 @@ def what_moves(load: MovementLoad, place: str) -> Literal["support", "rotation",
     Parameters
     ----------
     load : MovementLoad
-        The load.
     place : str
         Its place in the scene.
 
@@ -183,7 +168,6 @@ def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
     Parameters
     ----------
     scene : Scene
-        The scene.
     k, load : int, MovementLoad
         The load and its number.
     """
@@ -193,24 +177,12 @@ def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
 
 
 def moves_support(load: Load) -> bool:
-    """Whether a load moves a support and does not turn it.
-
-    Parameters
-    ----------
-    load : Load
-        The load.
-    """
+    """Whether a load moves a support and does not turn it."""
     return isinstance(load, MovementLoad) and load.value is not None and load.foundation is None
 
 
 def moves_ground(load: Load) -> bool:
-    """Whether a load moves a foundation.
-
-    Parameters
-    ----------
-    load : Load
-        The load.
-    """
+    """Whether a load moves a foundation."""
     return isinstance(load, MovementLoad) and load.foundation is not None
 
 
@@ -220,7 +192,6 @@ def refuse_movements(scene: Scene, problem: str) -> None:
     Parameters
     ----------
     scene : Scene
-        The scene.
     problem : str
         What cannot be had with them.
 

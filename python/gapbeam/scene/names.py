@@ -132,10 +132,6 @@ def find(items: Sequence[Any], key: str | int, place: str, noun: str) -> int:
     place, noun : str
         Where the key stands, and what the entries are, for the error.
 
-    Returns
-    -------
-    int
-
     Raises
     ------
     SceneError

@@ -222,10 +222,6 @@ def as_written(source: Scene | Mapping[str, Any] | str | os.PathLike) -> Scene:
     source : Scene, mapping, str or path
         As for `read_scene`, in whose scenes restraints and hinges that are more than a stiffness are supports of their own.
 
-    Returns
-    -------
-    Scene
-
     Raises
     ------
     SceneError

@@ -67,15 +67,10 @@ def at_support(scene: Scene, quantity: str, k: int) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     quantity : str
         Of a support across the beam: ``"reaction"``, ``"opening"``, ``"gap"``, ...
     k : int
         Number of the support.
-
-    Returns
-    -------
-    str
     """
     if not turns(scene.supports[k]):
         return quantity

@@ -63,10 +63,6 @@ def meant_by_key(key: str, known: list[str], place: str) -> str | None:
     place : str
         Where the table is.
 
-    Returns
-    -------
-    str or None
-
     Examples
     --------
     >>> meant_by_key("P", ["type", "x", "F"], "loads[0]"), meant_by_key("k", ["node", "stiffness"], "supports[0]")

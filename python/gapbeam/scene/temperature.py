@@ -60,7 +60,6 @@ def effect_of(scene: Scene, k: int, load: Any) -> tuple[float, float]:
     k : int
         Number of the load.
     load : TemperatureLoad
-        The load.
 
     Returns
     -------

@@ -176,7 +176,6 @@ def train_name(scene: Scene, i: int) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     i : int
         Number of the train.
 

@@ -39,10 +39,6 @@ def shown(value: Any) -> str:
     value : object
         Anything that may stand in a scene.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> shown("0,02"), shown(True), shown([1, 2.5]), shown({"x": 1}), shown(None)
@@ -101,10 +97,6 @@ def number(value: float) -> str:
     value : float
         Any number.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> number(6.0), number(0.1 + 0.2), number(float("inf"))
@@ -121,10 +113,6 @@ def beyond(word: str) -> str:
     word : str
         The number.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> beyond("1e400")
@@ -140,10 +128,6 @@ def below(word: str) -> str:
     ----------
     word : str
         The number.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -190,10 +174,6 @@ def choice(words: Iterable[str], last: str = "or") -> str:
         The words; equal ones count once.
     last : str
         Conjunction before the last one.
-
-    Returns
-    -------
-    str
 
     Examples
     --------
@@ -268,10 +248,6 @@ def key_of(name: str) -> str:
     ----------
     name : str
         The key.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

@@ -213,10 +213,6 @@ def to_html(result: Any, path: str | os.PathLike | None = None) -> str:
     path : str or os.PathLike, optional
         File to write as well.
 
-    Returns
-    -------
-    str
-
     Raises
     ------
     ValueError

@@ -28,10 +28,6 @@ def excel_bytes(lines: list[str], tables: Mapping[str, Columns]) -> bytes:
     tables : mapping of Columns
         By name of the sheet.
 
-    Returns
-    -------
-    bytes
-
     Raises
     ------
     ImportError

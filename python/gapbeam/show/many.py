@@ -88,7 +88,6 @@ def batch_answer(batch: Batch | Summary) -> list[str]:
     Parameters
     ----------
     batch : Batch or Summary
-        The batch.
 
     Returns
     -------

@@ -75,11 +75,6 @@ def html_of_lines(lines: list[str], table: Columns | None, picture: Callable[[],
 def html_table(table: Columns) -> str:
     """Write some columns of a table as HTML.
 
-    Parameters
-    ----------
-    table : Columns
-        The table.
-
     Returns
     -------
     str

@@ -159,7 +159,6 @@ def scene_comparisons(source: Mapping[str, Any] | Scene | str, parts: Sequence[i
     Parameters
     ----------
     source : Scene, mapping or path
-        The scene.
     parts : sequence of int
         Elements into which each stretch between two places where anything changes is cut, one comparison for each.
 

@@ -180,10 +180,6 @@ def mesh(source: Mapping[str, Any] | Scene | str, parts: int, name: str = "") ->
     name : str
         What to call it.
 
-    Returns
-    -------
-    MeshedBeam
-
     Raises
     ------
     Unfit

@@ -216,7 +216,6 @@ def compare(beam: MeshedBeam, truth: Truth, chosen: Sequence[Method]) -> list[Me
     Parameters
     ----------
     beam : MeshedBeam
-        The beam.
     truth : Truth
         Its true answer.
     chosen : sequence of Method
@@ -273,10 +272,6 @@ def front(rows: Sequence[Measured]) -> list[bool]:
     ----------
     rows : sequence of Measured
         Of one beam.
-
-    Returns
-    -------
-    list of bool
 
     Examples
     --------

@@ -20,10 +20,6 @@ def to_csv(columns: Sequence[str], values: Sequence[Sequence]) -> str:
     values : sequence of sequence
         Rows.
 
-    Returns
-    -------
-    str
-
     Examples
     --------
     >>> to_csv(["beam", "error"], [["one, long", 0.1]])
@@ -63,10 +59,6 @@ def literal_markdown(text: str) -> str:
     ----------
     text : str
         One line.
-
-    Returns
-    -------
-    str
 
     Examples
     --------

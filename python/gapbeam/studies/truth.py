@@ -70,13 +70,8 @@ def solve_exactly(beam: MeshedBeam, closed: np.ndarray | None = None) -> Truth:
     Parameters
     ----------
     beam : MeshedBeam
-        The beam.
     closed : numpy.ndarray of bool, optional
         Contact state to begin with; default all closed.
-
-    Returns
-    -------
-    Truth
 
     Raises
     ------

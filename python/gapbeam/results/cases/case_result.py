@@ -34,10 +34,6 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
         Of all loads.
     varied : Varied
         Numbers of this one case.
-
-    Returns
-    -------
-    Result
     """
     if not varied.is_nothing:
         scene = replace_numbers(scene, beam.columns, varied)

@@ -318,10 +318,6 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     source, rule
         As for `prepare`.
 
-    Returns
-    -------
-    CaseSolver
-
     Raises
     ------
     SceneError

@@ -357,10 +357,6 @@ def solve_combined(scene: Scene, beam: Beam, rule: str, start: np.ndarray) -> Co
     start : numpy.ndarray of int
         Where every search starts: no result depends on those before it.
 
-    Returns
-    -------
-    CombinedResult
-
     Raises
     ------
     SceneError

@@ -300,10 +300,6 @@ def cases_of(arrays: dict[str, np.ndarray] | None, question: Asked | None, singl
         What was asked.
     single : bool
         Whether it was one case, without an axis of cases.
-
-    Returns
-    -------
-    Cases
     """
     cases = object.__new__(Cases)
     cases._fill(arrays, question, single)
@@ -365,10 +361,6 @@ def case_in_block(one: OneCase, block: np.ndarray, supports: np.ndarray | None, 
         As they were given to `OneCase.solve`.
     out : Cases, optional
         A case in this block, which it becomes.
-
-    Returns
-    -------
-    Cases
     """
     cases = out
     if cases is None:

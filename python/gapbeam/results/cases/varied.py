@@ -77,17 +77,12 @@ def vary(scene: Scene, columns: Columns, given: Mapping[str, Given], count: int)
     Parameters
     ----------
     scene : Scene
-        The scene.
     columns : Columns
         Its columns.
     given : mapping
         By `KEYS`, what is given instead of the scene's numbers.
     count : int
         Cases.
-
-    Returns
-    -------
-    Varied
 
     Raises
     ------

@@ -249,10 +249,6 @@ class Envelope(PartVerbs):
             Number of the combination.
         quantity : str
             Of a field or of supports; where nothing is known 0.
-
-        Returns
-        -------
-        float
         """
         if k not in self._bounds:
             bounds = self._state_of(k).error_bounds

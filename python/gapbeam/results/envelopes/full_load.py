@@ -29,10 +29,6 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
     x : numpy.ndarray, optional
         Places for them instead.
 
-    Returns
-    -------
-    Envelope
-
     Raises
     ------
     ValueError

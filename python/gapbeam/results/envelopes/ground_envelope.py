@@ -65,7 +65,6 @@ def on_foundation(state: Step, foundation: int, without: str) -> dict[str, float
     Parameters
     ----------
     state : Step
-        The state.
     foundation : int
         Its number.
     without : str

@@ -60,10 +60,6 @@ def count_states(result: Result) -> int:
     ----------
     result : Result
         A followed one.
-
-    Returns
-    -------
-    int
     """
     if result.path is None:
         return len(result.steps)

@@ -88,7 +88,6 @@ def curves_with_sources(curves: Curves, sources: Sequence[Any], keys: Sequence[s
     Parameters
     ----------
     curves : Curves
-        The curves.
     sources : sequence
         What they number.
     keys : sequence of str

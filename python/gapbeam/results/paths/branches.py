@@ -267,10 +267,6 @@ def follow_branches(result: Result) -> BranchPath:
     ----------
     result : Result
         Receives the status, and the reason where the load cannot go on.
-
-    Returns
-    -------
-    BranchPath
     """
     analysis = result.scene.analysis
     factors = np.asarray(analysis.history, dtype=float)

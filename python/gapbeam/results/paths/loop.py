@@ -93,10 +93,6 @@ def loop_of(result: Result, support: int | str | None = None, friction: bool = F
     friction : bool
         True: what friction does along the beam, instead of the reaction.
 
-    Returns
-    -------
-    Loop
-
     Raises
     ------
     ValueError

@@ -264,7 +264,6 @@ def modulus(foundation: Foundation, state: str, pressure: float, between: tuple[
     Parameters
     ----------
     foundation : Foundation
-        The foundation.
     state : str
         Of the zone: ``branch 2`` is on the second piece of a law.
     pressure : float

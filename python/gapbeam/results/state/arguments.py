@@ -68,10 +68,6 @@ def finite(place: str, value: Any) -> float:
     value : object
         What the caller gave.
 
-    Returns
-    -------
-    float
-
     Raises
     ------
     ValueError
@@ -96,10 +92,6 @@ def whole(place: str, value: Any, least: int | None = None) -> int:
         What the caller gave.
     least : int, optional
         The smallest that is allowed.
-
-    Returns
-    -------
-    int
 
     Raises
     ------

@@ -47,7 +47,6 @@ def piece_of(beam: Beam, support: int, closed: np.ndarray, breakpoints: np.ndarr
     Parameters
     ----------
     beam : Beam
-        The beam.
     support : int
         Number of the support in the scene, one of `Beam.laws`.
     closed : numpy.ndarray of int

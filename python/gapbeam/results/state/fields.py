@@ -75,7 +75,6 @@ def find_places(beam: Beam, x: np.ndarray, side: str) -> tuple[np.ndarray, np.nd
     Parameters
     ----------
     beam : Beam
-        The beam.
     x : numpy.ndarray
         The places.
     side : {"right", "left"}

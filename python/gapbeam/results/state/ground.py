@@ -100,7 +100,6 @@ def find_runs(beam: Beam, ground: Ground | None) -> tuple[Run, ...]:
     Parameters
     ----------
     beam : Beam
-        The beam.
     ground : Ground or None
         Its solution on the ground.
 

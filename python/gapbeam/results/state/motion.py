@@ -34,7 +34,6 @@ def describe_motion(beam: Beam, motion: np.ndarray) -> str:
     Parameters
     ----------
     beam : Beam
-        The beam.
     motion : numpy.ndarray
         Displacements of the nodes, positive downward, straight between hinges.
 
@@ -110,7 +109,6 @@ def describe_fall(
     Parameters
     ----------
     beam : Beam
-        The beam.
     where : str
         At or above which load factor; empty where that is said elsewhere.
     motion : numpy.ndarray or None

@@ -19,7 +19,6 @@ def choose_rule(scene: Scene, rule: str | None) -> str:
     Parameters
     ----------
     scene : Scene
-        The scene.
     rule : str or None
         What the caller gives.
 
@@ -45,7 +44,6 @@ def starting_scheme(beam: Beam, start: Sequence[bool] | None = None) -> np.ndarr
     Parameters
     ----------
     beam : Beam
-        The beam.
     start : sequence of bool, optional
         As for `solve`; default all closed, laws on their first piece.
     """

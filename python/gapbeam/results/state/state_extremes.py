@@ -42,7 +42,6 @@ def extremes_of_state(state: Step, beam: Beam, source: Source) -> dict[str, dict
     Parameters
     ----------
     state : Step
-        The state.
     beam : Beam
         Its beam.
     source : Source

@@ -343,7 +343,6 @@ def name_states(beam: Beam, closed: np.ndarray) -> tuple[str, ...]:
     Parameters
     ----------
     beam : Beam
-        The beam.
     closed : numpy.ndarray of int
         1 where a support that can carry acts.
 
@@ -377,7 +376,6 @@ def solve_step(beam: Beam, factor: float, rule: str, closed: np.ndarray) -> Step
     Parameters
     ----------
     beam : Beam
-        The beam.
     factor, rule, closed
         As for `Beam.solve`.
 

@@ -79,7 +79,6 @@ def train_data(train: TrainResult, scene: Scene, combination: str | None = None)
     Parameters
     ----------
     train : TrainResult
-        The train.
     scene : Scene
         Knows the names of supports and foundations.
     combination : str, optional

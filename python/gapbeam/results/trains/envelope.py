@@ -249,13 +249,8 @@ def places_along(beam: Beam, points: int = 20) -> np.ndarray:
     Parameters
     ----------
     beam : Beam
-        The beam.
     points : int
         Divisions of a span.
-
-    Returns
-    -------
-    numpy.ndarray
     """
     places = beam.places
     lengths = places.pieces[:, 0]
@@ -272,7 +267,6 @@ def places_given(beam: Beam, x: Any, name: str = "x") -> np.ndarray | None:
     Parameters
     ----------
     beam : Beam
-        The beam.
     x : array_like or None
         The places.
     name : str

@@ -33,15 +33,10 @@ def traversal_of(beam: Beam, course: Course, from_: float, to: float) -> Travers
     Parameters
     ----------
     beam : Beam
-        The beam.
     course : Course
         The train.
     from_, to : float
         Positions.
-
-    Returns
-    -------
-    Traversal
 
     Raises
     ------

@@ -202,10 +202,6 @@ class TrainResult(TrainVerbs):
         ----------
         combination : str, optional
             Name of the combination.
-
-        Returns
-        -------
-        list of Member
         """
         return [member for traversal in self.traversals for member in traversal.members(self, combination)]
 

@@ -89,10 +89,6 @@ def one_of(kind: str, kinds: Sequence[str] | Mapping[str, Any]) -> str:
     kinds : sequence or mapping of str
         What there is.
 
-    Returns
-    -------
-    str
-
     Raises
     ------
     ValueError

@@ -163,10 +163,6 @@ def by_support(scene: Scene, quantity: str, values: Sequence[Any]) -> Labelled:
         What the values are.
     values : sequence
         One for every support.
-
-    Returns
-    -------
-    Labelled
     """
     keys = [k if name is None else name for k, name in enumerate(names_of(scene.supports))]
     return Labelled(quantity, "support", keys, values)
