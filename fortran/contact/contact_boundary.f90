@@ -75,8 +75,7 @@ contains
         integer :: r, way, distance, j, k
 
         call find_runs(beam, closed, base, wrong, runs)
-        allocate (passed(size(closed)))
-        passed(:) = .false.
+        allocate (passed(size(closed)), source=.false.)
         do r = 1, ubound(runs, 1) - 1
             if (.not. (runs(r)%closed .and. runs(r)%wrong)) cycle
             do way = -1, 1, 2

@@ -131,8 +131,7 @@ contains
         logical :: refined
 
         if (error%code /= gapbeam_indeterminate) return
-        allocate (closed(size(start)))
-        closed(:) = start
+        allocate (closed, source=start)
         soft = beam
         stiffness = softest(beam)
         call limit_stiffness(soft%supports, stiffness)
@@ -257,8 +256,7 @@ contains
                     call turn_with(beam, direction)
                     outcome%in_doubt = in_doubt .or. is_blocked(beam%supports, direction)
                     call prefer_rotation_mode(beam, factor, direction)
-                    allocate (outcome%motion(0:size(beam%links)))
-                    outcome%motion(:) = direction(0:size(beam%links))
+                    allocate (outcome%motion(0:size(beam%links)), source=direction(0:size(beam%links)))
                     return
                 end if
                 displaced(from:to) = displaced(from:to) + way*direction(from:to)

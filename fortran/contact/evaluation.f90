@@ -99,8 +99,7 @@ contains
                 ! And little changes any more
                 call keep_factor(beam, work, follows)
                 if (follows) then
-                    allocate (search%kept(size(closed)))
-                    search%kept(:) = closed
+                    allocate (search%kept, source=closed)
                 end if
             end if
         end if

@@ -169,8 +169,7 @@ contains
         call look_beside(ground, first, beside)
         allocate (rates%displacement(0:size(ground%limit)), rates%push(0:size(ground%limit)), source=0.0_wp)
         allocate (rates%force(size(ground%parts)), rates%to(size(ground%parts)), source=0.0_wp)
-        allocate (rates%begins(0:size(ground%limit)))
-        rates%begins(:) = beside%begins .and. ground%moves
+        allocate (rates%begins(0:size(ground%limit)), source=beside%begins .and. ground%moves)
         call find_displacements(ground, beside, ground%moves .and. .not. beside%begins, rates%displacement, rates%lost)
         if (rates%lost) return
         do k = 1, size(ground%parts)

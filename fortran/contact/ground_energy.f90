@@ -151,8 +151,7 @@ contains
             end do
             call order_supports(supports(:m), beam)
             if (allocated(acting)) deallocate (acting)
-            allocate (acting(m))
-            acting(:) = .true.
+            allocate (acting(m), source=.true.)
             acting(:size(closed)) = closed
             call new_workspace(beam, work)
             call set_loads(beam, factor, work)

@@ -141,8 +141,7 @@ contains
         work%sprung = .true.
         call solve_deflections(beam, closed, work, state, place)
         work%sprung = .false.
-        allocate (deflection(size(support)))
-        deflection(:) = work%answers(beam%supports(support)%node)%deflection
+        allocate (deflection(size(support)), source=work%answers(beam%supports(support)%node)%deflection)
     end subroutine solve_springs
 
     !> Largest step, 1 at most, that keeps all components from becoming negative

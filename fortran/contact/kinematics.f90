@@ -196,8 +196,7 @@ contains
         associate (motion => followed%motions(followed%number), origin => followed%origin, y => followed%y)
             motion%first = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1)
             motion%last = origin - 1 + findloc(abs(y(origin:to)) > 0.0_wp, .true., 1, back=.true.)
-            allocate (motion%displacement(motion%first:motion%last))
-            motion%displacement(:) = y(motion%first:motion%last)/maxval(abs(y(origin:to)))
+            allocate (motion%displacement(motion%first:motion%last), source=y(motion%first:motion%last)/maxval(abs(y(origin:to))))
         end associate
     end subroutine record
 

@@ -76,8 +76,7 @@ contains
         logical, allocatable :: taken(:)
         integer :: k
 
-        allocate (taken(0:last))
-        taken = .false.
+        allocate (taken(0:last), source=.false.)
         do k = 1, size(closed)
             associate (s => supports(k))
                 if (s%side == both .and. is_rigid(s)) taken(s%node) = .true.

@@ -26,8 +26,7 @@ contains
         integer, allocatable :: steps(:)
         integer :: j, m, number
 
-        allocate (steps(size(ground%pieces)))
-        steps(:) = steps_of(ground)
+        allocate (steps(size(ground%pieces)), source=steps_of(ground))
         do j = 1, size(steps)
             if (stiffer(j) > 0.0_wp) then
                 steps(j) = steps_of_piece(ground, j, stiffer(j))

@@ -147,8 +147,7 @@ contains
             beam%turning = node(given%turning)
             beam%turned = given%turned
         end if
-        allocate (supports(size(given%supports)))
-        supports(:) = given%supports
+        allocate (supports, source=given%supports)
         do k = 1, size(supports)
             associate (i => supports(k)%node)
                 if (i > n) then

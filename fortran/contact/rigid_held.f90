@@ -43,8 +43,7 @@ contains
         call place_stretches(ground, rigid%zones, factor, rigid%grounded)
         ns = size(closed)
         call add_holds(rigid, ns, number)
-        allocate (acting(size(rigid%grounded%beam%supports)))
-        acting(:) = .true.
+        allocate (acting(size(rigid%grounded%beam%supports)), source=.true.)
         acting(:ns) = closed
         if (present(start)) acting(ns + 1:) = pack(start, number > 0)
         call new_workspace(rigid%grounded%beam, rigid%work)

@@ -140,8 +140,7 @@ contains
         logical, allocatable :: before(:)
         integer :: first, last
 
-        allocate (before(size(wrong)))
-        before(:) = wrong
+        allocate (before, source=wrong)
         last = 0
         do while (last < size(run))
             first = last + 1
@@ -164,8 +163,7 @@ contains
         type(mark_type), intent(out) :: mark
         logical, intent(in) :: closed(:)
 
-        allocate (mark%closed(size(closed)))
-        mark%closed(:) = closed
+        allocate (mark%closed, source=closed)
     end subroutine set_mark
 
     !> Is this scheme the marked one? The mark is moved here after 1, 2, 4, ... schemes (Brent 1980), so every cycle is found

@@ -136,8 +136,7 @@ contains
         logical, allocatable :: before(:)
 
         if (search%with_laws .and. search%by_pieces) then
-            allocate (before(size(closed)))
-            before(:) = closed
+            allocate (before, source=closed)
             closed(:) = closed .neqv. search%wrong
             call advance_one_segment(beam%supports, before, closed)
         else
@@ -251,8 +250,7 @@ contains
             nodes = nodes + (to - from)
         end do
         if (nodes > most_in_subdomains*size(beam%links)) return
-        allocate (before(size(closed)))
-        before(:) = closed
+        allocate (before, source=closed)
         solves = 0.0_wp
         place = 1
         do

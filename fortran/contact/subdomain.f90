@@ -27,8 +27,7 @@ contains
 
         felt = 0.0_wp
         count = 0
-        allocate (stiffness(size(beam%supports)))
-        stiffness(:) = stiffness_of_changing(beam%supports)
+        allocate (stiffness(size(beam%supports)), source=stiffness_of_changing(beam%supports))
         do k = 1, size(stiffness)
             if (.not. stiffness(k) > 0.0_wp) cycle
             count = count + 1
@@ -97,8 +96,7 @@ contains
         subdomain%force(:, :) = beam%force(:, from:to)
         subdomain%couple(:, :) = beam%couple(:, from:to)
         associate (there => beam%order(beam%first(from):beam%first(to + 1) - 1))
-            allocate (number(size(there)))
-            number(:) = there
+            allocate (number, source=there)
         end associate
         ! In the caller's order
         do k = 2, size(number)

@@ -229,8 +229,7 @@ contains
 
         kind(:) = beam%kind
         if (.not. allocated(beam%turning)) return
-        allocate (held(0:last_place(beam)))
-        held(:) = .false.
+        allocate (held(0:last_place(beam)), source=.false.)
         call mark_held(beam%supports, acting, held)
         do j = 1, size(beam%turning)
             associate (holds => held(size(beam%links) + j), here => kind(beam%turning(j)))

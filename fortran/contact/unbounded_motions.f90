@@ -111,8 +111,7 @@ contains
                 exit
             end do
         end do
-        allocate (gram(0:width, size(motions)))
-        gram(:, :) = 0.0_wp
+        allocate (gram(0:width, size(motions)), source=0.0_wp)
         do k = 1, size(motions)
             do j = 0, min(width, k - 1)
                 from = max(motions(k)%first, motions(k - j)%first)

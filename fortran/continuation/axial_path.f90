@@ -14,8 +14,7 @@ module gapbeam_axial_path
     use gapbeam_axial_rates, only: moves_at_once, not_told
     use gapbeam_axial_slip, only: find_rates_by_parts
     use gapbeam_history_stretch, only: stretch_type, nothing_changes
-    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, along_type, &
-        mechanism, no_limit, cut_off
+    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_column, mechanism, no_limit, cut_off
     implicit none
     private
     public :: follow_along_axis

@@ -65,8 +65,7 @@ contains
         branch%responses%settling(:) = settling
         ! Stretches on ground and under axial forces have no local updates
         if (.not. allocated(beam%ground)) call new_local(in_doubles, unloading == parallel, settling, branch%local)
-        allocate (branch%deflection(0:last_place(beam)))
-        branch%deflection(:) = 0.0_wp
+        allocate (branch%deflection(0:last_place(beam)), source=0.0_wp)
         call solve_responses(branch%beam, closed, branch%responses)
         branch%way%closed = closed
         branch%way%direction = direction
@@ -262,8 +261,7 @@ contains
         logical, allocatable :: reached(:), broken(:), other(:)
         integer :: v, w, best, came
 
-        allocate (reached(size(at_hand)))
-        reached(:) = at_hand
+        allocate (reached, source=at_hand)
         allocate (broken(size(at_hand)))
         call break_supports(branch, reached, broken)
         associate (laws => branch%beam%supports, work => branch%responses)

@@ -115,8 +115,7 @@ contains
             joined(n) = run
         end do
         deallocate (runs)
-        allocate (runs(n))
-        runs(:) = joined(:n)
+        allocate (runs(n), source=joined(:n))
     end subroutine join_thin
 
     !> Are two runs of one layer

@@ -182,8 +182,7 @@ contains
         end if
         path%segments = path%segments + 1
         path%segment(path%segments)%from = from
-        allocate (path%segment(path%segments)%closed(size(held%closed)))
-        path%segment(path%segments)%closed(:) = held%closed
+        allocate (path%segment(path%segments)%closed, source=held%closed)
     end subroutine add_segment
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind

@@ -75,8 +75,7 @@ contains
         problem%last = last
         problem%state = state
         problem%on_curves = size(smooth_supports(assembled)) > 0
-        allocate (problem%start(size(state%closed)))
-        problem%start(:) = state%closed
+        allocate (problem%start, source=state%closed)
         do k = 1, size(assembled%layers)
             associate (layer => assembled%layers(k))
                 if (.not. has_limit(layer, assembled%law_pieces)) cycle

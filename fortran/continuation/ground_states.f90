@@ -97,14 +97,12 @@ contains
         problem%solves = problem%solves + problem%state%solves
         held%stands = problem%state%status == gapbeam_solved
         if (held%stands) then
-            allocate (held%closed(size(problem%start)))
-            held%closed(:) = problem%state%closed
+            allocate (held%closed, source=problem%state%closed)
             held%on_curves = deflections_at_curves(problem%assembled, problem%state%deflection)
             call start_from(problem%state%ground, problem%state%closed, held%start)
             call find_zones(problem%assembled, problem%state%ground, held%zones, error)
         else
-            allocate (held%motion(0:size(problem%state%motion) - 1))
-            held%motion(:) = problem%state%motion
+            allocate (held%motion(0:size(problem%state%motion) - 1), source=problem%state%motion)
             held%reached = problem%state%ground%axial_share*at
         end if
         call move_alloc(held, point)
@@ -155,8 +153,7 @@ contains
             call end_if_stopped(problem%assembled%beam%watch, error)
             if (allocated(error)) return
             if (settled .and. .not. has_short_zone(held%start%zones)) then
-                allocate (held%closed(size(problem%start)))
-                held%closed(:) = held%start%closed
+                allocate (held%closed, source=held%start%closed)
                 call take_zones(held%start%zones, solution)
                 call find_zones(problem%assembled, solution, held%zones, error)
                 held%stands = .true.

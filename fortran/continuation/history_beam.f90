@@ -62,8 +62,7 @@ contains
         call full_contact(fine, zones)
         call place_stretches(fine, zones, 0.0_qp, grounded)
         beam = grounded%beam
-        allocate (node(0:ubound(grounded%node, 1)))
-        node(:) = grounded%node
+        allocate (node(0:ubound(grounded%node, 1)), source=grounded%node)
     end subroutine make_history_beam
 
     !> Supports whose forces fall are refused in stretches: nothing there tells stable states from others

@@ -186,8 +186,7 @@ contains
         supports = assembled%normal(switching(stretch, before))
         if (size(supports) < 2) return
         associate (first => minval(supports), last => maxval(supports))
-            allocate (changes(first:last))
-            changes(:) = .false.
+            allocate (changes(first:last), source=.false.)
             changes(supports) = .true.
             supports = pack([(i, i=first, last)], changes)
         end associate

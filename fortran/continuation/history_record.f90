@@ -294,8 +294,7 @@ contains
         if (allocated(history%on_laws)) then
             runs = history%on_laws%runs
         else
-            allocate (runs(2, history%number))
-            runs(:, :) = spread([(k, k=1, history%number)], 1, 2)
+            allocate (runs(2, history%number), source=spread([(k, k=1, history%number)], 1, 2))
         end if
     end function runs_of
 

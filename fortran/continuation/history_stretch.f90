@@ -62,8 +62,7 @@ contains
             if (allocated(laws)) stretch%laws = laws
             return
         end if
-        allocate (differs(size(places)))
-        differs(:) = closed .neqv. last%closed(places)
+        allocate (differs(size(places)), source=closed .neqv. last%closed(places))
         if (allocated(laws)) differs(:) = differs .or. .not. same_law(laws, last%laws(places))
         if (2*(last%number + count(differs)) <= size(last%closed)) then
             stretch%changed = pack(places, differs)

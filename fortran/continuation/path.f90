@@ -100,8 +100,7 @@ contains
         type(error_type), allocatable :: error
         logical, allocatable :: acting(:)
 
-        allocate (acting(size(closed)))
-        acting(:) = closed
+        allocate (acting, source=closed)
         call find_scheme(beam, detail, factor, rule_block, acting, outcome, error)
         right = .not. allocated(error) .and. outcome%status == gapbeam_solved
         if (right) right = all((acting .eqv. closed) .or. outcome%undecided)

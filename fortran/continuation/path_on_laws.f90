@@ -14,10 +14,10 @@ module gapbeam_path_on_laws
     use gapbeam_state, only: solve_state
     use gapbeam_pieces, only: acting_type, acts_in
     use gapbeam_smooth_laws, only: smooth_supports
-    use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose, is_lost
+    use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose
     use gapbeam_arc_states, only: eigenvalues_at, wrongness_of
     use gapbeam_arc_roots, only: arc_test_type, of_factor, of_breakpoint, find_root
-    use gapbeam_history_record, only: history_type, on_laws_type, pieces_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
+    use gapbeam_history_record, only: history_type, pieces_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
     implicit none
     private
     public :: view_type, begin_on_laws, join_after, beam_of, end_of, arc_about, is_near, keep_end, forget_end, check_on_laws, &

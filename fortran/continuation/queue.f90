@@ -26,8 +26,7 @@ contains
         do while (queue%leaves < size)
             queue%leaves = 2*queue%leaves
         end do
-        allocate (queue%least(2*queue%leaves - 1))
-        queue%least(:) = huge(1.0_wp)
+        allocate (queue%least(2*queue%leaves - 1), source=huge(1.0_wp))
     end subroutine new_queue
 
     !> Set the key of a support

@@ -55,8 +55,7 @@ contains
         call new_lines(beam, responses%lines_type)
         allocate (responses%response(size(beam%supports)), responses%settling(size(beam%supports)))
         responses%settling(:) = 0.0_wp
-        allocate (responses%closed(size(beam%supports)))
-        responses%closed(:) = .false.
+        allocate (responses%closed(size(beam%supports)), source=.false.)
     end subroutine new_responses
 
     !> Solve a region

@@ -58,8 +58,7 @@ contains
 
         call new_lines(beam, stretch%lines_type)
         call new_queue(size(beam%supports), stretch%queue)
-        allocate (stretch%last_change(size(beam%supports)))
-        stretch%last_change(:) = -huge(1.0_wp)
+        allocate (stretch%last_change(size(beam%supports)), source=-huge(1.0_wp))
     end subroutine new_stretch
 
     !> Solve v0 and v1 of a scheme; the stretch is not current if that takes more than a plain solve
@@ -149,8 +148,7 @@ contains
         type(response_type) :: response
         integer :: k
 
-        allocate (there(size(closed)))
-        there(:) = .false.
+        allocate (there(size(closed)), source=.false.)
         there(at_zero) = .true.
         do k = 1, size(closed)
             if (.not. is_watched_in(beam%supports, closed, k)) cycle

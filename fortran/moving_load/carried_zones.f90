@@ -44,8 +44,7 @@ contains
             end do
             call new_zones(sum(steps) + size(zones%piece), size(zones%acts, 1), steps, carried%zones)
         end associate
-        allocate (carried%closed(size(start%closed)))
-        carried%closed(:) = start%closed
+        allocate (carried%closed, source=start%closed)
         m = 0
         i = 1
         do j = 1, size(steps)

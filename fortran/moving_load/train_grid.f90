@@ -121,8 +121,7 @@ contains
         integer :: j
 
         associate (supports => assembled%model%supports)
-            allocate (at(size(supports)))
-            at(:) = [(place_of(assembled, supports(j)%x, supports(j)%node), j=1, size(supports))]
+            allocate (at(size(supports)), source=[(place_of(assembled, supports(j)%x, supports(j)%node), j=1, size(supports))])
         end associate
         call sort(at)
         step = end_of_beam(assembled)/max(1, count(at(2:) > at(:size(at) - 1)))

@@ -214,8 +214,7 @@ contains
                     call add(run, maxloc(value, 1), gain)
                     return
                 end if
-                allocate (bend(2:n - 1))
-                bend(:) = bends(tables(run)%at, value)
+                allocate (bend(2:n - 1), source=bends(tables(run)%at, value))
                 do k = 2, n - 1
                     if (value(k) >= value(k - 1) .and. value(k) >= value(k + 1)) call add(run, k, bend(k))
                 end do
@@ -279,8 +278,7 @@ contains
         integer :: i, k
         logical :: beside
 
-        allocate (at(size(found)))
-        at(:) = found%at
+        at = found%at
         where (found%value < least) at = huge(at)
         do i = 1, size(found)
             k = minloc(at, 1)

@@ -381,8 +381,7 @@ contains
         logical, allocatable :: needed(:)
         integer :: k
 
-        allocate (needed(problem%states))
-        needed(:) = .false.
+        allocate (needed(problem%states), source=.false.)
         do k = 1, size(runs%runs)
             needed(runs%runs(k)%states) = .true.
         end do

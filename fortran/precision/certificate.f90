@@ -81,8 +81,7 @@ contains
         integer :: state, place, n
 
         n = size(beam%links)
-        allocate (acting(size(closed)))
-        acting(:) = closed
+        allocate (acting, source=closed)
         call refine_loaded_beam(beam, detail, real(factor, qp), fine, work)
         if (has_laws(beam%supports)) then
             ! Of several states the one that is asked about

@@ -21,7 +21,6 @@ module gapbeam_compressed
     use gapbeam_ground_steps, only: greatest_modulus
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, full_contact
     use gapbeam_moved_ground, only: under_share
-    use gapbeam_layers, only: layer_type
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, mode_shape_type, count_modes, find_mode_shape
     use gapbeam_contact_state, only: outcome_type, is_solved

@@ -103,8 +103,7 @@ contains
         logical, allocatable :: undecided(:)
         logical :: in_doubt
 
-        allocate (undecided(size(closed)))
-        undecided(:) = .false.
+        allocate (undecided(size(closed)), source=.false.)
         if (rule == rule_given) then
             call solve_given(beam, closed, undecided, work, outcome)
             if (allocated(outcome%undecided)) return
@@ -293,8 +292,7 @@ contains
                                               "rounding hides which supports act: check their numbers and units")
             if (allocated(error)) return
         end if
-        allocate (reaction(size(closed)))
-        reaction(:) = fine_work%reaction
+        allocate (reaction, source=fine_work%reaction)
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
         call refuse_hidden(fine%supports, closed, reaction, fine_work, error)
         if (allocated(error)) return

@@ -209,8 +209,7 @@ contains
         solution%axial_share = 0.0_wp
         if (abs(way%factor) > 0.0_wp) solution%axial_share = way%last%factor/way%factor
         outcome = outcome_type(status=gapbeam_no_equilibrium)
-        allocate (outcome%motion(0:size(way%ground%pieces)))
-        outcome%motion(:) = way%last%deflection - way%earlier%deflection
+        allocate (outcome%motion(0:size(way%ground%pieces)), source=way%last%deflection - way%earlier%deflection)
         most = maxval(abs(outcome%motion))
         if (most > 0.0_wp) outcome%motion(:) = outcome%motion/most
     end subroutine give_way

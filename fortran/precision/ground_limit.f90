@@ -78,8 +78,7 @@ contains
         if (.not. any(abs(best) > 0.0_qp)) return
         share = best(1) + share*(best(2) - best(1))
         where (abs(share) <= fine_rounding) share = 0.0_qp
-        allocate (motion(0:size(ground%pieces)))
-        motion(:) = real(share/maxval(abs(share)), wp)
+        allocate (motion(0:size(ground%pieces)), source=real(share/maxval(abs(share)), wp))
     end subroutine find_collapse
 
     !> Between two load factors, neighbours in double precision of which the loads of the first one are borne, and of the second not

@@ -76,8 +76,7 @@ contains
 
         call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
         if (allocated(error)) return
-        allocate (start(size(closed)))
-        start(:) = closed
+        allocate (start, source=closed)
         call refine_ground(ground, fine)
         if (any(ground%layers%rigid)) then
             call solve_on_rigid_ground(ground, fine, factor, rule, closed, grounded, work, solution, outcome, error)

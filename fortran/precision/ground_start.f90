@@ -29,8 +29,7 @@ contains
         type(ground_start_type), intent(out) :: start
         integer :: i
 
-        allocate (start%closed(size(closed)))
-        start%closed(:) = closed
+        allocate (start%closed, source=closed)
         start%factor = solution%factor
         call new_zones(size(solution%piece), size(solution%acts, 1), solution%steps, start%zones)
         start%zones%piece(:) = solution%piece
@@ -38,8 +37,7 @@ contains
         start%zones%to(:) = solution%to
         start%zones%acts(:, :) = solution%acts
         if (allocated(solution%pushing)) then
-            allocate (start%zones%pushed(0:size(solution%piece)))
-            start%zones%pushed(:) = solution%pushing > 0
+            allocate (start%zones%pushed(0:size(solution%piece)), source=solution%pushing > 0)
         end if
         do i = 1, size(solution%piece)
             associate (ends => solution%ends(i), stretch => solution%stretches(i))

@@ -33,8 +33,7 @@ contains
         fine%first(:) = ground%first
         fine%laws(:) = fine_law(ground%laws)
         if (allocated(ground%mass)) then
-            allocate (fine%mass(0:ubound(ground%mass, 1)))
-            fine%mass(:) = ground%mass
+            allocate (fine%mass(0:ubound(ground%mass, 1)), source=real(ground%mass, qp))
         end if
         if (.not. allocated(ground%moving)) return
         allocate (fine%moving)
@@ -126,8 +125,7 @@ contains
         real(qp), allocatable :: ends(:)
         integer :: i
 
-        allocate (ends(size(zones%to)))
-        ends(:) = zones%to
+        allocate (ends, source=real(zones%to, qp))
         do i = 1, size(ends)
             if (i < size(ends)) then
                 if (zones%piece(i + 1) == zones%piece(i)) cycle

@@ -161,8 +161,7 @@ contains
                 answers(i - 1)%moment_right = straightened(fine, rigid, z%piece(i))
                 answers(i)%moment_left = answers(i - 1)%moment_right
             end do
-            allocate (acting(size(rigid%grounded%beam%supports)))
-            acting(:) = .true.
+            allocate (acting(size(rigid%grounded%beam%supports)), source=.true.)
             acting(:size(closed)) = closed
             call take_rounded(fine, factor, z, rigid%grounded, acting, rigid%work, solution)
             solution%reaction = solution%reaction(:size(closed))

@@ -173,8 +173,7 @@ contains
 
         of_forces%known = sensitivity%known
         of_forces%pivoting = sensitivity%pivoting
-        allocate (of_forces%weight(4, 0:size(beam%links)))
-        of_forces%weight(:, :) = 0.0_wp
+        allocate (of_forces%weight(4, 0:size(beam%links)), source=0.0_wp)
         call add_forces(work, force, of_forces)
         call largest_movement(beam, of_forces, of_deflections, work, way)
     end subroutine way_of_forces
@@ -300,8 +299,7 @@ contains
                 call add_functional(beam, work%nodes(0:n), merge(of_reactions, of_deflections, by_force), i, &
                                     [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], rhs)
             end if
-            allocate (result(0:size(beam%links)))
-            result(:) = rhs
+            allocate (result(0:size(beam%links)), source=rhs)
             call solve_again(beam%links, sensitivity, work, rhs, regular)
             movement = sum(sensitivity%weight*abs(effects(beam, work%nodes(0:n), result, work%correction)))
             if (by_force .and. i < beam%supports(k)%node) then

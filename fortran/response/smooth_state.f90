@@ -67,8 +67,7 @@ contains
         how = rule
         if (rule == rule_given) how = rule_extended
         if (present(near)) then
-            allocate (closed(size(state%closed)))
-            closed(:) = state%closed
+            allocate (closed, source=state%closed)
             call begin_with_tangents(assembled, numbers, near, state)
             if (allocated(state%laws)) then
                 call solve_state(assembled, factor, how, state, error, start)

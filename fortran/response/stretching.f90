@@ -126,8 +126,7 @@ contains
         end do
         stretching%first = minval(held) + 1
         stretching%last = maxval(held)
-        allocate (stretching%stretched(size(assembled%axial%flexibility)))
-        stretching%stretched(:) = 0.0_wp
+        allocate (stretching%stretched(size(assembled%axial%flexibility)), source=0.0_wp)
         ! Slopes of a millionth
         stretching%first_guess = scale(1e-12_wp*sum(assembled%pieces%length), assembled%units%length &
                                        - assembled%axial%units%deflection)

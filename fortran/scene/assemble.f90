@@ -7,13 +7,12 @@ module gapbeam_assemble
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, no_memory, gapbeam_no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
-    use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, &
-        gapbeam_movement, gapbeam_dead, gapbeam_right_end
+    use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
     use gapbeam_axial_force, only: check_axial_force, check_masses, axial_loads_may_bend
     use gapbeam_piece_stiffness, only: assign_sections
     use gapbeam_stations, only: place_span_ends, locate, merge_stations
-    use gapbeam_check, only: check_spans, check_rest, check_loads, entry_type, refuse_number
+    use gapbeam_check, only: check_spans, check_rest, check_loads
     use gapbeam_support_laws, only: gather_points
     use gapbeam_check_laws, only: check_laws
     use gapbeam_check_axial, only: check_along

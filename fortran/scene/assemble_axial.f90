@@ -115,13 +115,8 @@ contains
                     axial%force(j, i) = axial%force(j, i) + scale(load%value, -axial%units%force)
                 end associate
             end do
-            if (moves_along(assembled) .and. any(is_smooth(model%supports%law))) then
-                k = findloc(model%supports%direction == gapbeam_axial .and. abs(assembled%growth) > 0.0_wp, .true., 1)
-                call refuse(error, of_supports, k, size(model%supports), bad_law, "direction", "a load that moves an axial "// &
-                            "support beside a support whose law is a curve is not available in this version; give the points "// &
-                            "of the curve")
-                return
-            end if
+            if (moves_along(assembled)) call check_curves(assembled, error)
+            if (allocated(error)) return
             if (has_links_along(model, assembled%with_law) .or. moves_along(assembled)) call assemble_links_along(assembled)
             if (allocated(axial%limit)) call lay_ground(assembled, error)
         end associate
@@ -244,6 +239,20 @@ contains
         end subroutine say
 
     end subroutine lay_ground
+
+    !> Refuse supports whose law is a curve where a load moves a support along the beam
+    subroutine check_curves(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        !> The support that moves
+        type(error_type), allocatable, intent(out) :: error
+
+        associate (s => assembled%model%supports)
+            if (.not. any(is_smooth(s%law))) return
+            call refuse(error, of_supports, findloc(s%direction == gapbeam_axial .and. abs(assembled%growth) > 0.0_wp, .true., 1), &
+                        size(s), bad_law, "direction", "a load that moves an axial support beside a support whose law is a "// &
+                        "curve is not available in this version; give the points of the curve")
+        end associate
+    end subroutine check_curves
 
     !> Does a load move a support along the beam
     pure function moves_along(assembled) result(it_does)

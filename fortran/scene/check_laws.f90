@@ -23,8 +23,7 @@ contains
         character(len=:), allocatable :: problem
         integer :: i, first
 
-        allocate (seen(size(model%supports)))
-        seen(:) = .false.
+        allocate (seen(size(model%supports)), source=.false.)
         first = 1
         do i = 1, size(law)
             associate (k => law(i)%support)
