@@ -72,8 +72,7 @@ contains
         real(wp), intent(in) :: b(0:)
         !> The place, 0..1
         real(wp), intent(in) :: u
-        real(wp) :: value
-        real(wp) :: c(0:ubound(b, 1))
+        real(wp) :: value, c(0:ubound(b, 1))
         integer :: k
 
         c(:) = b
@@ -193,8 +192,7 @@ contains
         !> Shape (0:degree)
         real(wp), intent(in) :: b(0:)
         real(wp), intent(in) :: from, to
-        real(wp) :: u
-        real(wp) :: low, high
+        real(wp) :: u, low, high
         integer :: step
 
         low = from

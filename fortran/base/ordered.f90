@@ -47,8 +47,7 @@ contains
     !> The last of numbers in order that is not above another one, counted from 0; 0 also if none is
     pure function last_not_above(numbers, x) result(low)
         real(wp), intent(in) :: numbers(0:), x
-        integer :: low
-        integer :: high, middle
+        integer :: low, high, middle
 
         low = 0
         high = size(numbers)

@@ -301,8 +301,7 @@ contains
 
     !> Value and two derivatives of a polynomial
     pure subroutine line(b, u, found)
-        real(wp), intent(in) :: b(0:)
-        real(wp), intent(in) :: u
+        real(wp), intent(in) :: b(0:), u
         real(wp), intent(out) :: found(3)
         integer :: n
 

@@ -58,8 +58,7 @@ contains
 
     !> Do all Bernstein coefficients on the interval have one sign: then there is no root
     pure function keeps_sign(coefficients, length) result(keeps)
-        real(wp), intent(in) :: coefficients(0:)
-        real(wp), intent(in) :: length
+        real(wp), intent(in) :: coefficients(0:), length
         logical :: keeps
         real(wp) :: b(0:ubound(coefficients, 1)), weight, power
         integer :: n, i, k
@@ -81,8 +80,7 @@ contains
 
     !> Horner's rule
     pure function value(coefficients, s) result(p)
-        real(wp), intent(in) :: coefficients(0:)
-        real(wp), intent(in) :: s
+        real(wp), intent(in) :: coefficients(0:), s
         real(wp) :: p
         integer :: k
 
@@ -94,10 +92,8 @@ contains
 
     !> Newton's method kept inside a shrinking bracket by bisection
     pure function bracketed_root(coefficients, low, high) result(root)
-        real(wp), intent(in) :: coefficients(0:)
-        real(wp), intent(in) :: low, high
-        real(wp) :: root
-        real(wp) :: a, b, f_a, f, slope, next
+        real(wp), intent(in) :: coefficients(0:), low, high
+        real(wp) :: root, a, b, f_a, f, slope, next
         integer :: step, k
 
         a = low

@@ -40,8 +40,7 @@ contains
     !> A number without the noise of its last bits, as C's format %.15g writes it
     pure function fifteen_digits(value) result(text)
         real(wp), intent(in) :: value
-        character(len=length) :: text
-        character(len=length) :: scientific
+        character(len=length) :: text, scientific
         character(len=15) :: digit
         integer :: power, last
 

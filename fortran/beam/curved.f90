@@ -258,8 +258,7 @@ contains
     pure function inverse(transfer, shear_flexibility) result(back)
         !> At the first and the second place
         real(wp), intent(in) :: transfer(4, 4), shear_flexibility(2)
-        real(wp) :: back(4, 4)
-        real(wp) :: of_w(4, 4)
+        real(wp) :: back(4, 4), of_w(4, 4)
         integer, parameter :: partner(4) = [4, 3, 2, 1]
         real(wp), parameter :: sign_of(4) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
         integer :: i, j

@@ -15,8 +15,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         !> Where it begins, unit of t, the modulus as a series in it, and the step
         real(wp), intent(in) :: xi, way, modulus(0:), step
-        real(wp) :: transfer(4, 4)
-        real(wp) :: c(0:order, 4), w(0:order), part(0:order), stretched
+        real(wp) :: transfer(4, 4), c(0:order, 4), w(0:order), part(0:order), stretched
         real(dp) :: rough_modulus(0:order), rough_w(0:order)
         real(wp), dimension(1, 0:order) :: bent, slid, shifted
         type(softness_type) :: softness

@@ -13,8 +13,7 @@ module gapbeam_element
 
     !> A running sum that keeps its rounding error (Neumaier 1974), so that a million pieces lose no digits
     type :: sum_type
-        real(wp) :: high = 0.0_wp
-        real(wp) :: low = 0.0_wp
+        real(wp) :: high = 0.0_wp, low = 0.0_wp
     end type sum_type
 
     !> Values of all fields at one point

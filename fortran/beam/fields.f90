@@ -7,7 +7,8 @@ module gapbeam_fields
     use gapbeam_piece, only: is_tapered, curvature_at
     use gapbeam_taper, only: fields_in_piece, softness_at
     use gapbeam_taper_extremes, only: find_turning_places, most_places
-    use gapbeam_quantities, only: state_count, derived_count, bending_count, bending, shares_of, terms_of_derived, with_derived
+    use gapbeam_quantities, only: state_count, derived_count, bending_count, bending, shares_of, terms_of_derived, &
+        with_derived
     use gapbeam_polynomial, only: roots_between, highest_degree
     implicit none
     private
@@ -37,8 +38,7 @@ contains
         real(wp), intent(in) :: kappa
         !> From its left end, where it may be tapered
         real(wp), intent(in), optional :: distance
-        real(wp) :: values(bending_count)
-        real(wp) :: softness(2)
+        real(wp) :: values(bending_count), softness(2)
 
         softness(:) = softness_of(piece)
         if (present(distance)) softness(:) = softness_at(piece, distance)

@@ -60,8 +60,7 @@ contains
     !> is 1 at most; others may be as long as they are
     elemental function decay_lengths(stretch) result(number)
         type(stretch_type), intent(in) :: stretch
-        real(wp) :: number
-        real(wp) :: k, soft(2)
+        real(wp) :: number, k, soft(2)
 
         k = max(abs(stretch%modulus_a), abs(stretch%modulus_b))
         soft(:) = softest(stretch)

@@ -62,8 +62,7 @@ contains
     pure function long_ends(long) result(ends)
         !> The stretch
         type(long_type), intent(in) :: long
-        type(end_functions_type) :: ends
-        type(end_functions_type) :: one(2)
+        type(end_functions_type) :: ends, one(2)
         type(scaled_type) :: s
         real(wp) :: n, root, difference, square(2)
         integer :: i

@@ -188,8 +188,7 @@ contains
         type(question_type), intent(in) :: question
         !> Middle and half of the piece, and what acts on it beside load and linear ground
         real(wp), intent(in) :: xi, half, pressed
-        real(wp) :: scale(4)
-        real(wp) :: w, m, q, k, bent, square, soft(2)
+        real(wp) :: scale(4), w, m, q, k, bent, square, soft(2)
 
         associate (s => question%stretch, p => question%load, e => question%ends, l => question%stretch%length)
             k = max(abs(s%modulus_a), abs(s%modulus_b))
@@ -222,8 +221,7 @@ contains
     pure function fading(question, left, right) result(bound)
         type(question_type), intent(in) :: question
         real(wp), intent(in) :: left, right
-        real(wp) :: bound
-        real(wp) :: p, moment(2), arm
+        real(wp) :: bound, p, moment(2), arm
 
         p = decay_lengths(question%stretch)
         associate (s => question%stretch, q => question%load, e => question%ends)

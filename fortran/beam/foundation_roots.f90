@@ -185,8 +185,7 @@ contains
         type(question_type), intent(inout) :: question
         !> As for find_zeros
         integer, intent(in) :: whats(:)
-        real(wp), intent(in) :: lines(:, :)
-        real(wp), intent(in) :: left, right
+        real(wp), intent(in) :: lines(:, :), left, right
         type(zeros_type), intent(inout) :: zeros(:)
         type(series_type) :: series
         type(piece_type) :: piece

@@ -137,8 +137,7 @@ contains
     pure function without_slip(stretch, xi, w, moment) result(v)
         type(stretch_type), intent(in) :: stretch
         real(wp), intent(in) :: xi, w, moment
-        real(wp) :: v
-        real(wp) :: softness(2)
+        real(wp) :: v, softness(2)
 
         softness(:) = softness_in(stretch, xi)
         v = w - softness(2)*moment

@@ -255,8 +255,7 @@ contains
         type(stretch_type), intent(in) :: stretch
         !> K
         real(wp), intent(in) :: modulus
-        real(wp) :: trace
-        real(wp) :: soft(2)
+        real(wp) :: trace, soft(2)
 
         soft(:) = softest(stretch)
         trace = (modulus*soft(2) + greatest_tension(stretch)*soft(1))/stretched_shear(stretch)
@@ -267,8 +266,7 @@ contains
         !> As for trace_of
         type(stretch_type), intent(in) :: stretch
         real(wp), intent(in) :: modulus
-        real(wp) :: determinant
-        real(wp) :: soft(2)
+        real(wp) :: determinant, soft(2)
 
         soft(:) = softest(stretch)
         determinant = modulus*soft(1)/stretched_shear(stretch)

@@ -69,8 +69,7 @@ contains
     pure recursive subroutine isolate(question, piece, b, left, right, zeros)
         type(question_type), intent(in) :: question
         type(piece_type), intent(in) :: piece
-        real(wp), intent(in) :: b(0:)
-        real(wp), intent(in) :: left, right
+        real(wp), intent(in) :: b(0:), left, right
         type(zeros_type), intent(inout) :: zeros
         real(wp) :: first(0:ubound(b, 1)), second(0:ubound(b, 1)), middle
         integer :: n, changes, i
@@ -202,8 +201,7 @@ contains
         real(wp), intent(in) :: a(0:)
         !> 1 or -1
         real(wp), intent(in) :: direction
-        real(wp) :: b(0:ubound(a, 1))
-        real(wp) :: binomial
+        real(wp) :: b(0:ubound(a, 1)), binomial
         integer :: n, i, j
 
         n = ubound(a, 1)

@@ -172,8 +172,7 @@ contains
     pure function slope_scale(s) result(scale)
         !> With three terms of the displacement
         type(law_series_type), intent(in) :: s
-        real(wp) :: scale
-        real(wp) :: most(parameters_of_curve), u
+        real(wp) :: scale, most(parameters_of_curve), u
 
         most = max(abs(s%p(:, 0)), abs(s%p(:, 0) + s%p(:, 1)))
         u = size_of_way(s)

@@ -4,8 +4,7 @@ module gapbeam_piece
     implicit none
     private
     public :: piece_type, piece_load_type, no_load, any_load, combine_loads, is_tapered, is_prismatic, is_compressed, &
-              greatest_softness, &
-              curvature_at
+        greatest_softness, curvature_at
 
     !> A stretch between two points
     type :: piece_type

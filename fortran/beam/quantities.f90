@@ -77,8 +77,7 @@ contains
         real(wp), intent(in) :: state(state_count)
         !> 1/EI, 1/GA, and the curvature imposed on the piece
         real(wp), intent(in) :: softness(2), kappa
-        real(wp) :: values(bending_count)
-        real(wp) :: share(state_count + 1, derived_count)
+        real(wp) :: values(bending_count), share(state_count + 1, derived_count)
         integer :: d, k
 
         values(1:state_count) = state

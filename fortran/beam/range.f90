@@ -22,8 +22,7 @@ contains
         type(piece_type), intent(in) :: pieces(:)
         type(link_type), intent(in) :: links(:)
         integer, intent(in) :: last(:)
-        integer :: lost
-        integer :: first
+        integer :: lost, first
 
         first = 1
         do lost = 1, size(links)

@@ -272,8 +272,7 @@ contains
     !> Ratio of the depth that changes more, that of EI or of GA
     pure function steeper_ratio(piece) result(ratio)
         type(piece_type), intent(in) :: piece
-        real(wp) :: ratio
-        real(wp) :: ratios(2)
+        real(wp) :: ratio, ratios(2)
 
         ratios(:) = depth_ratios(piece)
         ratio = ratios(merge(2, 1, abs(log(ratios(2))) > abs(log(ratios(1)))))
@@ -293,8 +292,7 @@ contains
         type(piece_type), intent(in) :: piece
         !> 0..1
         real(wp), intent(in) :: part
-        real(wp) :: t
-        real(wp) :: ratio(2), factor
+        real(wp) :: t, ratio(2), factor
 
         ! Where one depth grows and the other falls, their quotient is what changes
         ratio(:) = grown_and_fallen(piece)
@@ -352,8 +350,7 @@ contains
         !> Where the depth has grown by as many equal factors, from the shallow end
         pure function border(j) result(way)
             integer, intent(in) :: j
-            real(wp) :: way
-            real(wp) :: depth
+            real(wp) :: way, depth
 
             way = merge(first, last, j == 0)
             if (j == 0 .or. j == number) return

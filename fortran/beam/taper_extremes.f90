@@ -121,8 +121,7 @@ contains
         !> Where it is zero between two places at which it has different signs
         pure function where_level(low, high) result(t)
             real(wp), intent(in) :: low, high
-            real(wp) :: t
-            real(wp) :: a, b, at_a, at_b, here
+            real(wp) :: t, a, b, at_a, at_b, here
             integer :: step, kept
 
             a = low

@@ -15,8 +15,7 @@ module gapbeam_combinations
     use gapbeam_case_types, only: case_numbers_type
     implicit none
     private
-    public :: combination_type, varied_type, combine, combine_case, solve_combination, &
-        values_of_combination
+    public :: combination_type, varied_type, combine, combine_case, solve_combination, values_of_combination
 
     !> Numbers of a combination in place of those of the beam; what has no columns stays
     type :: varied_type

@@ -14,8 +14,7 @@ module gapbeam_lane_certificate
     use gapbeam_lane_audit, only: audit_pack
     use gapbeam_lane_measures, only: measure_pack
     use gapbeam_lane_fields, only: find_rotations
-    use gapbeam_lane_error_ellipses, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, &
-        of_rotation
+    use gapbeam_lane_error_ellipses, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
     implicit none
     private
     public :: certify_pack

@@ -4,8 +4,8 @@
 module gapbeam_lane_fields
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: worst_shear_digits, greatest_product, smallest_product
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, link_faa, &
-        link_fab, link_sum_a, link_sum_b, link_bending
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_pieces_type, pack_type, piece_pack_type, link_numbers, &
+        link_faa, link_fab, link_sum_a, link_sum_b, link_bending
     use gapbeam_lane_stiffness, only: stiffness_lanes
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_lane_reactions, only: find_shears
@@ -60,8 +60,7 @@ contains
         real(wp), intent(in) :: links(stiffness_lanes, link_numbers, n)
         real(wp), intent(in), dimension(lanes, 0:n) :: left, right, w, ml, mr
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
-        real(wp) :: faa, fab, sum_a, sum_b, bending
-        real(wp) :: turn_a, turn_b, m, z, psi, size, other, other_size, crosses
+        real(wp) :: faa, fab, sum_a, sum_b, bending, turn_a, turn_b, m, z, psi, size, other, other_size, crosses
         integer :: i, j, k, l, way
 
         do i = 1, n
@@ -186,12 +185,10 @@ contains
         type(lane_pieces_type), intent(in) :: pieces
         !> The link; links and pieces
         integer, intent(in) :: i, n, number
-        real(wp), intent(in) :: length
-        real(wp), intent(in) :: loads(lanes, number, 5)
+        real(wp), intent(in) :: length, loads(lanes, number, 5)
         real(wp), intent(in), dimension(lanes, 0:n) :: w, ml, mr
         real(wp), intent(in) :: room(lanes, 0:n, 10)
-        real(wp), intent(inout) :: work(lanes, number, 3)
-        real(wp), intent(inout) :: starts(lanes, number, 4)
+        real(wp), intent(inout) :: work(lanes, number, 3), starts(lanes, number, 4)
         real(wp), dimension(lanes) :: high, low, before, turn_high, turn_low, slip_high, slip_low
         real(wp) :: x0, x1, xi, at_end, behind, inside, p, f, g, m0, m1, right, to_left, to_right
         integer :: j, l, first, last

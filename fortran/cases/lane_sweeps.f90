@@ -26,8 +26,7 @@ contains
         !> Deflections, moments left and right of the nodes
         real(wp), intent(inout) :: w(lanes, 0:n), ml(lanes, 0:n), mr(lanes, 0:n)
         real(wp), dimension(lanes) :: phi, e
-        real(wp) :: faa, fab, fbb, determinant
-        real(wp) :: chord, a, y, z, psi, tip, root, first, flexible, begin, free, c
+        real(wp) :: faa, fab, fbb, determinant, chord, a, y, z, psi, tip, root, first, flexible, begin, free, c
         integer :: l, i
 
         w(:, :) = known

@@ -29,8 +29,7 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         !> Deflections and moments
         real(wp), intent(inout) :: w(lanes, 0:n), m(lanes, 0:n)
-        real(wp) :: passed(lanes, 5, 2)
-        real(wp) :: acts, free, stiff, load, phi, beta, delta, e, p, b_free, turn_here, load_here
+        real(wp) :: passed(lanes, 5, 2), acts, free, stiff, load, phi, beta, delta, e, p, b_free, turn_here, load_here
         integer :: l, i, middle
 
         middle = n/2
@@ -166,8 +165,7 @@ contains
         real(wp), intent(inout) :: room(lanes, 0:n, 10)
         !> Deflections and moments
         real(wp), intent(inout) :: w(lanes, 0:n), m(lanes, 0:n)
-        real(wp) :: passed(lanes, 2, 2)
-        real(wp) :: free, load, e, p, b_free, turn_here, load_here
+        real(wp) :: passed(lanes, 2, 2), free, load, e, p, b_free, turn_here, load_here
         integer :: l, i, middle
 
         middle = n/2

@@ -74,8 +74,7 @@ contains
         type(lane_pieces_type), intent(in) :: pieces
         !> The piece; the quantity among the derived ones
         integer, intent(in) :: j, d
-        real(wp) :: share(lanes, state_count + 1)
-        real(wp) :: all_of_them(state_count + 1, derived_count)
+        real(wp) :: share(lanes, state_count + 1), all_of_them(state_count + 1, derived_count)
         integer :: l, m
 
         do l = 1, lanes

@@ -69,8 +69,7 @@ contains
         logical, intent(in) :: again
         !> What comes in, and what is passed on in the end, which stays where nothing is other than before; phi, beta, delta, e, p
         real(wp), intent(in) :: entry(lanes, 5)
-        real(wp), intent(inout) :: leaves(lanes, 5)
-        real(wp), intent(inout) :: passed(lanes, 5, kept_columns), eliminated(lanes, 6, columns)
+        real(wp), intent(inout) :: leaves(lanes, 5), passed(lanes, 5, kept_columns), eliminated(lanes, 6, columns)
         !> Has it ended there
         logical, intent(out) :: as_before
         real(wp) :: flow(lanes, 5), a, b, c, b_free, c_h, reciprocal, turn_here, load_here, next
@@ -109,8 +108,7 @@ contains
     !> The end of the beam, whatever has been passed on before
     pure subroutine begin_at_end(link, row, eliminated, flow)
         real(wp), intent(in) :: link(:), row(:)
-        real(wp), intent(inout) :: eliminated(:)
-        real(wp), intent(inout) :: flow(:)
+        real(wp), intent(inout) :: eliminated(:), flow(:)
         real(wp) :: softness
 
         associate (h => link(1), far => link(3), stiff => row(1), free => row(2), load => row(4), moment => eliminated(1), &

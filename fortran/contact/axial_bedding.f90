@@ -26,8 +26,7 @@ module gapbeam_axial_bedding
 
     !> A part of a memory over which the beam slides to the right (1), to the left (-1), or is held (0), and its displacement
     type :: cell_type
-        integer :: memory, bar
-        integer :: way = 0
+        integer :: memory, bar, way = 0
         real(qp) :: from, to
         type(curve_type) :: displacement
     end type cell_type

@@ -12,8 +12,7 @@ module gapbeam_axial_chain
     use gapbeam_polyline_quad, only: node_support_type, last_breakpoint
     implicit none
     private
-    public :: chain_type, new_chain, choose_parts, find_piece, find_reach, next_change, plan, &
-        stays_at_rest, sticks, no_rate
+    public :: chain_type, new_chain, choose_parts, find_piece, find_reach, next_change, plan, stays_at_rest, sticks, no_rate
 
     !> Closed breakpoints of a friction support that sticks; one fewer where it slides to the left, one more to the right
     integer, parameter :: sticks = 1
@@ -201,8 +200,7 @@ contains
     pure function find_reach(chain, links) result(reach)
         type(chain_type), intent(in) :: chain
         integer, intent(in) :: links(:)
-        integer :: reach(2)
-        integer :: l
+        integer :: reach(2), l
 
         ! Laws that keep a set follow the beam wherever it goes, and what moves by itself takes friction along
         reach = [0, size(chain%flexibility)]

@@ -78,8 +78,7 @@ contains
         type(bedding_type), intent(in) :: bedding
         type(cell_type), intent(in) :: cell
         integer, intent(in) :: way
-        real(qp) :: force
-        real(qp) :: even(2)
+        real(qp) :: force, even(2)
 
         even(:) = settled_push(bedding, cell)
         associate (t => bedding%limit(:, cell%bar))

@@ -9,8 +9,7 @@ module gapbeam_bedding_zones
     use gapbeam_ordered_quad, only: sort
     use gapbeam_exponential_curve, only: curve_type, most_roots, value_of, derivative, scaled, roots_of
     use gapbeam_bedding_growth, only: grow_zones
-    use gapbeam_axial_bedding, only: memory_type, cell_type, bedding_type, loads_type, solve_cells, give_way, is_bedded, &
-        no_limit
+    use gapbeam_axial_bedding, only: memory_type, cell_type, bedding_type, loads_type, solve_cells, give_way, is_bedded, no_limit
     implicit none
     private
     public :: new_bedding, start_anew, find_zones, turns_back

@@ -150,8 +150,7 @@ contains
         type(base_type), intent(in) :: base
         !> First closed node; way into the closed supports, 1 to the right, -1 to the left
         integer, intent(in) :: j, way
-        integer :: distance
-        integer :: k
+        integer :: distance, k
         real(wp) :: moment, shear
 
         distance = 0

@@ -108,9 +108,7 @@ contains
             if (.not. any(wrong)) exit
             ! That has turned a sign, or shown one that elimination had hidden
         end do
-        if (.not. is_finite(work)) then
-            call out_of_range(error)
-        end if
+        if (.not. is_finite(work)) call out_of_range(error)
     end subroutine find_contact_state
 
     !> A beam whose reactions statics cannot tell apart may still have no equilibrium. That does not depend on how stiff
@@ -184,8 +182,7 @@ contains
                 ! A beam that nothing stops goes so far on weak springs that rounding hides what is open. That nothing stops it
                 ! is a proof in any scheme
                 call find_unbounded_motions(beam, factor, closed, direction, unbounded, stable, in_doubt)
-                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, &
-                                              stopped)
+                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, stopped)
                 if (.not. stopped) return
             end if
             if (.not. settled) call settle(beam, rule_least_index, .false., closed, work, settled, error)
@@ -218,8 +215,7 @@ contains
                     return
                 end if
             else
-                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, &
-                                              stopped)
+                call follow_unbounded_motions(beam, factor, closed, unbounded, in_doubt, displaced, direction, outcome, stopped)
                 if (.not. stopped) return
             end if
             work%reference(:) = displaced(:ubound(work%reference, 1))

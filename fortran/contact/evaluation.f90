@@ -98,9 +98,7 @@ contains
                 .and. search%wrong_now > 0 .and. search%wrong_now <= few_wrong_supports) then
                 ! And little changes any more
                 call keep_factor(beam, work, follows)
-                if (follows) then
-                    allocate (search%kept, source=closed)
-                end if
+                if (follows) allocate (search%kept, source=closed)
             end if
         end if
         settled = search%wrong_now == 0

@@ -113,8 +113,7 @@ contains
         !> Greatest slope of a cubic law at the nodes of a piece
         pure function stiffness_met(j, k) result(stiffness)
             integer, intent(in) :: j, k
-            real(wp) :: stiffness
-            real(wp) :: u, p(parameters_of_law)
+            real(wp) :: stiffness, u, p(parameters_of_law)
             integer :: i
 
             stiffness = 0.0_wp

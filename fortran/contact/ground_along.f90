@@ -112,8 +112,7 @@ contains
     !> First part of every bar, and one more than there are parts
     pure function first_parts(ground) result(first)
         type(ground_along_type), intent(in) :: ground
-        integer :: first(size(ground%limit) + 1)
-        integer :: i
+        integer :: first(size(ground%limit) + 1), i
 
         first(size(first)) = size(ground%parts) + 1
         do i = size(ground%parts), 1, -1
@@ -125,8 +124,7 @@ contains
     pure function length_of(ground, i) result(length)
         type(ground_along_type), intent(in) :: ground
         integer, intent(in) :: i
-        real(wp) :: length
-        real(wp) :: to, back
+        real(wp) :: length, to, back
 
         to = 0.0_wp
         back = 1.0_wp

@@ -208,8 +208,7 @@ contains
         !> The push; of each side by how much the slopes of the force differ, 0: none begins there; length/EA; and slope of the
         !> rates of displacements beyond it
         real(wp), intent(in) :: push, gap(2), soft(2), slope(2)
-        real(wp) :: share(2)
-        real(wp) :: low, high
+        real(wp) :: share(2), low, high
         integer :: i
 
         share = merge(push, 0.0_wp, gap > 0.0_wp)

@@ -203,8 +203,7 @@ contains
         !> Slope of the energy along the step
         function energy_slope(t) result(at)
             real(wp), intent(in) :: t
-            real(wp) :: at
-            real(wp) :: force(0:last), ignored(0:last)
+            real(wp) :: at, force(0:last), ignored(0:last)
             integer :: nodes
 
             asked_for = asked_for + n

@@ -188,9 +188,7 @@ contains
         real(wp) :: offset
 
         offset = along(law%force_a - law%slope_a*law%displacement_a, law%force_b - law%slope_b*law%displacement_b, distance, length)
-        if (.not. has_points(layer) .and. number == 2) then
-            offset = along(layer%parameter_a(2), layer%parameter_b(2), distance, length)
-        end if
+        if (.not. has_points(layer) .and. number == 2) offset = along(layer%parameter_a(2), layer%parameter_b(2), distance, length)
     end function offset_of_layer
 
     !> Force per length of a layer on the beam, up

@@ -83,8 +83,7 @@ contains
         type(node_support_type), intent(in) :: supports(:)
         !> below, above or both
         integer, intent(in) :: side
-        integer :: nodes(2)
-        integer :: k
+        integer :: nodes(2), k
 
         nodes = [huge(0), -1]
         do k = 1, size(supports)

@@ -22,8 +22,7 @@ contains
         type(zones_type), intent(out) :: zones
         !> Places along a piece at which a layer goes on to a piece of its law, which of them, and to which piece
         real(wp), allocatable :: cuts(:)
-        integer, allocatable :: layer(:), to(:)
-        integer, allocatable :: steps(:)
+        integer, allocatable :: layer(:), to(:), steps(:)
         integer :: j, m, number
 
         allocate (steps(size(ground%pieces)), source=steps_of(ground))

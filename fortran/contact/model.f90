@@ -203,9 +203,7 @@ contains
         real(wp) :: stiffness
 
         stiffness = least_stiffness(beam%supports, size(beam%links))
-        if (any(beam%links%bending > 0.0_wp)) then
-            stiffness = min(stiffness, 1/(sum(beam%links%bending)*sum(beam%links%length)**2))
-        end if
+        if (any(beam%links%bending > 0.0_wp)) stiffness = min(stiffness, 1/(sum(beam%links%bending)*sum(beam%links%length)**2))
         if (.not. stiffness < huge(stiffness)) stiffness = 1.0_wp
         stiffness = stiffness/(size(beam%links) + 1)
     end function softest

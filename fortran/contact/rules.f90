@@ -108,8 +108,7 @@ contains
     !> End of the run of supports with the same state
     pure function end_of_run(state, order, first) result(last)
         logical, intent(in) :: state(:)
-        integer, intent(in) :: order(:)
-        integer, intent(in) :: first
+        integer, intent(in) :: order(:), first
         integer :: last
 
         last = first

@@ -139,8 +139,7 @@ contains
         scale = 0.0_wp
         do correction = 1, most_corrections
             call residual_chain(work%nodes, beam%links, work%rhs, work%answers, work%eliminated, work%sizes, window)
-            call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, &
-                               work%correction, touched)
+            call correct_chain(work%nodes, beam%links, work%pivots, work%eliminated, window, work%answers, work%correction, touched)
             call add_correction(touched, work, scale, relative, share)
             window = [max(0, min(window(1), touched(1) - 1)), min(n, max(window(2), touched(2) + 1))]
             if (correction > 1) work%growth = max(work%growth, share/epsilon(share))

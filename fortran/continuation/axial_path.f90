@@ -120,9 +120,7 @@ contains
             ends = [real(s%to, qp)]
             if (any(chain%rubs)) then
                 call find_reactions(beam, history, k, s%from, walk%support, chain%rubs, from_force, error)
-                if (.not. allocated(error)) then
-                    call find_reactions(beam, history, k, s%to, walk%support, chain%rubs, to_force, error)
-                end if
+                if (.not. allocated(error)) call find_reactions(beam, history, k, s%to, walk%support, chain%rubs, to_force, error)
                 if (allocated(error)) return
                 call drop_rounding(from_force, to_force)
                 ends = [zeros_between(s%from, s%to, from_force, to_force), ends]

@@ -21,8 +21,7 @@ module gapbeam_branch
     use gapbeam_outgoing_directions, only: find_outgoing
     use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, &
         clear_arrival, doubtful
-    use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, &
-        parallel, stays_broken
+    use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, parallel, stays_broken
     implicit none
     private
     public :: branch_type, segment_type, start_branch, step_branch, goes_on, arrived, no_way_on, never_ends, not_told

@@ -234,8 +234,7 @@ contains
         !> At the beginning, and at the way
         type(ground_along_type), intent(in) :: ground, next
         real(wp), intent(in) :: way
-        real(wp) :: guess
-        real(wp) :: before, after
+        real(wp) :: guess, before, after
         integer :: k
 
         guess = way

@@ -91,8 +91,7 @@ contains
         type(ground_along_type), intent(in) :: ground
         !> What the loads give, however the state was come to: elongations of the bars without force, and forces of the supports
         real(wp), intent(in) :: free(:), reaction(0:)
-        real(wp) :: worst
-        real(wp) :: longer(size(ground%limit)), most, way
+        real(wp) :: worst, longer(size(ground%limit)), most, way
         integer :: i, k
 
         most = max(maxval(abs(ground%parts%force)), maxval(ground%limit), maxval(abs(reaction)))

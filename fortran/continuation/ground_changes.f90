@@ -265,12 +265,8 @@ contains
             other = last
             if (count(met(:, other)) /= 1) cycle
             associate (was => before(i), is => after(other))
-                if (was%at_left .neqv. is%at_left) then
-                    call note_end(was, is%at_left, merge(is%from, was%from, is%at_left))
-                end if
-                if (was%at_right .neqv. is%at_right) then
-                    call note_end(was, is%at_right, merge(is%to, was%to, is%at_right))
-                end if
+                if (was%at_left .neqv. is%at_left) call note_end(was, is%at_left, merge(is%from, was%from, is%at_left))
+                if (was%at_right .neqv. is%at_right) call note_end(was, is%at_right, merge(is%to, was%to, is%at_right))
             end associate
         end do
 

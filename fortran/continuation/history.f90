@@ -21,9 +21,8 @@ module gapbeam_history
     use gapbeam_assembled_model, only: assembled_type, growth_of, point_x
     use gapbeam_history_start, only: find_beginning, find_movements, has_dead_loads, has_dead_along, find_rest
     use gapbeam_history_stretch, only: stretch_type, pieces_type, keep_pieces, enter_stretch
-    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, &
-        add_others, note_limit, note_landings, is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, &
-        no_limit, limit_point, bifurcation, mechanism, ended, cut_off
+    use gapbeam_history_record, only: history_type, limit_type, new_history, add_stretch, add_others, note_limit, note_landings, &
+        is_jumping, at_limit_stop, at_limit_jump, at_limit_follow, no_limit, limit_point, bifurcation, mechanism, ended, cut_off
     implicit none
     private
     public :: follow_history

@@ -18,8 +18,7 @@ module gapbeam_local_step
         unloads_from_here
     implicit none
     private
-    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, rounded, &
-        find_passed
+    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, rounded, find_passed
     public :: clear_arrival, doubtful
 
     !> What find_next came to

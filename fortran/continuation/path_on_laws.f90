@@ -54,8 +54,7 @@ contains
 
         associate (h => view%history, n => view%history%number)
             allocate (h%on_laws, stat=stat)
-            if (stat == 0) allocate (h%on_laws%joins(n), h%on_laws%rough(2, n), h%on_laws%ends(2, n), h%on_laws%lands(n), &
-                                     stat=stat)
+            if (stat == 0) allocate (h%on_laws%joins(n), h%on_laws%rough(2, n), h%on_laws%ends(2, n), h%on_laws%lands(n), stat=stat)
             if (stat /= 0) call no_memory(error)
             if (allocated(error)) return
             associate (s => h%stretches, known => h%on_laws)

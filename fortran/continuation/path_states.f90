@@ -73,9 +73,7 @@ contains
         end if
         if (.not. same_laws(laws, beam%beam%supports)) call move_alloc(laws, state%laws)
         call solve_state(beam, factor, merge(rule_extended, rule_given, allocated(history%on_laws)), state, error)
-        if (allocated(history%along) .and. .not. allocated(error)) then
-            call take_along(beam, history, stretch, factor, state, error)
-        end if
+        if (allocated(history%along) .and. .not. allocated(error)) call take_along(beam, history, stretch, factor, state, error)
         if (.not. allocated(history%on_laws) .or. allocated(error)) return
         call audit_lines(beam, factor, how == on_polylines, state, error)
     end subroutine solve_on_path

@@ -145,8 +145,7 @@ contains
         !> Supports of the model with smooth laws, and deflections there
         integer, intent(in) :: numbers(:)
         real(wp), intent(in) :: deflection(:)
-        real(wp) :: springs(size(numbers))
-        real(wp) :: at(4), past, scale_of_law
+        real(wp) :: springs(size(numbers)), at(4), past, scale_of_law
         integer :: i, j, way
 
         springs(:) = 0.0_wp

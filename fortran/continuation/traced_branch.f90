@@ -7,8 +7,7 @@ module gapbeam_traced_branch
     use gapbeam_smooth_branches, only: branch_points_type, tracer_at, follow_branch
     use gapbeam_history_stretch, only: stretch_type, nothing_changes
     use gapbeam_history_record, only: limit_type, add_stretch, no_limit, limit_point, bifurcation, ended
-    use gapbeam_path_on_laws, only: view_type, goal_of_leg, way_of_leg, given_factor, unknown, start_of_stretch, &
-        stop_of_stretch
+    use gapbeam_path_on_laws, only: view_type, goal_of_leg, way_of_leg, given_factor, unknown, start_of_stretch, stop_of_stretch
     implicit none
     private
     public :: branch_off

@@ -69,8 +69,7 @@ module gapbeam_band
 
     !> Solution at a node: deflection and the moments on its two sides
     type :: answer_type
-        real(wp) :: deflection = 0.0_wp
-        real(wp) :: moment_left = 0.0_wp, moment_right = 0.0_wp
+        real(wp) :: deflection = 0.0_wp, moment_left = 0.0_wp, moment_right = 0.0_wp
     end type answer_type
 
     !> How a node was eliminated
@@ -222,8 +221,7 @@ contains
         !> As for factor_chain, factored, shape (0:n)
         type(node_type), intent(in) :: nodes(0:)
         type(pivot_type), intent(in) :: pivots(0:)
-        integer :: index
-        integer :: i
+        integer :: index, i
 
         index = 0
         do i = 0, ubound(nodes, 1)

@@ -20,8 +20,7 @@ module gapbeam_elements
     !> The elements outward of the nodes at hand: half the load, the rotation it would make at their ends; rotation and shear
     !> of a solution at their inward ends, high and low part
     type :: outward_type
-        real(wp), dimension(2) :: half = 0.0_wp, turn = 0.0_wp
-        real(wp), dimension(2) :: psi = 0.0_wp, psi_low = 0.0_wp, v = 0.0_wp, v_low = 0.0_wp
+        real(wp), dimension(2) :: half = 0.0_wp, turn = 0.0_wp, psi = 0.0_wp, psi_low = 0.0_wp, v = 0.0_wp, v_low = 0.0_wp
     end type outward_type
 
 contains

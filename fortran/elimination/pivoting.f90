@@ -139,8 +139,7 @@ contains
         type(link_type), intent(in) :: links(:)
         type(rhs_type), intent(in) :: rhs(0:)
         integer, intent(in) :: left(0:), deflection(0:), right(0:)
-        real(wp), intent(out) :: matrix(:, :)
-        real(wp), intent(out) :: b(:)
+        real(wp), intent(out) :: matrix(:, :), b(:)
         integer :: i, n
 
         n = size(links)

@@ -23,8 +23,7 @@ module gapbeam_residual
 
     !> Rotation and shear at an end of a link, and the sizes of their terms
     type :: end_type
-        real(wp) :: psi = 0.0_wp, psi_low = 0.0_wp, shear = 0.0_wp, shear_low = 0.0_wp
-        real(wp) :: size_of_psi = 0.0_wp, size_of_shear = 0.0_wp
+        real(wp) :: psi = 0.0_wp, psi_low = 0.0_wp, shear = 0.0_wp, shear_low = 0.0_wp, size_of_psi = 0.0_wp, size_of_shear = 0.0_wp
     end type end_type
 
 contains
@@ -112,16 +111,14 @@ contains
             high = turn
             low = turn_low
             call subtract(high, low, left%psi, left%psi_low)
-            call end_row(high, low, left, b%left, merge(node%joint, 0.0_wp, node%kind == joint_right), &
-                         a%moment_left, s%left)
+            call end_row(high, low, left, b%left, merge(node%joint, 0.0_wp, node%kind == joint_right), a%moment_left, s%left)
             if (has_left) r%left = high + low
         end if
         if (takes_right(node%kind)) then
             high = right%psi
             low = right%psi_low
             call subtract(high, low, turn, turn_low)
-            call end_row(high, low, right, b%right, merge(node%joint, 0.0_wp, node%kind == joint_left), &
-                         a%moment_right, s%right)
+            call end_row(high, low, right, b%right, merge(node%joint, 0.0_wp, node%kind == joint_left), a%moment_right, s%right)
             if (has_right) r%right = high + low
         end if
 

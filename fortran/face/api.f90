@@ -210,9 +210,7 @@ contains
             call bad_argument(error, "factor", "factor: expected a number above 0, got "//trim(shown(factor)))
         end if
         if (.not. allocated(error)) call make_state(beam, result, error)
-        if (.not. allocated(error)) then
-            call follow_events(beam%lowered, factor, options%rule, result%state, list, number, error)
-        end if
+        if (.not. allocated(error)) call follow_events(beam%lowered, factor, options%rule, result%state, list, number, error)
         if (.not. allocated(error)) then
             allocate (events(number), stat=stat)
             if (stat == 0) then

@@ -1,8 +1,7 @@
 !> Histories of the load in the C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi_history
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
-        gapbeam_other_version
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_other_version
     use gapbeam_words, only: whole
     use gapbeam_api_history, only: solve_on_path, get_released_energy
     use gapbeam_handles, only: handle_type, history_tag, find_handle, free_handle, address_of
@@ -175,9 +174,7 @@ contains
 
         call get_both(beam, state, prepared, solved, error)
         call find_history(history, handle, error)
-        if (.not. allocated(error)) then
-            call check_number("stretch", stretch, -1, size(handle%history%stretches), error)
-        end if
+        if (.not. allocated(error)) call check_number("stretch", stretch, -1, size(handle%history%stretches), error)
         if (.not. allocated(error)) then
             call solve_on_path(prepared%beam, handle%history, factor, solved%result, error, stretch + 1)
             if (allocated(error)) call count_from_zero("stretch", stretch, error)

@@ -131,8 +131,7 @@ contains
             if (.not. allocated(error)) call sections_from_c(c, model%sections, error)
         end if
         if (allocated(error)) return
-        allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), &
-                  stat=stat)
+        allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
         associate (s => model%spans)

@@ -80,8 +80,7 @@ contains
         integer :: first
 
         call get_both(beam, state, prepared, solved, error)
-        if (.not. allocated(error)) call get_mode_amplitude(prepared%beam, solved%result, kind, value, parts, swing, &
-                                                            first, error)
+        if (.not. allocated(error)) call get_mode_amplitude(prepared%beam, solved%result, kind, value, parts, swing, first, error)
         call report(error, status, message, message_size)
         if (allocated(error)) return
         if (present(amplitude)) amplitude = swing

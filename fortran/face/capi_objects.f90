@@ -1,8 +1,7 @@
 !> Objects and conversions that the functions of the C interface share: beams and states behind handles, options, errors, messages
 module gapbeam_capi_objects
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_null_char, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
-        gapbeam_other_version
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, gapbeam_other_version
     use gapbeam_words, only: whole
     use gapbeam_api, only: options_type
     use gapbeam_handles, only: handle_type, state_tag, beam_tag, passing_tag, find_handle

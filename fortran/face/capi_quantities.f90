@@ -5,8 +5,7 @@ module gapbeam_capi_quantities
     use gapbeam_words, only: whole
     use gapbeam_quantities, only: quantity_count
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes
-    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves, &
-        copy_extremes
+    use gapbeam_api_trains, only: train_extreme_type, get_train_quantity_extremes, get_train_quantity_curves, copy_extremes
     use gapbeam_handles, only: handle_type
     use gapbeam_capi_objects, only: get_both, get_train, check_points, check_flag, report
     implicit none

@@ -56,8 +56,7 @@ contains
         k = findloc([nspan - 1, nhinge, nsup, nload, nlaw, nfound, nprof, nflaw, ntab] < 0, .true., 1)
         if (k > 0) info = -place_of_count(k)
         if (info /= 0) return
-        allocate (ground(7 + 2*parameters_of_law, nfound), points(3, nprof + ntab), owners(nprof + ntab), &
-                  stat=stat)
+        allocate (ground(7 + 2*parameters_of_law, nfound), points(3, nprof + ntab), owners(nprof + ntab), stat=stat)
         if (stat /= 0) then
             call no_memory(error)
         else

@@ -54,21 +54,17 @@ module gapbeam
         gapbeam_other_version, gapbeam_stopped, gapbeam_status_message => status_text
     use gapbeam_version, only: gapbeam_version_major, gapbeam_version_minor, gapbeam_version_patch, gapbeam_version_string
     use gapbeam_search, only: gapbeam_rule_block => rule_block, gapbeam_rule_single => rule_single
-    use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, &
-        foundation_type, ground_point_type, ground_law_point_type, &
-        point_force, point_couple, uniform_load, linear_load, imposed_curvature, linear_curvature, axial_force, &
-        axial_uniform_load, support_movement, temperature_load, support_rotation, ground_movement, &
-        gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, &
-        gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, &
-        gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, gapbeam_rotational_right, &
-        gapbeam_counterclockwise, gapbeam_clockwise, &
-        gapbeam_force, gapbeam_couple, gapbeam_distributed, gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, &
-        gapbeam_temperature, gapbeam_support_rotation, gapbeam_couple_left, gapbeam_couple_right, &
-        gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature, &
-        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, &
-        gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, &
-        gapbeam_law_cubic, gapbeam_law_power, gapbeam_law_brittle, &
-        gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
+    use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, load_type, model_type, foundation_type, &
+        ground_point_type, ground_law_point_type, point_force, point_couple, uniform_load, linear_load, imposed_curvature, &
+        linear_curvature, axial_force, axial_uniform_load, support_movement, temperature_load, support_rotation, ground_movement, &
+        gapbeam_infinity, gapbeam_by_x, gapbeam_unchanged, gapbeam_right_end, gapbeam_both, gapbeam_below, gapbeam_above, &
+        gapbeam_left, gapbeam_right, gapbeam_normal, gapbeam_axial, gapbeam_rotational, gapbeam_relative, gapbeam_rotational_left, &
+        gapbeam_rotational_right, gapbeam_counterclockwise, gapbeam_clockwise, gapbeam_force, gapbeam_couple, gapbeam_distributed, &
+        gapbeam_curvature, gapbeam_axial_force, gapbeam_movement, gapbeam_temperature, gapbeam_support_rotation, &
+        gapbeam_couple_left, gapbeam_couple_right, gapbeam_axial_distributed, gapbeam_ground_movement, gapbeam_linear_curvature, &
+        gapbeam_live, gapbeam_dead, gapbeam_elastic, gapbeam_plastic, gapbeam_broken, gapbeam_law_by_points, gapbeam_law_plastic, &
+        gapbeam_law_hardening, gapbeam_law_hyperbolic, gapbeam_law_tanh, gapbeam_law_cubic, gapbeam_law_power, &
+        gapbeam_law_brittle, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_events, only: event_type
     use gapbeam_pieces, only: gapbeam_open, gapbeam_closed, gapbeam_bilateral, gapbeam_touching, gapbeam_branch, &
         gapbeam_opens, gapbeam_closes, gapbeam_turns, gapbeam_yields, gapbeam_hardens, gapbeam_softens, gapbeam_breaks, &
@@ -80,8 +76,7 @@ module gapbeam
     use gapbeam_api_quantities, only: get_quantities, get_quantity_extremes, gapbeam_of_deflection, gapbeam_of_rotation, &
         gapbeam_of_moment, gapbeam_of_shear, gapbeam_of_axial_force, gapbeam_of_axial_displacement, gapbeam_of_pressure, &
         gapbeam_of_curvature, gapbeam_of_transverse
-    use gapbeam_api_modes, only: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_mode_amplitude, &
-        get_buckling
+    use gapbeam_api_modes, only: gapbeam_buckling, gapbeam_vibration, get_modes, get_mode_shape, get_mode_amplitude, get_buckling
     use gapbeam_api_history, only: history_type, stretch_type, limit_type, follow_history, solve_on_path, &
         get_released_energy, gapbeam_limit_stop, gapbeam_limit_jump, gapbeam_limit_follow, &
         gapbeam_arrived, gapbeam_limit_point, gapbeam_bifurcation, gapbeam_mechanism, gapbeam_path_ended

@@ -194,8 +194,7 @@ subroutine gbnumb(beam, ns, number, laws)
 end subroutine gbnumb
 
 ! What there is along a beam, in the scene's units
-subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, &
-                  snode, level)
+subroutine gbplac(beam, np, nl, ns, nm, xend, xpoint, ispan, piece, dead, live, npoint, kind, turn, force, couple, snode, level)
     use gapbeam_python_handles, only: handle_type, behind
     use gapbeam_units, only: rotation_unit, moment_unit
     use gapbeam_assembled_model, only: point_x, piece_length, in_bending, in_shear

@@ -61,9 +61,7 @@ subroutine gbcomb(beam, ns, nd, nm, nc, nx, nv, np, nf, nq, ne, factor, settle, 
         if (np > 1) varied%spans => span(:, :np - 1, i)
         if (nf > 1) varied%moduli => modul(:nf - 1, i)
         call combine(handle%beam%lowered, factor(:nd - 1, i), settle(:nm - 1, i), combined, error, varied)
-        if (.not. allocated(error)) then
-            call solve_combination(combined%assembled, rule, closed(:ns - 1, i) /= 0, state, error)
-        end if
+        if (.not. allocated(error)) call solve_combination(combined%assembled, rule, closed(:ns - 1, i) /= 0, state, error)
         closed(:, i) = 0
         if (.not. allocated(error)) then
             solves(i) = max(found(i) - 1, 0) + state%solves   ! the last one again, for all that is asked of it

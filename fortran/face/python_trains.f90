@@ -119,8 +119,7 @@ subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports
     if (allocated(error)) return
     call pack_extremes(envelope%fields, fields, field_sides, field_ties)
     do k = 1, nm - 1
-        call pack_extremes(envelope%supports(:, :, k), supports(:, :, :, :, k), support_sides(:, :, :, k), &
-                           support_ties(:, :, k))
+        call pack_extremes(envelope%supports(:, :, k), supports(:, :, :, :, k), support_sides(:, :, :, k), support_ties(:, :, k))
     end do
 end subroutine gbtenv
 

@@ -119,8 +119,7 @@ contains
     !> Coefficients of the cubic through values at 1/2, 3/2, 5/2, 7/2 (Newton's differences)
     pure function cubic(v) result(c)
         real(wp), intent(in) :: v(4)
-        real(wp) :: c(0:3)
-        real(wp) :: d(3), t(0:3)
+        real(wp) :: c(0:3), d(3), t(0:3)
 
         d(1) = v(2) - v(1)
         d(2) = v(3) - 2*v(2) + v(1)

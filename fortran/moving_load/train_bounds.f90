@@ -22,8 +22,7 @@ module gapbeam_train_bounds
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, slopes_type, new_view, enter_stretch, &
         enter_next_interval, bound_link, slopes_in_link, greatest_curvature, greater
-    use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, bound_supports, &
-        mark_stretches
+    use gapbeam_train_support_bounds, only: support_bounds_type, new_support_bounds, watch_scheme, bound_supports, mark_stretches
     implicit none
     private
     public :: bounds_type, find_bounds
@@ -159,9 +158,7 @@ contains
 
             if (i == j) return
             smooth = i > 0 .and. j == i + 1 .and. j <= size(track%link)
-            if (smooth .and. .not. past_hinges) then
-                smooth = track%link(i) == track%link(j) .or. track%beam%kind(track%link(i)) /= hinge
-            end if
+            if (smooth .and. .not. past_hinges) smooth = track%link(i) == track%link(j) .or. track%beam%kind(track%link(i)) /= hinge
             if (smooth) then
                 touched(track%link(i:j)) = .true.
             else

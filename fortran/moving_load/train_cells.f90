@@ -263,8 +263,7 @@ contains
         type(cells_type), intent(in) :: cells
         type(cell_type), intent(in) :: cell
         real(wp), intent(in) :: s, share
-        real(wp) :: x
-        real(wp) :: from, to
+        real(wp) :: x, from, to
 
         call cell_ends(track, cells, cell, s, from, to)
         x = from + share*(to - from)

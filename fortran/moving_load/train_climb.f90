@@ -55,8 +55,7 @@ contains
         type(table_type), intent(in) :: table
         integer, intent(in) :: k
         type(ruler_type), intent(in) :: ruler
-        type(foretold_type) :: best
-        type(foretold_type) :: other
+        type(foretold_type) :: best, other
 
         best = top_of(table, k, ruler, ruler)
         if (.not. ruler%bears_zones .or. .not. best%known) return

@@ -88,8 +88,7 @@ contains
 
     !> Value of a polynomial
     pure function value_of_column(c, t) result(value)
-        real(wp), intent(in) :: c(most_columns)
-        real(wp), intent(in) :: t
+        real(wp), intent(in) :: c(most_columns), t
         real(wp) :: value
 
         value = c(1) + t*(c(2) + t*(c(3) + t*(c(4) + t*c(5))))
@@ -134,8 +133,7 @@ contains
                 do j = first, last
                     l = track%link(j)
                     columns%loaded(l) = .true.
-                    call add_uniform(1.0_wp, min(from + load%to, track%x(j)), &
-                                     j == last .and. interval%about + load%to < track%x(j))
+                    call add_uniform(1.0_wp, min(from + load%to, track%x(j)), j == last .and. interval%about + load%to < track%x(j))
                     call add_uniform(-1.0_wp, max(from + load%from, track%x(j - 1)), &
                                      j == first .and. interval%about + load%from > track%x(j - 1))
                 end do

@@ -297,10 +297,8 @@ contains
                        least => places%reached(q, :, :) - train_slack*spread(screen%sizes, 2, 2))
                 do field = 1, bending_count
                     part(:) = part_of(values(:, field), first, last)
-                    call raise(part, 1.0_wp, from, to, least(field, 1), same(field), known(1, field), &
-                               where_known(1, field))
-                    call raise(part, -1.0_wp, from, to, least(field, 2), same(field), known(2, field), &
-                               where_known(2, field))
+                    call raise(part, 1.0_wp, from, to, least(field, 1), same(field), known(1, field), where_known(1, field))
+                    call raise(part, -1.0_wp, from, to, least(field, 2), same(field), known(2, field), where_known(2, field))
                 end do
             end associate
         end subroutine search_position

@@ -38,8 +38,7 @@ contains
         logical, intent(in) :: of_deflection
         type(extreme_type), intent(out) :: extreme
         type(tie_type) :: tie
-        real(wp) :: best, value, v, u
-        real(wp) :: found(3, candidates%number), upper(candidates%number)
+        real(wp) :: best, value, v, u, found(3, candidates%number), upper(candidates%number)
         integer :: q, next, step
 
         best = candidates%known

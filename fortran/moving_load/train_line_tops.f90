@@ -3,8 +3,7 @@ module gapbeam_train_line_tops
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train_tops, only: ruler_type, angle_of, position_of, at_birth, nearer_birth, find_vertex, find_highest, &
-        last_terms
+    use gapbeam_train_tops, only: ruler_type, angle_of, position_of, at_birth, nearer_birth, find_vertex, find_highest, last_terms
     use gapbeam_train_limits, only: ruler_of
     use gapbeam_train_line_states, only: lines_type, part_type, values_at, find_state, take
     use gapbeam_train_runs, only: runs_type

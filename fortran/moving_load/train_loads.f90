@@ -101,8 +101,7 @@ contains
 
     !> Value of a cubic
     pure function value_of_cubic(c, t) result(value)
-        real(wp), intent(in) :: c(0:3)
-        real(wp), intent(in) :: t
+        real(wp), intent(in) :: c(0:3), t
         real(wp) :: value
 
         value = c(0) + t*(c(1) + t*(c(2) + t*c(3)))
@@ -110,10 +109,8 @@ contains
 
     !> Integral of a cubic, as a sum about the middle, where no digits cancel
     pure function integral(c, from, to) result(area)
-        real(wp), intent(in) :: c(0:3)
-        real(wp), intent(in) :: from, to
-        real(wp) :: area
-        real(wp) :: m, h
+        real(wp), intent(in) :: c(0:3), from, to
+        real(wp) :: area, m, h
 
         m = from + (to - from)/2
         h = (to - from)/2

@@ -70,8 +70,7 @@ contains
         type(track_type), intent(inout) :: track
         type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
-        real(wp), intent(in) :: now
-        real(wp), intent(in) :: motion(0:)
+        real(wp), intent(in) :: now, motion(0:)
         type(margins_type), intent(inout) :: margins
         real(wp) :: points(0:degree_of(train)), values(0:degree_of(train)), parts
         integer :: p, n
@@ -98,8 +97,7 @@ contains
         real(wp), intent(out) :: begin, end
         !> What comes to zero at its end
         logical, intent(inout) :: at_end(:)
-        real(wp) :: left(0:highest_degree), right(0:highest_degree), lost, zero
-        real(wp) :: zeros(margins%count)
+        real(wp) :: left(0:highest_degree), right(0:highest_degree), lost, zero, zeros(margins%count)
         integer :: k
 
         begin = 0.0_wp

@@ -60,8 +60,7 @@ contains
 
         call sample_margins(track, train, passage%interval, passage%now, passage%closed, passage%margins, passage%work, solved)
         traversal%solves = traversal%solves + degree_of(train) + 1
-        if (solved) call find_interval(passage%margins, degree_of(train), around, passage%begin, passage%end, &
-                                      passage%at_end)
+        if (solved) call find_interval(passage%margins, degree_of(train), around, passage%begin, passage%end, passage%at_end)
     end subroutine find_share
 
     !> Take a stretch from here to a share of the rest

@@ -134,8 +134,7 @@ contains
     !> How far values are from straight lines, about, at all states but the ends
     pure function bends(at, value) result(found)
         real(wp), intent(in) :: at(:), value(:)
-        real(wp) :: found(2:size(at) - 1)
-        real(wp) :: widths(size(at) - 1), slopes(size(at) - 1)
+        real(wp) :: found(2:size(at) - 1), widths(size(at) - 1), slopes(size(at) - 1)
         integer :: n
 
         n = size(at)
@@ -189,9 +188,7 @@ contains
                     if (.not. limits(k)%at_left .and. limits(k)%state == ends(1)) then
                         tables(i)%value(1) = max(tables(i)%value(1), value)
                     end if
-                    if (limits(k)%at_left .and. limits(k)%state == ends(n)) then
-                        tables(i)%value(n) = max(tables(i)%value(n), value)
-                    end if
+                    if (limits(k)%at_left .and. limits(k)%state == ends(n)) tables(i)%value(n) = max(tables(i)%value(n), value)
                 end associate
             end do
             few = 0.0_wp

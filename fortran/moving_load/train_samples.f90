@@ -131,8 +131,7 @@ contains
         type(samples_type), intent(inout) :: samples
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: points(0:degree_of(train))
-        integer :: condition(size(assembled%model%supports))
-        integer :: p
+        integer :: condition(size(assembled%model%supports)), p
 
         points(:) = sample_points(degree_of(train))
         call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
@@ -269,8 +268,7 @@ contains
         type(field_type), intent(in) :: a
         type(piece_type), intent(in) :: p
         type(piece_load_type), intent(in) :: q
-        real(wp) :: c(0:most_along)
-        real(wp) :: share(state_count + 1, derived_count)
+        real(wp) :: c(0:most_along), share(state_count + 1, derived_count)
         integer :: k
 
         if (quantity <= state_count) then
@@ -292,8 +290,7 @@ contains
         type(field_type), intent(in) :: a
         type(piece_type), intent(in) :: p
         type(piece_load_type), intent(in) :: q
-        real(wp) :: c(0:most_along)
-        real(wp) :: slope
+        real(wp) :: c(0:most_along), slope
 
         slope = q%qb - q%qa
         c(:) = 0.0_wp

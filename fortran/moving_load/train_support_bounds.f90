@@ -64,8 +64,7 @@ contains
         !> Of the scheme
         type(columns_type), intent(in) :: columns
         type(support_bounds_type), intent(inout) :: bounds
-        integer :: acting(0:ubound(columns%work%nodes, 1))
-        integer :: j, k, node
+        integer :: acting(0:ubound(columns%work%nodes, 1)), j, k, node
         logical :: acts
 
         acting(:) = 0

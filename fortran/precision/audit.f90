@@ -100,8 +100,7 @@ contains
                 else if (is_restrained(beam%kind(i))) then
                     call audit_restraint(a, r, jump)
                 else if (beam%kind(i) == hinge) then
-                    call hold(of_equilibrium, moments, max(abs(a%moment_left - r%moment), abs(jump)), &
-                              abs(r%moment) + abs(r%couple))
+                    call hold(of_equilibrium, moments, max(abs(a%moment_left - r%moment), abs(jump)), abs(r%moment) + abs(r%couple))
                 else
                     turn_size = abs(a%moment_left) + abs(a%moment_right) + abs(r%couple)
                     if (.not. abs(jump) <= limit*turn_size) call hold(of_equilibrium, moments, jump, turn_size)

@@ -24,8 +24,7 @@ module gapbeam_extended_precision
     use gapbeam_law_margins_quad, only: is_watched_in
     use gapbeam_system_quad, only: solve_and_refine_fine => solve_and_refine
     use gapbeam_search_quad, only: rule_block
-    use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, &
-        fine_outcome_type => outcome_type
+    use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, fine_outcome_type => outcome_type
     use gapbeam_ill_scaled_signs, only: flip_ill_scaled
     use gapbeam_refined, only: detail_type, refine_loaded_beam
     use gapbeam_undecided, only: find_undecided

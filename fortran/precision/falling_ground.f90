@@ -232,8 +232,7 @@ contains
         state = last%state
         call go_beyond_peaks(ground, last, state)
         do trial = 1, 2
-            call count_modes(steeper, state%zones, state%closed, by_axial_force, 1.0_wp, number, work, grounded, &
-                             factor=last%factor)
+            call count_modes(steeper, state%zones, state%closed, by_axial_force, 1.0_wp, number, work, grounded, factor=last%factor)
             it_is = number > 0
             if (it_is) return
             where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &

@@ -119,9 +119,7 @@ contains
         logical :: it_is
 
         it_is = way%step <= same_compression*max(way%at - way%from%dead, least_share)
-        if (way%at >= 1.0_wp) then
-            it_is = it_is .or. way%step*abs(way%factor - way%from%factor) <= same_compression*abs(way%last%factor)
-        end if
+        if (way%at >= 1.0_wp) it_is = it_is .or. way%step*abs(way%factor - way%from%factor) <= same_compression*abs(way%last%factor)
     end function is_near_enough
 
     !> Look for a state near another one

@@ -220,9 +220,7 @@ contains
             modulus = max(abs(s%modulus_a), abs(s%modulus_b))
             ! What moment and load bend a simple beam by; on elastic ground what is farther away than 1/beta is not felt
             square = s%length**2/8
-            if (s%modulus_a > 0.0_wp .and. f > 0.0_wp) then
-                square = min(square, 1/sqrt(s%modulus_a)/sqrt(f))
-            end if
+            if (s%modulus_a > 0.0_wp .and. f > 0.0_wp) square = min(square, 1/sqrt(s%modulus_a)/sqrt(f))
             sizes%deflection = max(abs(ends%w_a), abs(ends%w_b)) &
                 + square*(f*(moment + square*q) + abs(load%kappa) + abs(load%rise)) + g*(moment + square*q)
             sizes%rotation = maxval(abs(solution%rotation(:, i)))
@@ -245,8 +243,7 @@ contains
         type(ground_solution_type), intent(in) :: solution
         !> Stretch
         integer, intent(in) :: i
-        type(field_type) :: largest
-        type(field_type) :: sizes, least
+        type(field_type) :: largest, sizes, least
         real(wp) :: q, pull, soft(2)
 
         call find_sizes(solution, i, sizes, least)

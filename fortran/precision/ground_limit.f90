@@ -204,8 +204,7 @@ contains
         real(qp), intent(in) :: share(0:)
         !> Displacements of the two ends
         real(qp), intent(in) :: y(2)
-        real(qp) :: force(2)
-        real(qp) :: moves(2), limits(2)
+        real(qp) :: force(2), moves(2), limits(2)
         integer :: j, k, sense
 
         force = by_supports()

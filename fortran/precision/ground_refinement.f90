@@ -77,8 +77,7 @@ contains
                               settled, error)
             solves = solves + fine_work%solves
             if (allocated(error) .or. outcome%status /= gapbeam_solved) return
-            call find_fine_margin(fine, fine_grounded, zones, real(factor, qp), fine_work, closed, fine_change, margin, &
-                                  fine_place)
+            call find_fine_margin(fine, fine_grounded, zones, real(factor, qp), fine_work, closed, fine_change, margin, fine_place)
             place = real(fine_place, wp)
             if (k > 1) then
                 if (change%support > 0 .and. .not. margin*last_margin > 0.0_qp) then

@@ -333,8 +333,7 @@ contains
         !> Integral of the slope times the deflection: term by term of its series, which is short as such stretches are
         function integral(slope) result(total)
             real(qp), intent(in) :: slope(2)
-            real(qp) :: total
-            real(qp) :: c(1, 4, 0:most_taylor_terms), start(1, 4), w(0:most_taylor_terms)
+            real(qp) :: total, c(1, 4, 0:most_taylor_terms), start(1, 4), w(0:most_taylor_terms)
             integer :: n, i
 
             if (allocated(curved)) then
@@ -354,8 +353,7 @@ contains
     function integral_on_curves(curved, length, slope) result(total)
         type(curved_type), intent(in) :: curved
         real(qp), intent(in) :: length, slope(2)
-        real(qp) :: total
-        real(qp) :: xi, w, psi, moment, shear
+        real(qp) :: total, xi, w, psi, moment, shear
         real(qp), parameter :: near = sqrt(5 - 2*sqrt(10/7.0_qp))/3, far = sqrt(5 + 2*sqrt(10/7.0_qp))/3, &
             point(5) = [-far, -near, 0.0_qp, near, far], root = sqrt(70.0_qp), &
             weight(5) = [322 - 13*root, 322 + 13*root, 512.0_qp, 322 + 13*root, 322 - 13*root]/1800

@@ -36,9 +36,7 @@ contains
         start%zones%from(:) = solution%from
         start%zones%to(:) = solution%to
         start%zones%acts(:, :) = solution%acts
-        if (allocated(solution%pushing)) then
-            allocate (start%zones%pushed(0:size(solution%piece)), source=solution%pushing > 0)
-        end if
+        if (allocated(solution%pushing)) allocate (start%zones%pushed(0:size(solution%piece)), source=solution%pushing > 0)
         do i = 1, size(solution%piece)
             associate (ends => solution%ends(i), stretch => solution%stretches(i))
                 start%zones%start(:, i) = [ends%w_a - stretch%shear_flexibility*ends%moment_a, solution%rotation(1, i), &

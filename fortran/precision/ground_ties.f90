@@ -165,8 +165,7 @@ contains
         type(beam_type) :: beam
         type(motion_type), allocatable :: motions(:)
         logical :: idle(size(zones%piece))
-        real(qp) :: moved(0:last_place(grounded%beam))
-        real(qp) :: forces(size(zones%piece)), length, force, way
+        real(qp) :: moved(0:last_place(grounded%beam)), forces(size(zones%piece)), length, force, way
         integer :: i, m, sense
 
         free = .false.

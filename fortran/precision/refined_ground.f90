@@ -32,9 +32,7 @@ contains
         fine%layers(:) = fine_layer(ground%layers)
         fine%first(:) = ground%first
         fine%laws(:) = fine_law(ground%laws)
-        if (allocated(ground%mass)) then
-            allocate (fine%mass(0:ubound(ground%mass, 1)), source=real(ground%mass, qp))
-        end if
+        if (allocated(ground%mass)) allocate (fine%mass(0:ubound(ground%mass, 1)), source=real(ground%mass, qp))
         if (.not. allocated(ground%moving)) return
         allocate (fine%moving)
         allocate (fine%moving%supports, source=real(ground%moving%supports, qp))

@@ -361,8 +361,7 @@ contains
     !> Where between 0 and 1 the cubic with these values and slopes at both ends, falling first and then rising, is lowest
     pure function lowest(value_a, value_b, slope_a, slope_b) result(t)
         real(wp), intent(in) :: value_a, value_b, slope_a, slope_b
-        real(wp) :: t
-        real(wp) :: z, root
+        real(wp) :: t, z, root
 
         z = slope_a + slope_b - 3*(value_b - value_a)
         root = sqrt(max(0.0_wp, z**2 - slope_a*slope_b))

@@ -123,8 +123,7 @@ contains
     pure function all_slides(bedding, from, to) result(share)
         type(bedding_type), intent(in) :: bedding
         type(loads_type), intent(in) :: from, to
-        real(qp) :: share
-        real(qp) :: most, before, after
+        real(qp) :: share, most, before, after
 
         share = huge(share)
         if (any(bedding%support > 0.0_wp) .or. any(bedding%limit >= no_limit)) return

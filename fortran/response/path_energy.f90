@@ -103,8 +103,7 @@ contains
         pure function field_at(piece, distance) result(field)
             integer, intent(in) :: piece
             real(wp), intent(in) :: distance
-            type(field_type) :: field
-            type(field_type) :: found(1)
+            type(field_type) :: field, found(1)
 
             call values_at(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, [piece], [distance], found)
             field = found(1)

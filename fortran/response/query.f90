@@ -149,8 +149,7 @@ contains
         real(wp) :: all_of_them(quantity_count)
         integer :: powers(size(quantities)), i, k, stat
 
-        allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), across(size(piece)), &
-                  stat=stat)
+        allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), across(size(piece)), stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
         powers = units_of_fields(assembled, quantities)
@@ -200,8 +199,7 @@ contains
         type(assembled_type), intent(in) :: assembled
         !> Their numbers
         integer, intent(in) :: quantities(:)
-        integer :: powers(size(quantities))
-        integer :: k
+        integer :: powers(size(quantities)), k
 
         do k = 1, size(quantities)
             if (any(quantities(k) == needs_axial)) then
@@ -288,8 +286,7 @@ contains
         integer, intent(in) :: quantities(:)
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count)
-        real(wp) :: at(2)
+        real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count), at(2)
         integer :: piece(2, bending_count), powers(size(quantities)), of_force(2), i, k
 
         found(:, :) = 0.0_wp

@@ -323,9 +323,7 @@ contains
         else
             laws(:) = assembled%beam%supports
         end if
-        if (allocated(assembled%growth)) then
-            laws%contact = laws%contact + state%factor*growth_of(assembled)
-        end if
+        if (allocated(assembled%growth)) laws%contact = laws%contact + state%factor*growth_of(assembled)
     end function laws_in
 
     !> The law of a link along the beam, its contacts where they have gone and are in a state

@@ -274,8 +274,7 @@ contains
             assembled%end_point(0:) = point(1:at)
             assembled%support_point(:) = point(at + 1:at + size(model%supports))
             at = at + size(model%supports)
-            call find_hinges(point(at + 1:at + size(model%hinges)), model%hinge_stiffness, assembled%hinged, assembled%joint, &
-                             error)
+            call find_hinges(point(at + 1:at + size(model%hinges)), model%hinge_stiffness, assembled%hinged, assembled%joint, error)
             if (.not. allocated(error)) call make_hinges(assembled, error)
             if (allocated(error)) return
             at = at + size(model%hinges)

@@ -268,8 +268,7 @@ contains
     pure function axial_node(points, point) result(node)
         !> Points of the nodes, shape (0:n), and the point
         integer, intent(in) :: points(0:), point
-        integer :: node
-        integer :: high, middle
+        integer :: node, high, middle
 
         node = 0
         high = ubound(points, 1)

@@ -3,8 +3,7 @@ module gapbeam_assemble_laws
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, whole
-    use gapbeam_scene, only: support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, &
-        gapbeam_elastic
+    use gapbeam_scene, only: support_type, law_point_type, gapbeam_both, gapbeam_below, gapbeam_infinity, gapbeam_elastic
     use gapbeam_model, only: node_support_type, last_place
     use gapbeam_law, only: always_closed
     use gapbeam_polyline, only: join_pieces
@@ -15,8 +14,7 @@ module gapbeam_assemble_laws
     use gapbeam_input_error, only: refuse, of_supports, twice
     implicit none
     private
-    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path, &
-        laws_depend_on_path
+    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path, laws_depend_on_path
 
 contains
 

@@ -13,9 +13,8 @@ module gapbeam_check
     use gapbeam_assembled_model, only: is_along, is_movement, is_of_support, turns, has_ground_along, has_springs_along
     use gapbeam_tolerances, only: position_tolerance, end_tolerance, steepest_taper
     use gapbeam_limits, only: most_power
-    use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, &
-        not_expected, too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, &
-        bad_law, bad_load
+    use gapbeam_input_error, only: refuse, of_spans, of_hinges, of_sections, of_supports, of_loads, no_span, not_expected, &
+        too_long, lost_length, at_end, off_beam, no_place, no_node, not_axial, no_gap, not_held, idle, bad_law, bad_load
     implicit none
     private
     public :: check_spans, check_rest, check_loads
@@ -89,8 +88,7 @@ contains
             if (allocated(error)) return
         end do
         do i = 1, size(model%supports)
-            call check_support(model%supports(i), with_law(i), &
-                               entry_type(of_supports, i, size(model%supports)), ends, error)
+            call check_support(model%supports(i), with_law(i), entry_type(of_supports, i, size(model%supports)), ends, error)
             if (allocated(error)) return
         end do
     end subroutine check_rest

@@ -30,8 +30,7 @@ contains
         !> Bad input, or no memory
         type(error_type), allocatable, intent(out) :: error
         integer :: first(quantities, size(model%foundations)), last(quantities, size(model%foundations))
-        integer :: law_first(size(model%foundations)), law_last(size(model%foundations))
-        integer :: i, n
+        integer :: law_first(size(model%foundations)), law_last(size(model%foundations)), i, n
 
         n = size(model%foundations)
         call check_runs(model%ground%foundation, model%ground%quantity, n, "profile", error)

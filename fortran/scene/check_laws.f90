@@ -4,8 +4,7 @@ module gapbeam_check_laws
     use gapbeam_tolerances, only: same_slope
     use gapbeam_error, only: error_type
     use gapbeam_words, only: shown, pair
-    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_elastic, gapbeam_plastic, &
-        gapbeam_broken
+    use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_elastic, gapbeam_plastic, gapbeam_broken
     use gapbeam_input_error, only: refuse, of_supports, bad_law
     implicit none
     private

@@ -114,8 +114,7 @@ contains
         type(assembled_type), intent(in) :: assembled
         !> As for stiffness_of
         integer, intent(in) :: piece, kind
-        real(wp) :: least
-        real(wp) :: from, to
+        real(wp) :: least, from, to
         integer :: power
 
         call stiffness_along(assembled, piece, kind, from, to, power)

@@ -120,9 +120,7 @@ contains
         integer :: stiff, effect
 
         stiff = stiffness
-        if (stiff == no_exponent) then
-            stiff = merge(0, force, force == no_exponent) - merge(length, way, way == no_exponent)
-        end if
+        if (stiff == no_exponent) stiff = merge(0, force, force == no_exponent) - merge(length, way, way == no_exponent)
         effect = force
         if (force /= no_exponent) effect = force - stiff
         if (effect == no_exponent) effect = way

@@ -150,32 +150,6 @@ class Followed:
         check_status(status, message)
         return laws[:, :-1], int(at) - 1, how
 
-    def put_along(
-        self, beam: Beam, stretch: int, factor: float, state: _engine.Owned
-    ) -> tuple:
-        """Put what there is along the beam on the path into a state.
-
-        Parameters
-        ----------
-        beam : Beam
-            With the loads of the leg.
-        stretch : int
-            From 0.
-        factor : float
-        state : Owned
-            Its state there.
-
-        Returns
-        -------
-        values : numpy.ndarray
-            At the supports, as from GBSOLV.
-        conditions, friction, slip, slides, loose
-            Of `Chain`.
-        """
-        *found, status, message = _engine.gbhaxi(beam.handle, self._found[1], state, stretch + 1, factor, beam.scene_supports)
-        check_status(status, message)
-        return tuple(found)
-
     def tensions(self, stretches: int) -> tuple[np.ndarray, np.ndarray]:
         """Give the axial forces at the ends of all stretches, with links along the beam.
 
@@ -232,8 +206,11 @@ class OnStretch:
         self.followed, self.stretch = followed, stretch
 
     def put_into(self, beam: Beam, factor: float, state: _engine.Owned) -> tuple:
-        """Put it into a state, as `Followed.put_along`."""
-        return self.followed.put_along(beam, self.stretch, factor, state)
+        """Put it into a state of the beam with the loads of the leg; give its values at the supports, and those of a `Chain`."""
+        path = self.followed._found[1]
+        *found, status, message = _engine.gbhaxi(beam.handle, path, state, self.stretch + 1, factor, beam.scene_supports)
+        check_status(status, message)
+        return tuple(found)
 
 
 def follow_ground(beam: Beam, rule: str, closed: np.ndarray) -> GroundChanges:

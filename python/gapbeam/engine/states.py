@@ -191,6 +191,11 @@ class Ground:
         return read_only(self.values[GROUND_ROWS + self.layers :].astype(np.int32))
 
 
+def _array(name: str, doc: str) -> property:
+    """An array of the state that is looked at where it is asked for."""
+    return property(lambda self: self.state.arrays[name], doc=doc)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Solution(Record):
     """What the engine found at one load factor, in its own units (`Beam.units`).
@@ -263,45 +268,14 @@ class Solution(Record):
         beam = self.state.beam
         return _engine.gbyiel(beam.handle, self.state.handle, beam.scene_supports)[:-1].T
 
-    @property
-    def deflection(self) -> np.ndarray:
-        """Deflections of the nodes."""
-        return self.state.arrays["deflection"]
-
-    @property
-    def moment_left(self) -> np.ndarray:
-        """Moments left of the nodes."""
-        return self.state.arrays["moment_left"]
-
-    @property
-    def moment_right(self) -> np.ndarray:
-        """Moments right of the nodes."""
-        return self.state.arrays["moment_right"]
-
-    @property
-    def shear(self) -> np.ndarray:
-        """Shears of the links, beside those of the simple bar."""
-        return self.state.arrays["shear"]
-
-    @property
-    def reaction(self) -> np.ndarray:
-        """Reaction of every support, positive upward."""
-        return self.state.arrays["reaction"]
-
-    @property
-    def motion(self) -> np.ndarray:
-        """Displacements of the nodes in the free motion, positive downward, largest 1."""
-        return self.state.arrays["motion"]
-
-    @property
-    def displacement(self) -> np.ndarray:
-        """Displacements of the points of the axial system."""
-        return self.state.arrays["displacement"]
-
-    @property
-    def tension(self) -> np.ndarray:
-        """Forces in the bars of the axial system."""
-        return self.state.arrays["tension"]
+    deflection = _array("deflection", "Deflections of the nodes.")
+    moment_left = _array("moment_left", "Moments left of the nodes.")
+    moment_right = _array("moment_right", "Moments right of the nodes.")
+    shear = _array("shear", "Shears of the links, beside those of the simple bar.")
+    reaction = _array("reaction", "Reaction of every support, positive upward.")
+    motion = _array("motion", "Displacements of the nodes in the free motion, positive downward, largest 1.")
+    displacement = _array("displacement", "Displacements of the points of the axial system.")
+    tension = _array("tension", "Forces in the bars of the axial system.")
 
     @property
     def ground(self) -> Ground | None:

@@ -12,7 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
 from ..engine.tolerances import LOAD_BEGIN
-from ..results.state.ground import Contact, joined
+from ..results.state.ground import joined
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -71,7 +71,10 @@ def draw_zones(axes: Axes, result: Result, stretches: Sequence[Sequence[Step]]) 
     """
     lines, areas = [], {shade: [] for shade in SHADES}
     for stretch in stretches:
-        of = [(step.factor, _by_foundation(step)) for step in stretch]
+        of = [
+            (step.factor, {number: list(zones) for number, zones in groupby(joined(step.contact), lambda zone: zone.foundation)})
+            for step in stretch
+        ]
         for shade, foundation in _shades(result):
             rows = [(factor, zones.get(foundation, [])) for factor, zones in of]
             if len(rows) == 1:
@@ -132,10 +135,6 @@ def note_on_ground(result: Result) -> str:
 def _marked(result: Result) -> list:
     events = [event for event in result.events if event.support is None and event.branch == 1]
     return events if len(events) <= MOST_MARKS else []
-
-
-def _by_foundation(step: Step) -> dict[int, list[Contact]]:
-    return {number: list(zones) for number, zones in groupby(joined(step.contact), lambda zone: zone.foundation)}
 
 
 def _shades(result: Result) -> list[tuple[str, int]]:

@@ -235,15 +235,12 @@ class SupportTexts:
         if not found:
             return ""
         same = len(found) == len(indices) and len({tuple(words) for words in found.values()}) == 1
-        if same and self._stands_alone(place):
+        if same and place in getattr(self, "alone", self.at):
             return "\n".join(found[indices[0]])
         across = {k: self.scene.supports[k].side for k in indices if self.scene.supports[k].direction == "normal"}
         sides = len(set(across.values())) > 1
         names = {k: f"{self.names[k]} {across[k]}" if sides and k in across else self.names[k] for k in found}
         return "\n".join(f"{names[k]}: {words}" for k, each in found.items() for words in each)
-
-    def _stands_alone(self, place: float) -> bool:
-        return place in getattr(self, "alone", self.at)
 
     def _sum_up(self, moved: bool) -> None:
         """Note between which values gaps, settlements, springs and movements are, where they cannot all be written."""

@@ -167,7 +167,8 @@ class EnvelopeValues:
             support = self._scene.supports[k]
             if turns(support):
                 continue
-            high, low = (self._quiet(self._values["reaction", kind][k]) for kind in KINDS)
+            both = (float(self._values["reaction", kind][k]) for kind in KINDS)
+            high, low = (0.0 if abs(value) <= self._small else value for value in both)
             lines = [("max", "reaction", high)] if high > self._small or (support.side != "above" and high > low) else []
             if low < -self._small or (support.side != "above" and high > self._small):
                 lines.append(("min", "reaction", low))
@@ -192,10 +193,6 @@ class EnvelopeValues:
                 line = with_minus_signs(f"{begin}{kind} {text}" if kind else f"{begin.strip()}: {text}".removeprefix(": "))
                 where += [f"{line}, {source}"] if short else [line, *[source] * bool(source)]
         return Told(tuple(words), size, lifted, tuple(openings))
-
-    def _quiet(self, value: float) -> float:
-        return 0.0 if abs(value) <= self._small else float(value)
-
 
 def short_names(scene: Scene) -> list[str]:
     """Name the supports; long names are cut at the end, or in the middle where the ends tell them apart."""
@@ -236,7 +233,7 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
         value = support.settlement if support.direction == "axial" else abs(support.settlement)
         found["settlement"] = f"{words} {with_unit(scene, 'gap', value)}"
     if support.law is None and 0.0 < support.stiffness < np.inf:
-        found["spring"] = f"spring {fmt.number(support.stiffness, DIGITS)} {_per_length(scene)}".rstrip()
+        found["spring"] = f"spring {fmt.number(support.stiffness, DIGITS)} {fmt.unit(scene, 'uniform')}".rstrip()
     if support.friction:
         found["friction"] = f"friction {fmt.number(support.friction, DIGITS)}"
     if not isinstance(support.rotation, str) and support.rotation:
@@ -247,10 +244,6 @@ def properties(scene: Scene, k: int) -> dict[str, str]:
 def with_unit(scene: Scene, quantity: str, value: float) -> str:
     """Write a value with its unit, displacements in mm where lengths are in m."""
     return fmt.value(scene, quantity, value, DIGITS)
-
-
-def _per_length(scene: Scene) -> str:
-    return fmt.unit(scene, "uniform")
 
 
 def _turning(scene: Scene) -> str:

@@ -147,7 +147,8 @@ def _beside_first_order(result: Result) -> str:
         return ""
     data = result.scene.to_dict()
     data["beam"]["N"], data["analysis"] = 0.0, {"rule": result._rule, "first_order": True}
-    data["sections"] = [kept for one in data.get("sections", ()) if {*(kept := _without(one, "N"))} - {"from", "to"}]
+    sections = [{name: value for name, value in one.items() if name != "N"} for one in data.get("sections", ())]
+    data["sections"] = [one for one in sections if {*one} - {"from", "to"}]
     data.pop("combinations", None)
     try:
         first = solve(data)
@@ -160,10 +161,6 @@ def _beside_first_order(result: Result) -> str:
     share = f", {here / there:.3g} times that" if there else ""
     words = [fmt.value(result.scene, "moment", value) for value in (here, there)]
     return f"Largest |moment| {words[0]}{share} of first order (N = 0), {words[1]}." if there else ""
-
-
-def _without(table: dict, key: str) -> dict:
-    return {name: value for name, value in table.items() if name != key}
 
 
 def _largest_moment(step: Step) -> float:

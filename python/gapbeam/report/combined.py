@@ -58,8 +58,9 @@ def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False)
         write_trains(say, result)
     elif "solved" in result.statuses:
         _reactions(say, result)
+        when = "at full load" if result.scene.analysis.history[-1] == 1.0 else "at the end of the history"
         for name, envelope in envelopes_to_tell(result):
-            of = f"{'all combinations' if name is None else visible(name)} {_when(result)}"
+            of = f"{'all combinations' if name is None else visible(name)} {when}"
             _fields(say, result, envelope, of)
             _supports(say, result, envelope, of)
             _foundations(say, result, envelope, of)
@@ -120,11 +121,6 @@ def _source(extreme: "Extreme | GroundExtreme") -> str:
     names = [visible(source.combination or "") for source in extreme.ties]
     more = len(names) - 1 - MOST_TIES
     return ", ".join(names[: 1 + MOST_TIES]) + (f" and {more} more" if more > 0 else "")
-
-
-def _when(result: "CombinedResult") -> str:
-    """Say which state of every combination counts."""
-    return "at full load" if result.scene.analysis.history[-1] == 1.0 else "at the end of the history"
 
 
 def _reactions(say: Writer, result: "CombinedResult") -> None:

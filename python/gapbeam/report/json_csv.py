@@ -133,8 +133,11 @@ def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
     columns = (result.envelope(points) if governs else result.fields(points=points)).columns()
     yield _csv([[cell(_heading(result, name)) for name in columns]])
     for part in parts(len(columns["x"])):
-        values = (column[part] for column in columns.values())
-        yield _csv(zip(*(some.tolist() if _are_numbers(some) else map(cell, some) for some in values), strict=True))
+        texts = (
+            some.tolist() if isinstance(some, np.ndarray) and some.dtype.kind in "fiu" else map(cell, some)
+            for some in (column[part] for column in columns.values())
+        )
+        yield _csv(zip(*texts, strict=True))
 
 
 def _heading(result: "Result", name: str) -> str:
@@ -142,10 +145,6 @@ def _heading(result: "Result", name: str) -> str:
     if name.endswith(("_combination", "_train", "_direction")):
         return name
     return fmt.with_unit(result.scene, "x" if name.endswith("_position") else name.removesuffix("_max").removesuffix("_min"), name)
-
-
-def _are_numbers(column: Sequence | np.ndarray) -> bool:
-    return isinstance(column, np.ndarray) and column.dtype.kind in "fiu"
 
 
 def _csv(rows: Iterable[Sequence]) -> str:

@@ -64,7 +64,7 @@ def _beam(scene: Scene) -> str:
     stiffness += [end for section in scene.sections if section.EI is not None for end in ends_of(section.EI)[:2]]
     low, high = min(stiffness), max(stiffness)
     values = fmt.number(low) if low == high else f"{fmt.number(low)} to {fmt.number(high)}"
-    words = [fmt.count(len(beam.spans), "span"), _labelled(float(scene.span_ends()[-1]), fmt.unit(scene, "x"))]
+    words = [fmt.count(len(beam.spans), "span"), f"{fmt.number(float(scene.span_ends()[-1]))} {fmt.unit(scene, 'x')}".rstrip()]
     words.append("EI " + f"{values} {fmt.unit(scene, 'EI')}".rstrip())
     if scene.sections:
         tapered = sum(map(is_tapered, scene.sections))
@@ -121,7 +121,3 @@ def _loads(scene: Scene) -> str:
     each = ", ".join(f"{cases[case]:,} {visible(case)}" for case in order[:MOST_CASES])
     more = f" and {len(order) - MOST_CASES} more cases" if len(order) > MOST_CASES else ""
     return f"{len(scene.loads):,}: {words} ({each + more if len(order) > 1 else f'all {visible(order[0])}'})"
-
-
-def _labelled(value: float, label: str) -> str:
-    return f"{fmt.number(value)} {label}".rstrip()

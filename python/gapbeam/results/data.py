@@ -13,7 +13,6 @@ from .paths.dissipation import dissipated
 from .paths.ground_path import GroundEvent
 from .paths.path import Event
 from .state.fields import Fields
-from .state.slip_zones import SlipZone
 from .state.step import Step
 from .trains.data import trains_data
 
@@ -314,13 +313,11 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             "supports": support_data(result, step, x, None if lost is None else lost[k]),
             **({"hinges": [one._asdict() for one in step.hinges]} if result.scene.hinges else {}),
             **ground_data(result, step),
-            **({"slip_zones": [_zone_data(one) for one in step.slip_zones]} if result._beam.is_on_axial_ground else {}),
+            **({"slip_zones": [
+                {"from": one.from_, "to": one.to, "way": one.way, "friction": one.friction} for one in step.slip_zones
+            ]} if result._beam.is_on_axial_ground else {}),
             "undecided": list(step.undecided),
             "indifferent": step.indifferent,
             **({} if step.unique else {"unique": False}),
             "certificate": step.certificate,
         }
-
-
-def _zone_data(zone: SlipZone) -> dict[str, Any]:
-    return {"from": zone.from_, "to": zone.to, "way": zone.way, "friction": zone.friction}

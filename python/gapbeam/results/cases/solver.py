@@ -191,7 +191,8 @@ class CaseSolver(Pickled):
         closed = self._by_supports(found["closed"], self._carries, np.zeros(len(found["status"]), dtype=np.int32))
         for k in self.beam.laws if self.beam.has_laws else ():
             at = np.searchsorted(self.supports, k)
-            closed[:, at] = self._acts(k, closed[:, at])
+            _, middle, at_middle = self.beam.laws[k]  # it acts by the number of closed breakpoints
+            closed[:, at] = np.abs(closed[:, at] - middle) + at_middle > 0
         return {**found, "closed": closed}
 
     def _by_supports(self, values: np.ndarray, carries: np.ndarray, idle: np.ndarray) -> np.ndarray:
@@ -200,11 +201,6 @@ class CaseSolver(Pickled):
         columns[:, carries] = 0
         np.add.at(columns, (slice(None), carries), values)
         return columns
-
-    def _acts(self, support: int, breakpoints: np.ndarray) -> np.ndarray:
-        """Whether a support with a law acts, from the number of closed breakpoints."""
-        _, middle, at_middle = self.beam.laws[support]
-        return (np.abs(breakpoints - middle) + at_middle > 0).astype(np.int32)
 
     def result(self, factors: np.ndarray, varied: Varied) -> Result:
         """Solve one case with all that there is to say of it, whether the beam would buckle or not.

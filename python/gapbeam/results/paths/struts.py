@@ -78,14 +78,10 @@ class Struts:
         if key not in self._known:
             held = set(self._support_points[self.acting(closed, breakpoints)].tolist())
             self._known[key] = [
-                (a, b, float(self.x[b] - self.x[a]) * (1.0 if self._ends_stay(a, b, held) else 2.0))
+                (a, b, float(self.x[b] - self.x[a]) * (1.0 if {a, b} <= held or {a, b} <= self._hinges - held else 2.0))
                 for a, b in pairwise(sorted({0, len(self.x) - 1} | self._hinges | held))
             ]
         return self._known[key]
-
-    def _ends_stay(self, a: int, b: int, held: set[int]) -> bool:
-        """Whether a stretch buckles in one half wave: between supports, or between hinges."""
-        return {a, b} <= held or {a, b} <= self._hinges - held
 
     def largest(
         self, closed: np.ndarray, tension: np.ndarray, EI: np.ndarray | None = None, breakpoints: np.ndarray | None = None

@@ -125,11 +125,8 @@ def describe_fall(
         return "buckles", f"buckles{at}: {describe_buckling(cause)}"
     if cause is not None:
         return "no-equilibrium", f"no equilibrium{at}: {describe_falling_ground(cause)}"
-    return "no-equilibrium", f"no equilibrium{at}: {_sliding(beam) if motion is None else describe_motion(beam, motion)}"
-
-
-def _sliding(beam: Beam) -> str:
-    return SLIDES_ON_GROUND if beam.is_on_axial_ground else SLIDES
+    slides = SLIDES_ON_GROUND if beam.is_on_axial_ground else SLIDES
+    return "no-equilibrium", f"no equilibrium{at}: {slides if motion is None else describe_motion(beam, motion)}"
 
 
 def _describe_body(beam: Beam, motion: np.ndarray, a: int, b: int) -> str:

@@ -122,13 +122,15 @@ def _hold(scene: Scene, course: Course, near: float, position: float) -> Scene |
         if not free.indifferent:
             return scene
         beam = beam_of(scene)
-        level = _deflection(beam, free, x)
+        k = int(np.abs(beam.node_x - x).argmin())
+        level = float(np.ldexp(free.deflection[k], beam.units.deflection))
         carrying_nothing, movable = [], False
         for away in (0.0, AWAY, -AWAY):
-            held = _with_support(scene, x, level + away * max(abs(level), AWAY * end))
+            held = replace(scene, supports=[*scene.supports, Support(x=x, settlement=level + away * max(abs(level), AWAY * end))])
             with suppress(GapbeamError):  # beside another support there may be no room for it, or no answer with it
                 solution = solution_of(held)
-                if _carries_nothing(solution):
+                reactions = np.abs(solution.at_supports[0])
+                if solution.status == Status.SOLVED and reactions[-1] <= NOTHING * reactions.max():  # it carries nothing
                     carrying_nothing.append((held, solution))
                     movable |= away != 0.0
         if movable:
@@ -136,22 +138,6 @@ def _hold(scene: Scene, course: Course, near: float, position: float) -> Scene |
     return None if free.indifferent else scene
 
 
-def _with_support(scene: Scene, x: float, level: float) -> Scene:
-    return replace(scene, supports=[*scene.supports, Support(x=x, settlement=level)])
-
-
-def _carries_nothing(solution: Solution) -> bool:
-    """Whether the last support carries nothing."""
-    reactions = np.abs(solution.at_supports[0])
-    return solution.status == Status.SOLVED and reactions[-1] <= NOTHING * reactions.max()
-
-
 def _solve(scene: Scene) -> Solution:
     beam = beam_of(scene)
     return beam.solve(1.0, "block", np.ones(beam.supports, dtype=np.int32))
-
-
-def _deflection(beam: Beam, solution: Solution, x: float) -> float:
-    """Deflection of a node at an end or a hinge."""
-    k = int(np.abs(beam.node_x - x).argmin())
-    return float(np.ldexp(solution.deflection[k], beam.units.deflection))
