@@ -11,7 +11,7 @@ module gapbeam_link
     implicit none
     private
     public :: link_type, piece_type, piece_load_type, condense_link, condense_loads, recover_link, combine_loads
-    public :: along_type, next_piece, moments_about_right_end, no_load
+    public :: along_type, next_piece, moments_about_right_end, no_load, drop_loads_of_link
 
     !> A condensed link; index 1 dead, 2 live
     type :: link_type
@@ -71,11 +71,7 @@ contains
             spread = 1.0_wp/12.0_wp
             shear_term = pieces(1)%shear_flexibility/link%length
         else
-            length = sum_type()
-            bending = sum_type()
             if (pieces(1)%hinge > 0.0_wp) call add(bending, pieces(1)%hinge)
-            shear = sum_type()
-            first = sum_type()
             do j = 1, size(pieces)
                 associate (p => pieces(j))
                     local = p%flexibility*p%length
@@ -92,7 +88,6 @@ contains
             link%bending = total(bending)
             centre = 0.5_wp
             if (link%bending > 0.0_wp) centre = total(first)/link%bending
-            second = sum_type()
             if (pieces(1)%hinge > 0.0_wp) call add(second, pieces(1)%hinge*centre**2)
             length = sum_type()
             do j = 1, size(pieces)
@@ -128,12 +123,7 @@ contains
         integer :: j, n
 
         n = size(pieces)
-        link%turn_a(k) = 0.0_wp
-        link%turn_b(k) = 0.0_wp
-        link%shear_a(k) = 0.0_wp
-        link%shear_b(k) = 0.0_wp
-        link%load_sum(k) = 0.0_wp
-        link%turn_sum(k) = 0.0_wp
+        call drop_loads_of_link(link, k)
         if (.not. any_load(loads)) return
         if (n == 1 .and. .not. is_tapered(pieces(1))) then
             call condense_load(pieces(1), loads(1), link, k)
@@ -142,9 +132,6 @@ contains
         end if
 
         call moments_about_right_end(pieces, loads, work, right_end)
-        turn_a = sum_type()
-        turn_b = sum_type()
-        slip = sum_type()
         slips = 0.0_wp
         do j = 1, n
             call next_piece(pieces(j)%length, loads(j), link%length, merge(right_end, work(max(1, j - 1)), j == 1), work(j), &
@@ -188,6 +175,19 @@ contains
         link%shear_b(k) = -total(at%moment)/link%length
         call add_end_couples(pieces, loads(1)%couple_a, loads(n)%couple_b, link, k)
     end subroutine condense_loads
+
+    !> Leave out its dead (1) or live (2) loads
+    elemental subroutine drop_loads_of_link(link, k)
+        type(link_type), intent(inout) :: link
+        integer, intent(in) :: k
+
+        link%turn_a(k) = 0.0_wp
+        link%turn_b(k) = 0.0_wp
+        link%shear_a(k) = 0.0_wp
+        link%shear_b(k) = 0.0_wp
+        link%load_sum(k) = 0.0_wp
+        link%turn_sum(k) = 0.0_wp
+    end subroutine drop_loads_of_link
 
     !> Couples just inside the ends: as moments there would, but that at the left end does not turn an elastic hinge
     pure subroutine add_end_couples(pieces, couple_a, couple_b, link, k)
@@ -272,8 +272,6 @@ contains
         integer :: j, n
 
         n = size(pieces)
-        sum_right = sum_type()
-        distance = sum_type()
         right(n) = 0.0_wp
         do j = n, 2, -1
             call add(sum_right, load_moment(total(distance), pieces(j)%length, loads(j)%qb, loads(j)%qa))
@@ -335,10 +333,6 @@ contains
         end if
         call moments_about_right_end(pieces, loads, work(:, 1), right_end)
         ! Forward: moment, shear, rotation; the turning of each piece, weighted to its ends, waits in work(:, 2:3)
-        left = sum_type()
-        position = sum_type()
-        turning = sum_type()
-        slip = sum_type()
         x1 = 0.0_wp
         before = right_end
         do j = 1, n
@@ -372,7 +366,6 @@ contains
             end associate
         end do
         ! Backward: first moment of the turning right of each piece's start, about the right end of the link
-        first = sum_type()
         position = sum_type()
         do j = n, 1, -1
             call add(first, work(j, 3)*total(position))

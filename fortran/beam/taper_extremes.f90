@@ -5,6 +5,7 @@
 module gapbeam_taper_extremes
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_power
+    use gapbeam_line_search, only: bracket_type, narrow
     use gapbeam_polynomial, only: roots_between
     use gapbeam_piece, only: piece_type, piece_load_type
     use gapbeam_element, only: field_type
@@ -118,36 +119,22 @@ contains
             slope = here%rotation + softness(2)*here%shear
         end function incline
 
-        !> Where it is zero between two places at which it has different signs
-        pure function where_level(low, high) result(t)
-            real(wp), intent(in) :: low, high
-            real(wp) :: t, a, b, at_a, at_b, here
-            integer :: step, kept
+        !> Where it is zero between two places at which it has different signs: a bisection every third step
+        pure function where_level(from, to) result(t)
+            real(wp), intent(in) :: from, to
+            real(wp) :: t, upward, here
+            type(bracket_type) :: b
+            integer :: step
 
-            a = low
-            b = high
-            at_a = incline(a)
-            at_b = incline(b)
-            kept = 0
-            t = a + (b - a)/2
-            ! Regula falsi with the value of an end halved that stays (Illinois), a bisection every third step
+            upward = sign(1.0_wp, incline(to))
+            b = bracket_type(from, to, upward*incline(from), upward*incline(to))
             do step = 1, 200
-                t = a + (b - a)/2
-                if (mod(step, 3) > 0) t = max(a, min(b, b - at_b*((b - a)/(at_b - at_a))))
-                here = incline(t)
+                t = b%low + (b%high - b%low)/2
+                if (mod(step, 3) > 0) t = max(b%low, min(b%high, b%high - b%at_high*((b%high - b%low)/(b%at_high - b%at_low))))
+                here = upward*incline(t)
                 if (.not. abs(here) > 0.0_wp) return
-                if (here*sign(1.0_wp, at_a) > 0.0_wp) then
-                    a = t
-                    at_a = here
-                    if (kept == 1) at_b = at_b/2
-                    kept = 1
-                else
-                    b = t
-                    at_b = here
-                    if (kept == -1) at_a = at_a/2
-                    kept = -1
-                end if
-                if (b - a <= 4*spacing(b)) return
+                call narrow(b, t, here)
+                if (b%high - b%low <= 4*spacing(b%high)) return
             end do
         end function where_level
 

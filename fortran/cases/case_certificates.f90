@@ -192,9 +192,8 @@ contains
             stat = 1
             return
         end if
-        allocate (moves(lanes, 0:block%beam%n, kinds_of_movement), stat=stat)
+        allocate (moves(lanes, 0:block%beam%n, kinds_of_movement), source=0.0_wp, stat=stat)
         if (stat /= 0) return
-        moves(:, :, :) = 0.0_wp
         do first = 1, size(which), lanes
             if (is_stopped(assembled%beam%watch)) return
             call take_cases(assembled, numbers, solutions%closed, which(first:), block, fits)

@@ -63,9 +63,8 @@ contains
             if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
             return
         end if
-        allocate (done(cases), stat=stat)
+        allocate (done(cases), source=.false., stat=stat)
         if (stat /= 0) return
-        done(:) = .false.
         if (numbers%rule == rule_block) then
             if (associated(numbers%spans)) then
                 if (room%fits_with_own_spans) call solve_in_lanes(assembled, loads, numbers, remaining(done), &

@@ -221,7 +221,7 @@ contains
             moved(motions(m)%first:motions(m)%last) = motions(m)%displacement
             call turn_with(beam, moved)
             do way = -1, 1, 2
-                free = free .or. leaves_all(beam%supports, undecided, 0, ubound(moved, 1), moved, way)
+                free = free .or. leaves_all(beam%supports, undecided, moved, way)
             end do
         end do
     end function held_by_ties

@@ -122,12 +122,11 @@ contains
     end function lets_go_beyond
 
     !> Is a motion towards none of some supports
-    pure function leaves_all(supports, chosen, first, last, displacement, way) result(leaves)
+    pure function leaves_all(supports, chosen, displacement, way) result(leaves)
         type(node_support_type), intent(in) :: supports(:)
         logical, intent(in) :: chosen(:)
-        !> First and last node that move, their displacements, and 1 or -1 for the motion or its opposite
-        integer, intent(in) :: first, last
-        real(wp), intent(in) :: displacement(first:)
+        !> Displacements of the nodes, shape (0:n), and 1 or -1 for the motion or its opposite
+        real(wp), intent(in) :: displacement(0:)
         integer, intent(in) :: way
         logical :: leaves
         integer :: k
@@ -135,7 +134,7 @@ contains
         leaves = .true.
         do k = 1, size(chosen)
             associate (s => supports(k))
-                if (.not. chosen(k) .or. s%node < first .or. s%node > last) cycle
+                if (.not. chosen(k)) cycle
                 if (lets_go_beyond(s)) then
                     leaves = leaves .and. way*s%side*displacement(s%node) >= 0.0_wp
                 else

@@ -3,14 +3,14 @@ module gapbeam_model
     use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr
     use gapbeam_kinds, only: wp
     use gapbeam_require, only: checked, require
-    use gapbeam_link, only: link_type
+    use gapbeam_link, only: link_type, drop_loads_of_link
     use gapbeam_foundation, only: stretch_link_type
     use gapbeam_law, only: node_support_type, below, above, both, is_rigid, is_support, has_laws
     use gapbeam_law_adapters, only: least_stiffness
     implicit none
     private
-    public :: beam_type, new_beam, order_supports, take_supports, last_place, node_of_support, has_other_supports, softest
-    public :: drop_loads, drop_loads_of_link
+    public :: beam_type, new_beam, order_supports, take_supports, last_place, node_of_support, has_other_supports, softest, &
+        drop_loads
     ! Of gapbeam_law, for those who make beams
     public :: node_support_type, below, above, both, is_rigid
     public :: of_node, of_hinge, of_hinge_held_left, left_of_hinge, right_of_hinge, is_of_hinge
@@ -82,19 +82,6 @@ contains
         beam%couple(k, :) = 0.0_wp
         call drop_loads_of_link(beam%links, k)
     end subroutine drop_loads
-
-    !> The same of a link
-    elemental subroutine drop_loads_of_link(link, k)
-        type(link_type), intent(inout) :: link
-        integer, intent(in) :: k
-
-        link%turn_a(k) = 0.0_wp
-        link%turn_b(k) = 0.0_wp
-        link%shear_a(k) = 0.0_wp
-        link%shear_b(k) = 0.0_wp
-        link%load_sum(k) = 0.0_wp
-        link%turn_sum(k) = 0.0_wp
-    end subroutine drop_loads_of_link
 
     !> Give a beam its supports, and put them in order from left to right, those at the same node in the caller's order
     pure subroutine order_supports(supports, beam)

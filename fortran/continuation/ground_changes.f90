@@ -77,10 +77,9 @@ contains
                 call add_zones(runs(first:last), branch, found, number)
             end do
         end do
-        allocate (zones(number), stat=stat)
+        allocate (zones(number), source=found(:number), stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
-        zones(:) = found(:number)
     end subroutine find_zones
 
     !> Join runs of next to no length to their neighbours, as if what is before went on; places that only touch are none

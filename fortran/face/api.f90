@@ -105,10 +105,9 @@ contains
         type(load_type), allocatable :: before(:)
         integer :: stat
 
-        allocate (before(size(loads)), stat=stat)
+        allocate (before(size(loads)), source=lowered%model%loads, stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
-        before(:) = lowered%model%loads
         lowered%model%loads(:) = loads
         call assemble_loads(lowered, error)
         if (.not. allocated(error)) return

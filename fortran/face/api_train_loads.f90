@@ -119,10 +119,9 @@ contains
             found(number) = train_gap_type(passage%from(k), passage%to(k), passage%status(k))
             last = k
         end do
-        allocate (gaps(number), stat=stat)
+        allocate (gaps(number), source=found(:number), stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
-        gaps(:) = found(:number)
         if (backwards) gaps(:) = found(number:1:-1)
     end subroutine find_gaps
 

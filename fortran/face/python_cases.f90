@@ -117,9 +117,8 @@ subroutine gbone(beam, room, nd, nv, nb, factor, supp, rule, block, status)
     m = size(handle%beam%lowered%beam%supports)
     at = 3*n + 2
     status = gapbeam_no_memory
-    allocate (closed(m, 1), stat=stat)
+    allocate (closed(m, 1), source=1, stat=stat)
     if (stat /= 0) return
-    closed(:, :) = 1
     numbers%factors(1:nd, 1:1) => factor
     numbers%rule = rule
     if (nv > 1) numbers%supports(1:3, 1:nv, 1:1) => supp

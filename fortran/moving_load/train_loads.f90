@@ -1,7 +1,7 @@
 !> Loads of a train on the links of a beam at one position.
 module gapbeam_train_loads
     use gapbeam_kinds, only: wp
-    use gapbeam_model, only: drop_loads_of_link
+    use gapbeam_link, only: drop_loads_of_link
     use gapbeam_train, only: train_type, track_type
     use gapbeam_train_intervals, only: interval_type
     implicit none

@@ -81,10 +81,9 @@ contains
             end associate
         end do
         deallocate (placed%model%loads)
-        allocate (placed%model%loads(n), stat=stat)
+        allocate (placed%model%loads(n), source=loads(:n), stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
-        placed%model%loads(:) = loads(:n)
         call assemble_model(placed, error)
         placed%beam%watch = assembled%beam%watch
     end subroutine put_train

@@ -275,7 +275,8 @@ contains
         integer :: i, k
         logical :: beside
 
-        at = found%at
+        allocate (at(size(found)))
+        at(:) = found%at
         where (found%value < least) at = huge(at)
         do i = 1, size(found)
             k = minloc(at, 1)

@@ -69,15 +69,8 @@ contains
         class(train_way_type), intent(inout) :: problem
         type(crossing_type), intent(in) :: crossing
         type(error_type), allocatable, intent(out) :: error
-        type(crossing_type), allocatable :: longer(:)
-        integer :: stat
 
-        allocate (longer(size(problem%crossings) + 1), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
-        longer(:size(problem%crossings)) = problem%crossings
-        longer(size(longer)) = crossing
-        call move_alloc(longer, problem%crossings)
+        problem%crossings = [problem%crossings, crossing]
         call append(problem, -size(problem%crossings), error)
     end subroutine append_crossing
 

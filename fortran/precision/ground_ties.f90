@@ -188,7 +188,7 @@ contains
             moved(motions(m)%first:motions(m)%last) = motions(m)%displacement
             call turn_with(beam, moved)
             do sense = -1, 1, 2
-                free = free .or. (leaves_all(beam%supports, undecided, 0, ubound(moved, 1), moved, sense) &
+                free = free .or. (leaves_all(beam%supports, undecided, moved, sense) &
                                   .and. leaves_ground(motions(m), sense))
             end do
         end do

@@ -218,8 +218,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: stat
 
-        allocate (acting(size(state%closed)), stat=stat)
-        if (stat == 0) acting(:) = state%closed
+        allocate (acting(size(state%closed)), source=state%closed, stat=stat)
         if (stat /= 0) call no_memory(error)
     end subroutine copy_scheme
 

@@ -95,10 +95,9 @@ contains
             end if
             if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
-            allocate (assembled%with_law(size(model%supports)), stat=stat)
+            allocate (assembled%with_law(size(model%supports)), source=.false., stat=stat)
             if (stat /= 0) call no_memory(error)
             if (allocated(error)) return
-            assembled%with_law(:) = .false.
             assembled%with_law(assembled%law%support) = .true.
             model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
             if (model%axial_loads_bend) call copy_model(model, given, stat)

@@ -17,10 +17,9 @@ contains
         integer :: i, stat
 
         if (size(assembled%model%sections) == 0) return
-        allocate (assembled%section_of(kinds, size(assembled%pieces)), stat=stat)
+        allocate (assembled%section_of(kinds, size(assembled%pieces)), source=0, stat=stat)
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
-        assembled%section_of(:, :) = 0
         do i = 1, size(assembled%model%sections)
             associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
                 if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i

@@ -163,10 +163,6 @@ class BranchPath(Pickled):
         ----------
         segment : BranchSegment
             One of the segments.
-
-        Returns
-        -------
-        Beam
         """
         return self._beam_at(segment.number)
 
@@ -215,10 +211,6 @@ class BranchPath(Pickled):
         ----------
         segment : BranchSegment
             One of the segments.
-
-        Returns
-        -------
-        Step
         """
         return self._step(segment.first, segment.start)
 
@@ -229,10 +221,6 @@ class BranchPath(Pickled):
         ----------
         segment : BranchSegment
             One of the segments.
-
-        Returns
-        -------
-        bool
         """
         return segment.first > 0 and bool(self._history.about[segment.first - 1, 4])
 

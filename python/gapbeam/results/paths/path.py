@@ -173,7 +173,6 @@ class Path:
         Parameters
         ----------
         factor : float
-            Load factor.
 
         Returns
         -------
@@ -188,7 +187,6 @@ class Path:
         Parameters
         ----------
         factor : float
-            Load factor.
 
         Returns
         -------
@@ -207,10 +205,6 @@ class Path:
             One of the segments.
         factor : float
             One of its load factors.
-
-        Returns
-        -------
-        Step
         """
         return Step(self._beam, factor, GIVEN, read_only(self.closed(segment)))
 

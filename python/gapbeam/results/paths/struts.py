@@ -173,7 +173,6 @@ class Struts:
         Parameters
         ----------
         scene : Scene
-            The scene.
         step : Step
             The state.
         tension : numpy.ndarray

@@ -227,7 +227,6 @@ class LoadSteps(Steps):
         Parameters
         ----------
         factor : float
-            Load factor.
 
         Returns
         -------

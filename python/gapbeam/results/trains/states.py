@@ -119,10 +119,6 @@ class TrainLoads:
         acts : numpy.ndarray of bool, optional
             Which axles act; default those on the beam.
 
-        Returns
-        -------
-        Placed
-
         Raises
         ------
         EngineError

@@ -1,11 +1,11 @@
-!> Where a slope of the energy that never falls along a line goes through zero.
+!> Where what rises goes through zero, as a slope of the energy that never falls along a line.
 module gapbeam_line_search
     use gapbeam_kinds, only: wp
     implicit none
     private
     public :: bracket_type, place_inside, narrow
 
-    !> Places, the slopes there, and which end was replaced last
+    !> Places, the values there, and which end was replaced last
     type :: bracket_type
         real(wp) :: low, high, at_low, at_high
         integer :: last = 0
