@@ -68,18 +68,7 @@ def on_one_side(rng, made):
 
 
 def judge(made, seed=0):
-    """Solve a scene, and compare it.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Nothing depends on it.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene, and compare it."""
     result = gapbeam.solve(made)
     try:
         exact, zones = solution(made, result)

@@ -35,18 +35,7 @@ def draw_scene(seed):
 
 
 def judge(made, seed=0):
-    """Solve all cases at once and some of them alone.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the cases that are looked at.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve all cases at once and some of them alone."""
     made = dict(made)
     cases = made.pop("cases")
     gaps = {int(k): values for k, values in cases["gaps"].items()}

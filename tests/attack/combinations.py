@@ -53,17 +53,7 @@ def scenes_of(made):
 
 
 def judge(made, seed=0):
-    """Solve all combinations at once and every one exactly.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve all combinations at once and every one exactly."""
     verdict = Verdict()
     try:
         result = gapbeam.solve(made)

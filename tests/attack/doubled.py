@@ -53,17 +53,7 @@ def plain(rng):
 
 
 def judge(made, seed=0):
-    """Compare a scene with what is exact.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Compare a scene with what is exact."""
     if not any("law" in support for support in made["supports"]):
         return signs.judge(made, seed)
     groups = {}

@@ -24,18 +24,7 @@ RULES = ("block", "single")
 
 
 def judge(made, seed=0):
-    """Solve a scene both ways and compare it with the enumeration.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the starts.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene both ways and compare it with the enumeration."""
     steps = made["analysis"]["steps"]
     try:
         beam = oracle.Oracle(made)

@@ -61,18 +61,7 @@ KINDS = {
 
 
 def judge(made, seed=0):
-    """Follow a scene by events and by steps and compare both with exact solutions.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the number of steps.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Follow a scene by events and by steps and compare both with exact solutions."""
     rng, verdict, beam = random.Random(seed), Verdict(), Exact(made)
     made = {key: value for key, value in made.items() if key != "analysis"}
     factors = [rng.random() for _ in range(2)]

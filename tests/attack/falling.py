@@ -29,17 +29,7 @@ def draw_scene(seed):
 
 
 def judge(made, seed=0):
-    """Solve a scene at once and from event to event.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene at once and from event to event."""
     try:
         result = gapbeam.solve(made)
         path = followed(made)

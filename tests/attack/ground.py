@@ -51,17 +51,7 @@ def draw_scene(seed, *, tapers=True, joints=True):
 
 
 def judge(made, seed=0):
-    """Solve a scene and look at what is left over.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene and look at what is left over."""
     try:
         result = gapbeam.solve(made)
     except gapbeam.EngineError as error:

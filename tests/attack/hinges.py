@@ -85,18 +85,7 @@ def nearly(beam):
 
 
 def judge(made, seed=0):
-    """Compare status and motion, and check the equilibrium of the reactions.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the start.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Compare status and motion, and check the equilibrium of the reactions."""
     rng, count = random.Random(seed), len(draw.one_sided(made))
     beam = Reading(made)
     falls, sharp = falls_surely(beam, Fraction(1))

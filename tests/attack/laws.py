@@ -31,17 +31,7 @@ def draw_scene(seed):
 
 
 def judge(made, seed=0):
-    """Follow a scene and compare it with its exact path or history.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Follow a scene and compare it with its exact path or history."""
     if "history" in made["analysis"]:
         return judge_history(made)
     path = follow(made)

@@ -28,17 +28,7 @@ def draw_scene(seed):
 
 
 def judge(made, seed=0):
-    """Solve a scene at once and from event to event.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene at once and from event to event."""
     rng = random.Random(seed)
     try:
         result, path = gapbeam.solve(made), followed(made)

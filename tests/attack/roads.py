@@ -186,18 +186,7 @@ def said(result):
 
 
 def judge(made, seed=0):
-    """Go all roads.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Draws the span with one more node.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Go all roads."""
     alone = solved(made)
     verdict = Verdict(said(alone))
     if isinstance(alone, gapbeam.SceneError):

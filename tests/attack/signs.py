@@ -47,18 +47,7 @@ def draw_any(rng):
 
 
 def judge(made, seed=0):
-    """Solve a scene from several starts by both rules and compare each answer with the exact one.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the starts.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Solve a scene from several starts by both rules and compare each answer with the exact one."""
     rng, count = random.Random(seed), len(draw.one_sided(made))
     beam = Exact(made)
     falls, sharp = falls_surely(beam, Fraction(1))

@@ -26,18 +26,7 @@ def draw_scene(seed):
 
 
 def judge(made, seed=0):
-    """Compare states on the way and the envelope with exact states.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-        Of the positions.
-
-    Returns
-    -------
-    Verdict
-    """
+    """Compare states on the way and the envelope with exact states."""
     rng = random.Random(seed)
     try:
         result = gapbeam.solve(made)

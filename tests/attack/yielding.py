@@ -14,17 +14,7 @@ PROMISE = (
 
 
 def judge(made, seed=0):
-    """Follow a scene and compare it with its exact history.
-
-    Parameters
-    ----------
-    made : dict
-    seed : int
-
-    Returns
-    -------
-    Verdict
-    """
+    """Follow a scene and compare it with its exact history."""
     try:
         return judge_history(made, CondensedBeam(made))
     except Loose:

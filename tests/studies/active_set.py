@@ -56,10 +56,6 @@ def active_set(scene: Mapping[str, Any], parts: int, incremental: bool = False) 
     incremental : bool
         Whether the solution is improved by increments until they no longer get smaller.
 
-    Returns
-    -------
-    ActiveSet
-
     Raises
     ------
     GapbeamError

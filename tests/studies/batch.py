@@ -198,10 +198,6 @@ def findings(rows: Sequence[Row]) -> str:
     ----------
     rows : sequence of Row
         From `batch`.
-
-    Returns
-    -------
-    str
     """
     said = []
     for problem in dict.fromkeys(row.problem for row in rows):

@@ -42,10 +42,6 @@ class Batch:
 
     def scene(self) -> dict[str, Any]:
         """Make the scene of which these are cases, with loads of 1 if these alone vary, and else those of the first case.
-
-        Returns
-        -------
-        dict
         """
         n = self.q.shape[1]
         q = np.ones(n) if self.factors else self.q[0]
@@ -63,10 +59,6 @@ class Batch:
         ----------
         count : int
             How many.
-
-        Returns
-        -------
-        Batch
         """
         return Batch(self.q[:count], self.gap[:count], self.settlement[:count], self.factors)
 
@@ -98,10 +90,6 @@ def make(problem: str, most: int) -> Batch:
         From `SIZES`.
     most : int
         Most cases.
-
-    Returns
-    -------
-    Batch
     """
     spans, cases = SIZES[problem]
     cases = min(cases, most)
@@ -158,10 +146,6 @@ def complete(batch: Batch, force: np.ndarray, level: np.ndarray, w: np.ndarray, 
         From `nodal`.
     w, turn, closed : numpy.ndarray
         Deflections, rotations, and which supports act; nodes by cases.
-
-    Returns
-    -------
-    Found
     """
     chord = np.diff(w, axis=0) / SPAN
     first, last = turn[:-1] - chord, turn[1:] - chord
@@ -181,10 +165,6 @@ def matrix_of(nodes: int) -> np.ndarray:
     ----------
     nodes : int
         How many.
-
-    Returns
-    -------
-    numpy.ndarray
     """
     k12, k6, k4, k2 = links()
     block = np.array([[k12, k6, -k12, k6], [k6, k4, -k6, k2], [-k12, -k6, k12, -k6], [k6, k2, -k6, k4]])

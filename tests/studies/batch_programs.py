@@ -322,10 +322,6 @@ def installed(name: str) -> bool:
     ----------
     name : str
         From `PROGRAMS`.
-
-    Returns
-    -------
-    bool
     """
     return has(name.partition(",")[0])
 
@@ -339,10 +335,6 @@ def given(cases: Batch, name: str) -> Batch:
         All.
     name : str
         The program.
-
-    Returns
-    -------
-    Batch
     """
     return cases.first(LOOP_MOST) if name.startswith("scipy") else cases
 

@@ -235,10 +235,6 @@ def worst(rows: list[Row]) -> str:
     ----------
     rows : list of Row
         From `extremes`.
-
-    Returns
-    -------
-    str
     """
     found = max((row for row in rows if not row.ill_conditioned), key=lambda row: inf if isnan(row.error) else row.error)
     return f"Worst of all: {_small(found.error)} ({found.corner}, {found.value}: {found.kind})."

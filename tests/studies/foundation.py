@@ -283,10 +283,6 @@ def findings(rows: Sequence[Row]) -> str:
     ----------
     rows : sequence of Row
         From `foundation`.
-
-    Returns
-    -------
-    str
     """
     said = []
     for problem in dict.fromkeys(row.problem for row in rows):

@@ -158,7 +158,6 @@ def ground_errors(scene: Mapping[str, Any], result: Result, closed_form: Form | 
     Parameters
     ----------
     scene : mapping
-        The scene.
     result : Result
         Its solution, which tells where contact is about; `solve_zones` proves that it is there.
     closed_form : callable or None

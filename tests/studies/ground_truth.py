@@ -69,10 +69,6 @@ def solve_ground(scene: Mapping[str, Any], ends: Sequence[float], x: Sequence[fl
     x : sequence of float
         Places at which values are wanted.
 
-    Returns
-    -------
-    GroundTruth
-
     Raises
     ------
     ArithmeticError
@@ -112,10 +108,6 @@ def solve_zones(scene: Mapping[str, Any], zones: Sequence[Zone], x: Sequence[flo
         Places at which values are wanted.
     closed : sequence of bool
         Which supports act, of all.
-
-    Returns
-    -------
-    GroundTruth
 
     Raises
     ------

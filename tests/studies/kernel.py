@@ -90,10 +90,6 @@ def random_beam(elements: int) -> MeshedBeam:
     ----------
     elements : int
         A tenth of the nodes rest on rigid supports, a tenth on springs.
-
-    Returns
-    -------
-    MeshedBeam
     """
     random = np.random.default_rng(SEED)
     pick = random.random(elements + 1)

@@ -51,10 +51,6 @@ class Page:
             What is to be said of them.
         picture : str
             Name of the picture's file beside the page, if there is one.
-
-        Returns
-        -------
-        str
         """
         file = self.file or self.study
         drawn = f" --plot docs/{file}.svg" if picture else ""
@@ -72,10 +68,6 @@ class Page:
         ----------
         rows : iterable of dataclass
             Whose attributes are the columns.
-
-        Returns
-        -------
-        str
         """
         return to_csv(self.columns, [astuple(row) for row in rows])
 

@@ -18,10 +18,6 @@ def has(package: str) -> bool:
     ----------
     package : str
         Its package.
-
-    Returns
-    -------
-    bool
     """
     return find_spec(package) is not None
 
@@ -33,10 +29,6 @@ def number_printed(code: str) -> float:
     ----------
     code : str
         Prints a number, such as the seconds of a call.
-
-    Returns
-    -------
-    float
 
     Raises
     ------

@@ -82,10 +82,6 @@ def zeros(w: np.ndarray, h: float) -> np.ndarray:
     h : float
         Distance of the nodes.
 
-    Returns
-    -------
-    numpy.ndarray
-
     Examples
     --------
     >>> zeros(np.array([-1.0, 3.0, 2.0]), 4.0)
@@ -211,9 +207,5 @@ def places(length: float) -> np.ndarray:
     ----------
     length : float
         Of the beam.
-
-    Returns
-    -------
-    numpy.ndarray
     """
     return length / PLACES * np.arange(PLACES + 1)

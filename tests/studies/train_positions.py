@@ -101,10 +101,6 @@ class Sweep:
         ----------
         span, a : numpy.ndarray
             From `axles`.
-
-        Returns
-        -------
-        numpy.ndarray
         """
         h, n = self.h, span.shape[1]
         found = np.zeros((n, len(h), 4))
@@ -292,10 +288,6 @@ def swept(found: np.ndarray) -> Swept:
     ----------
     found : numpy.ndarray
         The largest and the smallest (2) of moment, shear, and reactions.
-
-    Returns
-    -------
-    Swept
     """
     return Swept(found[:, 0], found[:, 1], found[:, 2:])
 

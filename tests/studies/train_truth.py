@@ -60,10 +60,6 @@ def solve_train(scene: Mapping[str, Any]) -> TrainTruth:
         Spans, one EI, supports at nodes, ``both`` or ``below``, rigid or elastic; one dead uniform load all over; one train with
         axles only.
 
-    Returns
-    -------
-    TrainTruth
-
     Raises
     ------
     ArithmeticError

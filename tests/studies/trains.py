@@ -201,10 +201,6 @@ def findings(rows: Sequence[Row]) -> str:
     ----------
     rows : sequence of Row
         From `trains`.
-
-    Returns
-    -------
-    str
     """
     said = []
     for problem in dict.fromkeys(row.problem for row in rows):
