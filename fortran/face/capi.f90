@@ -9,7 +9,7 @@ module gapbeam_capi
         count_nodes, solve_beam, follow_load, get_supports, get_friction, get_fields, get_motion, get_certificate
     use gapbeam_handles, only: handle_type, state_tag, find_handle
     use gapbeam_capi_model, only: c_model, model_from_c
-    use gapbeam_capi_quantities, only: c_get_quantity_extremes
+    use gapbeam_capi_quantities, only: gapbeam_get_quantity_extremes
     use gapbeam_capi_objects, only: c_options, get_both, read_options, check_points, check_flag, forget, report
     implicit none
     private
@@ -31,7 +31,7 @@ module gapbeam_capi
 
 contains
 
-    function c_options_init(options, size) result(status) bind(c, name="gapbeam_options_init")
+    function gapbeam_options_init(options, size) result(status) bind(c)
         type(c_options), intent(inout), optional :: options
         integer(c_size_t), intent(in), value :: size
         integer(c_int) :: status
@@ -43,9 +43,9 @@ contains
         if (size /= c_sizeof(options)) return
         options = c_options(size, defaults%rule, 0)
         status = gapbeam_solved
-    end function c_options_init
+    end function gapbeam_options_init
 
-    function c_solve(beam, factor, options, state, message, message_size) result(status) bind(c, name="gapbeam_solve")
+    function gapbeam_solve(beam, factor, options, state, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(in), value :: factor
         type(c_options), intent(in), optional :: options
@@ -62,10 +62,10 @@ contains
         call forget(solved, error)
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
-    end function c_solve
+    end function gapbeam_solve
 
-    function c_follow(beam, factor, options, capacity, event_factor, event_support, event_condition, number, state, &
-                      message, message_size) result(status) bind(c, name="gapbeam_follow")
+    function gapbeam_follow(beam, factor, options, capacity, event_factor, event_support, event_condition, number, state, message, &
+                            message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(in), value :: factor
         type(c_options), intent(in), optional :: options
@@ -94,9 +94,9 @@ contains
         if (present(event_factor)) event_factor(1:n) = events(:n)%factor
         if (present(event_support)) event_support(1:n) = events(:n)%support - 1
         if (present(event_condition)) event_condition(1:n) = events(:n)%state
-    end function c_follow
+    end function gapbeam_follow
 
-    function c_get_info(state, info) result(status) bind(c, name="gapbeam_get_info")
+    function gapbeam_get_info(state, info) result(status) bind(c)
         type(c_ptr), intent(in), value :: state
         type(c_info), intent(inout), optional :: info
         integer(c_int) :: status
@@ -115,10 +115,9 @@ contains
                           merge(1, 0, r%unique))
         end associate
         status = gapbeam_solved
-    end function c_get_info
+    end function gapbeam_get_info
 
-    function c_get_supports(beam, state, reaction, deflection, opening, couple, condition) result(status) &
-        bind(c, name="gapbeam_get_supports")
+    function gapbeam_get_supports(beam, state, reaction, deflection, opening, couple, condition) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: reaction(*), deflection(*), opening(*), couple(*)
         integer(c_int), intent(inout), optional :: condition(*)
@@ -131,7 +130,7 @@ contains
             call copy_supports(prepared%beam, solved%result, reaction, deflection, opening, couple, condition, error)
         end if
         call report(error, status)
-    end function c_get_supports
+    end function gapbeam_get_supports
 
     !> Values at the supports into the arrays that are there
     subroutine copy_supports(beam, result, reaction, deflection, opening, couple, condition, error)
@@ -157,7 +156,7 @@ contains
         if (present(condition)) condition(1:m) = conditions
     end subroutine copy_supports
 
-    function c_get_friction(beam, state, force, slip, slides) result(status) bind(c, name="gapbeam_get_friction")
+    function gapbeam_get_friction(beam, state, force, slip, slides) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: force(*), slip(*)
         integer(c_int), intent(inout), optional :: slides(*)
@@ -182,10 +181,9 @@ contains
             if (present(slides)) slides(1:m) = ways
         end if
         call report(error, status)
-    end function c_get_friction
+    end function gapbeam_get_friction
 
-    function c_get_fields(beam, state, count, x, from_left, fields, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_fields")
+    function gapbeam_get_fields(beam, state, count, x, from_left, fields, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: count, from_left
         real(c_double), intent(in), optional :: x(*)
@@ -203,17 +201,17 @@ contains
             call get_fields(prepared%beam, solved%result, x(1:count), fields(:, 1:count), error, from_left == 1)
         end if
         call report(error, status, message, message_size)
-    end function c_get_fields
+    end function gapbeam_get_fields
 
-    function c_get_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_extremes")
+    function gapbeam_get_extremes(beam, state, value, x) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2, 6), x(2, 6)
         integer(c_int) :: status
 
-        status = c_get_quantity_extremes(beam, state, 6, [0, 1, 2, 3, 4, 5], value, x, message_size=0_c_size_t)
-    end function c_get_extremes
+        status = gapbeam_get_quantity_extremes(beam, state, 6, [0, 1, 2, 3, 4, 5], value, x, message_size=0_c_size_t)
+    end function gapbeam_get_extremes
 
-    function c_get_motion(beam, state, x, motion) result(status) bind(c, name="gapbeam_get_motion")
+    function gapbeam_get_motion(beam, state, x, motion) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: x(*), motion(*)
         integer(c_int) :: status
@@ -230,9 +228,9 @@ contains
             call get_motion(prepared%beam, solved%result, x(1:n), motion(1:n), error)
         end if
         call report(error, status)
-    end function c_get_motion
+    end function gapbeam_get_motion
 
-    function c_get_certificate(beam, state, certificate, undecided) result(status) bind(c, name="gapbeam_get_certificate")
+    function gapbeam_get_certificate(beam, state, certificate, undecided) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         type(c_certificate), intent(inout), optional :: certificate
         integer(c_int), intent(inout), optional :: undecided(*)
@@ -261,10 +259,10 @@ contains
         certificate = c_certificate(certificate%size, found%equilibrium, found%compatibility, found%complementarity, &
                                     found%deflection_bound, found%reaction_bound, found%field_bound, merge(1, 0, found%known), 0)
         if (present(undecided)) undecided(1:size(doubtful)) = merge(1, 0, doubtful)
-    end function c_get_certificate
+    end function gapbeam_get_certificate
 
-    function c_solve_model(model, factor, options, reaction, deflection, opening, couple, condition, count, x, fields, &
-                           message, message_size) result(status) bind(c, name="gapbeam_solve_model")
+    function gapbeam_solve_model(model, factor, options, reaction, deflection, opening, couple, condition, count, x, fields, &
+                                 message, message_size) result(status) bind(c)
         type(c_model), intent(in), optional :: model
         real(c_double), intent(in), value :: factor
         type(c_options), intent(in), optional :: options
@@ -300,6 +298,6 @@ contains
         end if
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = result%status
-    end function c_solve_model
+    end function gapbeam_solve_model
 
 end module gapbeam_capi

@@ -13,7 +13,7 @@ module gapbeam_capi_beam
 
 contains
 
-    function c_model_init(model, size) result(status) bind(c, name="gapbeam_model_init")
+    function gapbeam_model_init(model, size) result(status) bind(c)
         type(c_model), intent(inout), optional :: model
         integer(c_size_t), intent(in), value :: size
         integer(c_int) :: status
@@ -24,9 +24,9 @@ contains
         if (.not. is_model_size(size)) return
         call empty_model(model, size)
         status = gapbeam_solved
-    end function c_model_init
+    end function gapbeam_model_init
 
-    function c_prepare(model, beam, message, message_size) result(status) bind(c, name="gapbeam_prepare")
+    function gapbeam_prepare(model, beam, message, message_size) result(status) bind(c)
         type(c_model), intent(in), optional :: model
         type(c_ptr), intent(out), optional :: beam
         character(kind=c_char), intent(inout), optional :: message(*)
@@ -45,15 +45,15 @@ contains
         if (.not. allocated(error)) call new_beam(plain, prepared, error)
         if (.not. allocated(error)) beam = address_of(prepared)
         call report(error, status, message, message_size)
-    end function c_prepare
+    end function gapbeam_prepare
 
-    subroutine c_free_beam(beam) bind(c, name="gapbeam_free_beam")
+    subroutine gapbeam_free_beam(beam) bind(c)
         type(c_ptr), intent(in), value :: beam
 
         call free_handle(beam, beam_tag)
-    end subroutine c_free_beam
+    end subroutine gapbeam_free_beam
 
-    function c_replace_loads(beam, loads, message, message_size) result(status) bind(c, name="gapbeam_replace_loads")
+    function gapbeam_replace_loads(beam, loads, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         type(c_model), intent(in), optional :: loads
         character(kind=c_char), intent(inout), optional :: message(*)
@@ -68,9 +68,9 @@ contains
         if (.not. allocated(error)) call loads_from_c(loads, list, error)
         if (.not. allocated(error)) call replace_loads(handle%beam, list, error)
         call report(error, status, message, message_size)
-    end function c_replace_loads
+    end function gapbeam_replace_loads
 
-    function c_count_supports(beam) result(number) bind(c, name="gapbeam_count_supports")
+    function gapbeam_count_supports(beam) result(number) bind(c)
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
         type(handle_type), pointer :: handle
@@ -78,9 +78,9 @@ contains
         call find_handle(beam, beam_tag, handle)
         number = 0
         if (associated(handle)) number = count_supports(handle%beam)
-    end function c_count_supports
+    end function gapbeam_count_supports
 
-    function c_count_nodes(beam) result(number) bind(c, name="gapbeam_count_nodes")
+    function gapbeam_count_nodes(beam) result(number) bind(c)
         type(c_ptr), intent(in), value :: beam
         integer(c_int) :: number
         type(handle_type), pointer :: handle
@@ -88,9 +88,9 @@ contains
         call find_handle(beam, beam_tag, handle)
         number = 0
         if (associated(handle)) number = count_nodes(handle%beam)
-    end function c_count_nodes
+    end function gapbeam_count_nodes
 
-    function c_new_state(state) result(status) bind(c, name="gapbeam_new_state")
+    function gapbeam_new_state(state) result(status) bind(c)
         type(c_ptr), intent(out), optional :: state
         integer(c_int) :: status
         type(handle_type), pointer :: solved
@@ -101,12 +101,12 @@ contains
         call new_state(solved, error)
         state = address_of(solved)
         call report(error, status)
-    end function c_new_state
+    end function gapbeam_new_state
 
-    subroutine c_free_state(state) bind(c, name="gapbeam_free_state")
+    subroutine gapbeam_free_state(state) bind(c)
         type(c_ptr), intent(in), value :: state
 
         call free_handle(state, state_tag)
-    end subroutine c_free_state
+    end subroutine gapbeam_free_state
 
 end module gapbeam_capi_beam

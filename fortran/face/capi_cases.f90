@@ -12,7 +12,7 @@ module gapbeam_capi_cases
 
 contains
 
-    function c_prepare_cases(beam, cases, message, message_size) result(status) bind(c, name="gapbeam_prepare_cases")
+    function gapbeam_prepare_cases(beam, cases, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         type(c_ptr), intent(out), optional :: cases
         character(kind=c_char), intent(inout), optional :: message(*)
@@ -27,17 +27,16 @@ contains
         if (.not. allocated(error)) call new_cases(prepared%beam, room, error)
         if (.not. allocated(error)) cases = address_of(room)
         call report(error, status, message, message_size)
-    end function c_prepare_cases
+    end function gapbeam_prepare_cases
 
-    subroutine c_free_cases(cases) bind(c, name="gapbeam_free_cases")
+    subroutine gapbeam_free_cases(cases) bind(c)
         type(c_ptr), intent(in), value :: cases
 
         call free_handle(cases, cases_tag)
-    end subroutine c_free_cases
+    end subroutine gapbeam_free_cases
 
-    function c_solve_cases(beam, cases, count, factors, settlement, gap, stiffness, options, status_of, reaction, condition, &
-                           deflection, moment_left, moment_right, message, message_size) result(status) &
-        bind(c, name="gapbeam_solve_cases")
+    function gapbeam_solve_cases(beam, cases, count, factors, settlement, gap, stiffness, options, status_of, reaction, condition, &
+                                 deflection, moment_left, moment_right, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, cases
         integer(c_int), intent(in), value :: count
         type(c_ptr), intent(in), value :: factors, settlement, gap, stiffness
@@ -87,9 +86,9 @@ contains
                              conditions, w, left, right)
         end if
         call report(error, status, message, message_size)
-    end function c_solve_cases
+    end function gapbeam_solve_cases
 
-    function c_get_nodes(beam, x, support_node) result(status) bind(c, name="gapbeam_get_nodes")
+    function gapbeam_get_nodes(beam, x, support_node) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         real(c_double), intent(inout), optional :: x(*)
         integer(c_int), intent(inout), optional :: support_node(*)
@@ -113,7 +112,7 @@ contains
         if (allocated(error)) return
         if (present(x)) x(1:size(places)) = places
         if (present(support_node)) support_node(1:size(nodes)) = nodes - 1
-    end function c_get_nodes
+    end function gapbeam_get_nodes
 
     !> An array of rows by cases, or nothing
     subroutine look_at(address, rows, count, values)

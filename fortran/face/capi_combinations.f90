@@ -10,8 +10,7 @@ module gapbeam_capi_combinations
 
 contains
 
-    function c_combine_loads(beam, factors, settlements, combined, message, message_size) result(status) &
-        bind(c, name="gapbeam_combine_loads")
+    function gapbeam_combine_loads(beam, factors, settlements, combined, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         real(c_double), intent(in), optional :: factors(*), settlements(*)
         type(c_ptr), intent(out), optional :: combined
@@ -38,6 +37,6 @@ contains
             combined = address_of(other)
         end if
         call report(error, status, message, message_size)
-    end function c_combine_loads
+    end function gapbeam_combine_loads
 
 end module gapbeam_capi_combinations

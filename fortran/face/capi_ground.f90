@@ -12,9 +12,8 @@ module gapbeam_capi_ground
 
 contains
 
-    function c_follow_ground(beam, factor, options, capacity, event_factor, event_support, event_foundation, event_branch, &
-                             event_x, event_change, number, state, message, message_size) result(status) &
-        bind(c, name="gapbeam_follow_ground")
+    function gapbeam_follow_ground(beam, factor, options, capacity, event_factor, event_support, event_foundation, event_branch, &
+                                   event_x, event_change, number, state, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(in), value :: factor
         type(c_options), intent(in), optional :: options
@@ -46,10 +45,9 @@ contains
         if (present(event_branch)) event_branch(1:n) = events(:n)%branch
         if (present(event_x)) event_x(1:n) = events(:n)%x
         if (present(event_change)) event_change(1:n) = events(:n)%change
-    end function c_follow_ground
+    end function gapbeam_follow_ground
 
-    function c_get_contact(beam, state, capacity, foundation, from, to, condition, resultant, number) result(status) &
-        bind(c, name="gapbeam_get_contact")
+    function gapbeam_get_contact(beam, state, capacity, foundation, from, to, condition, resultant, number) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: capacity
         integer(c_int), intent(inout), optional :: foundation(*), condition(*)
@@ -72,10 +70,9 @@ contains
         if (present(to)) to(1:n) = zones(:n)%to
         if (present(condition)) condition(1:n) = zones(:n)%condition
         if (present(resultant)) resultant(1:n) = zones(:n)%resultant
-    end function c_get_contact
+    end function gapbeam_get_contact
 
-    function c_get_free_spans(beam, state, capacity, foundation, from, to, sag, number) result(status) &
-        bind(c, name="gapbeam_get_free_spans")
+    function gapbeam_get_free_spans(beam, state, capacity, foundation, from, to, sag, number) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: capacity
         integer(c_int), intent(inout), optional :: foundation(*)
@@ -97,10 +94,9 @@ contains
         if (present(from)) from(1:n) = spans(:n)%from
         if (present(to)) to(1:n) = spans(:n)%to
         if (present(sag)) sag(1:n) = spans(:n)%sag
-    end function c_get_free_spans
+    end function gapbeam_get_free_spans
 
-    function c_get_pressure(beam, state, count, x, from_left, pressure, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_pressure")
+    function gapbeam_get_pressure(beam, state, count, x, from_left, pressure, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: count, from_left
         real(c_double), intent(in), optional :: x(*)
@@ -118,9 +114,9 @@ contains
             call get_pressure(prepared%beam, solved%result, x(1:count), pressure(1:count), error, from_left == 1)
         end if
         call report(error, status, message, message_size)
-    end function c_get_pressure
+    end function gapbeam_get_pressure
 
-    function c_get_pressure_extremes(beam, state, value, x) result(status) bind(c, name="gapbeam_get_pressure_extremes")
+    function gapbeam_get_pressure_extremes(beam, state, value, x) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: value(2), x(2)
         integer(c_int) :: status
@@ -134,6 +130,6 @@ contains
         if (allocated(error)) return
         if (present(value)) value(:) = values
         if (present(x)) x(:) = places
-    end function c_get_pressure_extremes
+    end function gapbeam_get_pressure_extremes
 
 end module gapbeam_capi_ground

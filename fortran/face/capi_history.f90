@@ -19,8 +19,7 @@ module gapbeam_capi_history
 
 contains
 
-    function c_follow_history(beam, count, factors, at_limit, history, message, message_size) result(status) &
-        bind(c, name="gapbeam_follow_history")
+    function gapbeam_follow_history(beam, count, factors, at_limit, history, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         integer(c_int), intent(in), value :: count, at_limit
         real(c_double), intent(in), optional :: factors(*)
@@ -44,15 +43,15 @@ contains
             history = address_of(followed)
         end if
         call report(error, status, message, message_size)
-    end function c_follow_history
+    end function gapbeam_follow_history
 
-    subroutine c_free_history(history) bind(c, name="gapbeam_free_history")
+    subroutine gapbeam_free_history(history) bind(c)
         type(c_ptr), intent(in), value :: history
 
         call free_handle(history, history_tag)
-    end subroutine c_free_history
+    end subroutine gapbeam_free_history
 
-    function c_get_history_info(history, info) result(status) bind(c, name="gapbeam_get_history_info")
+    function gapbeam_get_history_info(history, info) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         type(c_history_info), intent(inout), optional :: info
         integer(c_int) :: status
@@ -70,10 +69,9 @@ contains
             if (allocated(h%motion)) nodes = size(h%motion)
             info = c_history_info(info%size, size(h%stretches), size(h%events), size(h%limits), h%ending, h%solves, nodes)
         end associate
-    end function c_get_history_info
+    end function gapbeam_get_history_info
 
-    function c_get_stretches(history, from, to, leg, direction, stable, index, ways, skipped) result(status) &
-        bind(c, name="gapbeam_get_stretches")
+    function gapbeam_get_stretches(history, from, to, leg, direction, stable, index, ways, skipped) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: from(*), to(*)
         integer(c_int), intent(inout), optional :: leg(*), direction(*), stable(*), index(*), ways(*), skipped(*)
@@ -92,9 +90,9 @@ contains
             if (present(ways)) ways(1:n) = s%ways
             if (present(skipped)) skipped(1:n) = merge(1, 0, s%skipped)
         end associate
-    end function c_get_stretches
+    end function gapbeam_get_stretches
 
-    function c_get_events(history, factor, support, condition, change, stretch) result(status) bind(c, name="gapbeam_get_events")
+    function gapbeam_get_events(history, factor, support, condition, change, stretch) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: factor(*)
         integer(c_int), intent(inout), optional :: support(*), condition(*), change(*), stretch(*)
@@ -110,9 +108,9 @@ contains
             if (present(change)) change(1:n) = events%change
             if (present(stretch)) stretch(1:n) = events%stretch - 1
         end associate
-    end function c_get_events
+    end function gapbeam_get_events
 
-    function c_get_limits(history, factor, kind, leg, stretch, landing) result(status) bind(c, name="gapbeam_get_limits")
+    function gapbeam_get_limits(history, factor, kind, leg, stretch, landing) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: factor(*)
         integer(c_int), intent(inout), optional :: kind(*), leg(*), stretch(*), landing(*)
@@ -128,9 +126,9 @@ contains
             if (present(stretch)) stretch(1:n) = limits%stretch - 1
             if (present(landing)) landing(1:n) = limits%landing - 1
         end associate
-    end function c_get_limits
+    end function gapbeam_get_limits
 
-    function c_get_exact(history, stretches, limits) result(status) bind(c, name="gapbeam_get_exact")
+    function gapbeam_get_exact(history, stretches, limits) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         integer(c_int), intent(inout), optional :: stretches(*), limits(*)
         integer(c_int) :: status
@@ -142,9 +140,9 @@ contains
             if (present(stretches)) stretches(1:size(h%stretches)) = merge(1, 0, h%stretches%exact)
             if (present(limits)) limits(1:size(h%limits)) = merge(1, 0, h%limits%exact)
         end associate
-    end function c_get_exact
+    end function gapbeam_get_exact
 
-    function c_get_history_motion(history, x, motion) result(status) bind(c, name="gapbeam_get_history_motion")
+    function gapbeam_get_history_motion(history, x, motion) result(status) bind(c)
         type(c_ptr), intent(in), value :: history
         real(c_double), intent(inout), optional :: x(*), motion(*)
         integer(c_int) :: status
@@ -159,10 +157,9 @@ contains
             if (present(motion)) motion(1:size(h%motion)) = h%motion
         end associate
         status = gapbeam_solved
-    end function c_get_history_motion
+    end function gapbeam_get_history_motion
 
-    function c_solve_on_path(beam, history, stretch, factor, state, message, message_size) result(status) &
-        bind(c, name="gapbeam_solve_on_path")
+    function gapbeam_solve_on_path(beam, history, stretch, factor, state, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, history, state
         integer(c_int), intent(in), value :: stretch
         real(c_double), intent(in), value :: factor
@@ -182,10 +179,9 @@ contains
         call forget(solved, error)
         call report(error, status, message, message_size)
         if (.not. allocated(error)) status = solved%result%status
-    end function c_solve_on_path
+    end function gapbeam_solve_on_path
 
-    function c_get_released_energy(beam, history, limit, energy, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_released_energy")
+    function gapbeam_get_released_energy(beam, history, limit, energy, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, history
         integer(c_int), intent(in), value :: limit
         real(c_double), intent(inout), optional :: energy
@@ -205,7 +201,7 @@ contains
         end if
         if (.not. allocated(error) .and. present(energy)) energy = found
         call report(error, status, message, message_size)
-    end function c_get_released_energy
+    end function gapbeam_get_released_energy
 
     !> Refuse a number of a stretch or a limit that is none, as C counts them
     subroutine check_number(name, number, first, count, error)

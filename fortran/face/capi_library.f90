@@ -16,21 +16,21 @@ module gapbeam_capi_library
 
 contains
 
-    subroutine c_get_version(major, minor, patch) bind(c, name="gapbeam_get_version")
+    subroutine gapbeam_get_version(major, minor, patch) bind(c)
         integer(c_int), intent(out), optional :: major, minor, patch
 
         if (present(major)) major = gapbeam_version_major
         if (present(minor)) minor = gapbeam_version_minor
         if (present(patch)) patch = gapbeam_version_patch
-    end subroutine c_get_version
+    end subroutine gapbeam_get_version
 
-    function c_version_text() result(text) bind(c, name="gapbeam_version_text")
+    function gapbeam_version_text() result(text) bind(c)
         type(c_ptr) :: text
 
         text = c_loc(version)
-    end function c_version_text
+    end function gapbeam_version_text
 
-    function c_status_message(status) result(text) bind(c, name="gapbeam_status_message")
+    function gapbeam_status_message(status) result(text) bind(c)
         integer(c_int), intent(in), value :: status
         type(c_ptr) :: text
         integer :: i
@@ -38,12 +38,12 @@ contains
         i = findloc(status_codes, int(status), 1)
         text = c_loc(no_text)
         if (i > 0) text = c_loc(texts(i))
-    end function c_status_message
+    end function gapbeam_status_message
 
-    function c_infinity() result(value) bind(c, name="gapbeam_infinity")
+    function gapbeam_infinity() result(value) bind(c)
         real(c_double) :: value
 
         value = gapbeam_inf
-    end function c_infinity
+    end function gapbeam_infinity
 
 end module gapbeam_capi_library

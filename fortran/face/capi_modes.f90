@@ -10,8 +10,7 @@ module gapbeam_capi_modes
 
 contains
 
-    function c_get_modes(beam, state, kind, count, values, number, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_modes")
+    function gapbeam_get_modes(beam, state, kind, count, values, number, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: kind, count
         real(c_double), intent(inout), optional :: values(*)
@@ -35,10 +34,10 @@ contains
         if (allocated(error)) return
         if (count > 0) values(1:known) = found(:known)
         if (present(number)) number = known
-    end function c_get_modes
+    end function gapbeam_get_modes
 
-    function c_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, message, message_size) &
-        result(status) bind(c, name="gapbeam_get_mode_shape")
+    function gapbeam_get_mode_shape(beam, state, kind, value, parts, capacity, x, deflection, moment, number, message, &
+                                    message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: kind, parts, capacity
         real(c_double), intent(in), value :: value
@@ -62,10 +61,10 @@ contains
         if (present(x)) x(1:n) = places(:n)
         if (present(deflection)) deflection(1:n) = deflections(:n)
         if (present(moment)) moment(:, 1:n) = moments(:, :n)
-    end function c_get_mode_shape
+    end function gapbeam_get_mode_shape
 
-    function c_get_mode_amplitude(beam, state, kind, value, parts, amplitude, support, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_mode_amplitude")
+    function gapbeam_get_mode_amplitude(beam, state, kind, value, parts, amplitude, support, message, message_size) &
+        result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: kind, parts
         real(c_double), intent(in), value :: value
@@ -85,10 +84,9 @@ contains
         if (allocated(error)) return
         if (present(amplitude)) amplitude = swing
         if (present(support)) support = first - 1
-    end function c_get_mode_amplitude
+    end function gapbeam_get_mode_amplitude
 
-    function c_get_buckling(beam, state, share, capacity, x, deflection, number) result(status) &
-        bind(c, name="gapbeam_get_buckling")
+    function gapbeam_get_buckling(beam, state, share, capacity, x, deflection, number) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         real(c_double), intent(inout), optional :: share
         integer(c_int), intent(in), value :: capacity
@@ -110,6 +108,6 @@ contains
         n = max(0, min(int(capacity), size(places)))
         if (present(x)) x(1:n) = places(:n)
         if (present(deflection)) deflection(1:n) = deflections(:n)
-    end function c_get_buckling
+    end function gapbeam_get_buckling
 
 end module gapbeam_capi_modes

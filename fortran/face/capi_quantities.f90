@@ -10,12 +10,12 @@ module gapbeam_capi_quantities
     use gapbeam_capi_objects, only: get_both, get_train, check_points, check_flag, report
     implicit none
     private
-    public :: c_get_quantity_extremes, c_get_train_quantity_curves
+    public :: gapbeam_get_quantity_extremes, gapbeam_get_train_quantity_curves
 
 contains
 
-    function c_get_quantities(beam, state, quantities, quantity, count, x, from_left, values, message, message_size) &
-        result(status) bind(c, name="gapbeam_get_quantities")
+    function gapbeam_get_quantities(beam, state, quantities, quantity, count, x, from_left, values, message, message_size) &
+        result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: quantities, count, from_left
         integer(c_int), intent(in), optional :: quantity(*)
@@ -36,10 +36,10 @@ contains
                                 from_left == 1)
         end if
         call report(error, status, message, message_size)
-    end function c_get_quantities
+    end function gapbeam_get_quantities
 
-    function c_get_quantity_extremes(beam, state, quantities, quantity, value, x, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_quantity_extremes")
+    function gapbeam_get_quantity_extremes(beam, state, quantities, quantity, value, x, message, message_size) &
+        result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, state
         integer(c_int), intent(in), value :: quantities
         integer(c_int), intent(in), optional :: quantity(*)
@@ -60,10 +60,10 @@ contains
         if (allocated(error)) return
         if (present(value)) value(:, 1:quantities) = values
         if (present(x)) x(:, 1:quantities) = places
-    end function c_get_quantity_extremes
+    end function gapbeam_get_quantity_extremes
 
-    function c_get_train_quantity_extremes(beam, passing, quantities, quantity, values, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_train_quantity_extremes")
+    function gapbeam_get_train_quantity_extremes(beam, passing, quantities, quantity, values, message, message_size) &
+        result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, passing
         integer(c_int), intent(in), value :: quantities
         integer(c_int), intent(in), optional :: quantity(*)
@@ -83,10 +83,10 @@ contains
         call report(error, status, message, message_size)
         if (allocated(error)) return
         call copy_extremes(found, values(:, :, 1:quantities))
-    end function c_get_train_quantity_extremes
+    end function gapbeam_get_train_quantity_extremes
 
-    function c_get_train_quantity_curves(beam, passing, quantities, quantity, count, x, value, position, message, message_size) &
-        result(status) bind(c, name="gapbeam_get_train_quantity_curves")
+    function gapbeam_get_train_quantity_curves(beam, passing, quantities, quantity, count, x, value, position, message, &
+                                               message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, passing
         integer(c_int), intent(in), value :: quantities, count
         integer(c_int), intent(in), optional :: quantity(*)
@@ -106,7 +106,7 @@ contains
                                            value(:, :, 1:count), position(:, :, 1:count), error)
         end if
         call report(error, status, message, message_size)
-    end function c_get_train_quantity_curves
+    end function gapbeam_get_train_quantity_curves
 
     !> Refuse quantities that make no sense, as C counts them
     subroutine check_quantities(quantities, given, error, quantity)

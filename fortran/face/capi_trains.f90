@@ -7,14 +7,14 @@ module gapbeam_capi_trains
     use gapbeam_handles, only: handle_type, passing_tag, find_handle, free_handle, address_of
     use gapbeam_new_objects, only: new_passing
     use gapbeam_capi_objects, only: get_beam, get_train, check_flag, report
-    use gapbeam_capi_quantities, only: c_get_train_quantity_curves
+    use gapbeam_capi_quantities, only: gapbeam_get_train_quantity_curves
     implicit none
     private
 
 contains
 
-    function c_follow_train(beam, axles, distance, force, q, to_the_left, from, to, passing, message, message_size) result(status) &
-        bind(c, name="gapbeam_follow_train")
+    function gapbeam_follow_train(beam, axles, distance, force, q, to_the_left, from, to, passing, message, message_size) &
+        result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         integer(c_int), intent(in), value :: axles, to_the_left
         real(c_double), intent(in), optional :: distance(*), force(*), from, to
@@ -52,16 +52,15 @@ contains
             passing = address_of(passed)
         end if
         call report(error, status, message, message_size)
-    end function c_follow_train
+    end function gapbeam_follow_train
 
-    subroutine c_free_passing(passing) bind(c, name="gapbeam_free_passing")
+    subroutine gapbeam_free_passing(passing) bind(c)
         type(c_ptr), intent(in), value :: passing
 
         call free_handle(passing, passing_tag)
-    end subroutine c_free_passing
+    end subroutine gapbeam_free_passing
 
-    function c_get_train_events(passing, capacity, position, support, condition, change, number) result(status) &
-        bind(c, name="gapbeam_get_train_events")
+    function gapbeam_get_train_events(passing, capacity, position, support, condition, change, number) result(status) bind(c)
         type(c_ptr), intent(in), value :: passing
         integer(c_int), intent(in), value :: capacity
         real(c_double), intent(inout), optional :: position(*)
@@ -79,10 +78,9 @@ contains
             if (present(condition)) condition(1:n) = events(:n)%state
             if (present(change)) change(1:n) = events(:n)%change
         end associate
-    end function c_get_train_events
+    end function gapbeam_get_train_events
 
-    function c_get_train_gaps(passing, capacity, from, to, reason, number) result(status) &
-        bind(c, name="gapbeam_get_train_gaps")
+    function gapbeam_get_train_gaps(passing, capacity, from, to, reason, number) result(status) bind(c)
         type(c_ptr), intent(in), value :: passing
         integer(c_int), intent(in), value :: capacity
         real(c_double), intent(inout), optional :: from(*), to(*)
@@ -99,9 +97,9 @@ contains
             if (present(to)) to(1:n) = gaps(:n)%to
             if (present(reason)) reason(1:n) = gaps(:n)%reason
         end associate
-    end function c_get_train_gaps
+    end function gapbeam_get_train_gaps
 
-    function c_get_train_extremes(beam, passing, fields, supports) result(status) bind(c, name="gapbeam_get_train_extremes")
+    function gapbeam_get_train_extremes(beam, passing, fields, supports) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, passing
         real(c_double), intent(inout), optional :: fields(4, 2, 4), supports(4, 2, 4, *)
         integer(c_int) :: status
@@ -127,10 +125,9 @@ contains
         do k = 1, size(of_supports, 3)
             call copy_extremes(of_supports(:, :, k), supports(:, :, :, k))
         end do
-    end function c_get_train_extremes
+    end function gapbeam_get_train_extremes
 
-    function c_get_train_curves(beam, passing, count, x, value, position, message, message_size) result(status) &
-        bind(c, name="gapbeam_get_train_curves")
+    function gapbeam_get_train_curves(beam, passing, count, x, value, position, message, message_size) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam, passing
         integer(c_int), intent(in), value :: count
         real(c_double), intent(in), optional :: x(*)
@@ -139,7 +136,7 @@ contains
         integer(c_size_t), intent(in), value :: message_size
         integer(c_int) :: status
 
-        status = c_get_train_quantity_curves(beam, passing, 4, [0, 1, 2, 3], count, x, value, position, message, message_size)
-    end function c_get_train_curves
+        status = gapbeam_get_train_quantity_curves(beam, passing, 4, [0, 1, 2, 3], count, x, value, position, message, message_size)
+    end function gapbeam_get_train_curves
 
 end module gapbeam_capi_trains

@@ -6,11 +6,11 @@ module gapbeam_capi_watch
     use gapbeam_handles, only: handle_type, beam_tag, find_handle
     implicit none
     private
-    public :: c_set_watch, c_stop
+    public :: gapbeam_set_watch, gapbeam_stop
 
 contains
 
-    function c_set_watch(beam, ask, data, seconds) result(status) bind(c, name="gapbeam_set_watch")
+    function gapbeam_set_watch(beam, ask, data, seconds) result(status) bind(c)
         type(c_ptr), intent(in), value :: beam
         type(c_funptr), intent(in), value :: ask
         type(c_ptr), intent(in), value :: data
@@ -26,14 +26,14 @@ contains
         call begin_watch(handle%watch, ask, data, seconds)
         handle%beam%lowered%beam%watch = c_loc(handle%watch)
         status = gapbeam_solved
-    end function c_set_watch
+    end function gapbeam_set_watch
 
-    subroutine c_stop(beam) bind(c, name="gapbeam_stop")
+    subroutine gapbeam_stop(beam) bind(c)
         type(c_ptr), intent(in), value :: beam
         type(handle_type), pointer :: handle
 
         call find_handle(beam, beam_tag, handle)
         if (associated(handle)) call end_watched(handle%watch)
-    end subroutine c_stop
+    end subroutine gapbeam_stop
 
 end module gapbeam_capi_watch
