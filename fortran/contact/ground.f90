@@ -134,23 +134,13 @@ contains
                 zones%to(m) = border_of_step(ground%pieces(j), k, zones%steps(j))
                 zones%acts(:, m) = 0
                 zones%acts(1:ground%first(j + 1) - ground%first(j), m) = 1
-                if (ground%first(j) < ground%first(j + 1)) zones%start(:2, m) = line_of_contact(ground%layers(ground%first(j)))
+                if (ground%first(j) == ground%first(j + 1)) cycle
+                ! As of a beam that lies on the first layer
+                associate (layer => ground%layers(ground%first(j)), length => ground%pieces(j)%length)
+                    zones%start(:2, m) = [contact_line(layer, zones%from(m), length), (layer%contact_b - layer%contact_a)/length]
+                end associate
             end do
         end do
-
-    contains
-
-        !> Deflection and slope of a beam that lies on a layer
-        pure function line_of_contact(layer) result(line)
-            type(layer_type), intent(in) :: layer
-            real(wp) :: line(2)
-
-            associate (length => ground%pieces(j)%length)
-                line(1) = contact_line(layer, zones%from(m), length)
-                line(2) = (layer%contact_b - layer%contact_a)/length
-            end associate
-        end function line_of_contact
-
     end subroutine full_contact
 
     !> Steps of all pieces

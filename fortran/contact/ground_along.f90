@@ -94,20 +94,12 @@ contains
 
         ground%way(:) = 0
         do i = 0, ubound(ground%way, 1)
-            ground%moves(i) = .not. (is_on_ground(ground, i) .or. ground%stiffness(i) > huge(1.0_wp))
+            ground%moves(i) = .not. ground%stiffness(i) > huge(1.0_wp)
+            ! Ground beside a node holds it
+            if (i > 0) ground%moves(i) = ground%moves(i) .and. .not. ground%limit(i) > 0.0_wp
+            if (i < size(ground%limit)) ground%moves(i) = ground%moves(i) .and. .not. ground%limit(i + 1) > 0.0_wp
         end do
     end subroutine start_leg
-
-    !> Is there ground beside a node
-    pure function is_on_ground(ground, i) result(it_is)
-        type(ground_along_type), intent(in) :: ground
-        integer, intent(in) :: i
-        logical :: it_is
-
-        it_is = .false.
-        if (i > 0) it_is = ground%limit(i) > 0.0_wp
-        if (i < size(ground%limit)) it_is = it_is .or. ground%limit(i + 1) > 0.0_wp
-    end function is_on_ground
 
     !> First part of every bar, and one more than there are parts
     pure function first_parts(ground) result(first)

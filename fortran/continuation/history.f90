@@ -245,8 +245,13 @@ contains
             stretch%from = real(segment%from, wp) + 0.0_wp
             stretch%to = real(segment%to, wp) + 0.0_wp
             moves = direction == turn .or. abs(stretch%to - stretch%from) > 0.0_wp
-            call refuse_idle(walk, moves, error)
-            if (allocated(error)) return
+            walk%idle = merge(0, walk%idle + 1, moves)
+            if (walk%idle > 4*size(walk%closed) + most_idle_segments) then
+                call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &
+                                 trim(shown(real(branch%factor, wp)))//", where rounding hides which support gives way first: "// &
+                                 "bring the magnitudes of the beam nearer to each other")
+                return
+            end if
             if (outcome == never_ends) then
                 if (direction == turn) history%motion = motion_of_nodes(walk, branch%way%motion)
             else if (moves) then
@@ -307,21 +312,6 @@ contains
             call keep_pieces(places, branch%way%closed(places), laws, walk%last, stretch)
         end associate
     end subroutine take_pieces
-
-    !> Count stretches without length, and refuse to go on where there is no end to them
-    subroutine refuse_idle(walk, moves, error)
-        type(walk_type), intent(inout) :: walk
-        !> Is the last stretch none
-        logical, intent(in) :: moves
-        type(error_type), allocatable, intent(out) :: error
-
-        walk%idle = merge(0, walk%idle + 1, moves)
-        if (walk%idle > 4*size(walk%closed) + most_idle_segments) then
-            call fatal_error(error, gapbeam_not_converged, "the path does not leave load factor "// &
-                             trim(shown(real(walk%branch%factor, wp)))//", where rounding hides which support gives way "// &
-                             "first: bring the magnitudes of the beam nearer to each other")
-        end if
-    end subroutine refuse_idle
 
     !> Refuse to tell what statics cannot
     subroutine refuse_shared(walk, outcome, error)

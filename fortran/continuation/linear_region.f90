@@ -50,7 +50,7 @@ contains
         !> As for find_contact_state
         type(error_type), allocatable, intent(out) :: error
         type(workspace_type) :: work
-        real(wp) :: scale_of_factor, trial, from
+        real(wp) :: scale_of_factor, trial, from, at_zero, at_one, parts
         logical :: farther
 
         scale_of_factor = max(abs(factor), limit - factor)
@@ -69,7 +69,13 @@ contains
                 if (allocated(error)) return
                 call find_interval(region, trial, from)
             else
-                from = start_of_motion(beam, outcome%motion)
+                ! Above which the loads do work along the motion
+                associate (motion => outcome%motion, range => [0, ubound(outcome%motion, 1)])
+                    call work_of_loads(beam, 0.0_wp, motion, range, at_zero, parts)
+                    call work_of_loads(beam, 1.0_wp, motion, range, at_one, parts)
+                end associate
+                from = -huge(from)
+                if (at_one > at_zero) from = -at_zero/(at_one - at_zero)
             end if
             if (from > factor + last_share_of_way*scale_of_factor) then
                 if (farther) then
@@ -89,18 +95,6 @@ contains
             end if
         end do
     end subroutine find_region
-
-    !> The factor above which the loads do work along a motion
-    function start_of_motion(beam, motion) result(factor)
-        type(beam_type), intent(in) :: beam
-        real(wp), intent(in) :: motion(0:)
-        real(wp) :: factor, at_zero, at_one, parts
-
-        call work_of_loads(beam, 0.0_wp, motion, [0, ubound(motion, 1)], at_zero, parts)
-        call work_of_loads(beam, 1.0_wp, motion, [0, ubound(motion, 1)], at_one, parts)
-        factor = -huge(factor)
-        if (at_one > at_zero) factor = -at_zero/(at_one - at_zero)
-    end function start_of_motion
 
     !> Solve the scheme for dead and for live loads
     subroutine find_responses(beam, work, region, error)

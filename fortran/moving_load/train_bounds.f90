@@ -67,6 +67,7 @@ contains
         real(wp), allocatable :: begin(:)
         logical, allocatable :: touched(:)
         type(link_bounds_type), allocatable :: first_at_link(:)
+        type(link_bounds_type) :: first, last
         type(slopes_type), allocatable :: slopes(:)
         integer :: count, i, k, n, stat
 
@@ -109,7 +110,14 @@ contains
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
             do k = parts(i)%first, parts(i)%last
-                call bound_closely(parts(i)%link, k)
+                associate (link => parts(i)%link)
+                    call enter_stretch(track, train, traversal, k, bounds%view)
+                    call bound_link(assembled, track, bounds%view, link, 0.0_wp, first)
+                    call reach_values(first, k)
+                    call bound_link(assembled, track, bounds%view, link, 1.0_wp, last)
+                    call reach_values(last, k)
+                    call bound_between(link, k, slopes_in_link(bounds%view, link), 0.0_wp, 1.0_wp, first, last, most_halves)
+                end associate
             end do
         end do
 
@@ -286,20 +294,6 @@ contains
             end do
             count = kept
         end subroutine drop_parts
-
-        !> Look at a part on one stretch
-        subroutine bound_closely(i, k)
-            !> The link, and the number of the stretch
-            integer, intent(in) :: i, k
-            type(link_bounds_type) :: first, last
-
-            call enter_stretch(track, train, traversal, k, bounds%view)
-            call bound_link(assembled, track, bounds%view, i, 0.0_wp, first)
-            call reach_values(first, k)
-            call bound_link(assembled, track, bounds%view, i, 1.0_wp, last)
-            call reach_values(last, k)
-            call bound_between(i, k, slopes_in_link(bounds%view, i), 0.0_wp, 1.0_wp, first, last, most_halves)
-        end subroutine bound_closely
 
         !> Bounds between two positions on a stretch, halved while they are above what is reached
         recursive subroutine bound_between(i, k, slopes, from, to, first, last, halves)

@@ -136,11 +136,12 @@ contains
         logical :: it_is
         type(ground_type) :: bedded
         logical :: acting(size(one%closed))
+        integer :: k
 
         ! A beam that nothing holds on the way is moved without a jump as well: a bed that is next to nothing holds it, as a mass
         ! below zero would
         bedded = ground
-        bedded%pieces%mass = soft_bed*greatest_slope(ground)
+        bedded%pieces%mass = soft_bed*maxval([0.0_wp, (greatest_modulus(ground%layers(k), ground%laws), k=1, size(ground%layers))])
         if (allocated(bedded%mass)) deallocate (bedded%mass)
         ! A support that lets go on the way counts as open
         acting(:) = weakest_scheme(ground%beam%supports, one%closed, other%closed)
@@ -164,18 +165,6 @@ contains
         end function is_stable
 
     end function is_one_branch
-
-    !> Greatest slope of any ground
-    pure function greatest_slope(ground) result(slope)
-        type(ground_type), intent(in) :: ground
-        real(wp) :: slope
-        integer :: k
-
-        slope = 0.0_wp
-        do k = 1, size(ground%layers)
-            slope = max(slope, greatest_modulus(ground%layers(k), ground%laws))
-        end do
-    end function greatest_slope
 
     !> Stretches in which two states stay on one piece of every law each, and of the pieces between these those that are weakest
     pure subroutine weakest_between(ground, one, other, zones)

@@ -79,7 +79,9 @@ contains
         n = law%points
         allocate (d(2, law%times, n), f(2, law%times, n), stat=stat)
         if (stat /= 0) return
-        if (law%varies) places = places_of_law(assembled, law)
+        associate (before => size(assembled%model%ground), all_points => assembled%model%ground_law)
+            if (law%varies) places = [(place_in_table(assembled, before + i, all_points(i)%x), i=law%from, law%to, law%points)]
+        end associate
         associate (points => assembled%model%ground_law(law%from:law%to))
             do i = 1, n
                 if (law%varies) then
@@ -98,18 +100,6 @@ contains
             end do
         end do
     end subroutine make_law
-
-    !> The places at which a law that varies is given
-    pure function places_of_law(assembled, law) result(places)
-        type(assembled_type), intent(in) :: assembled
-        type(law_of_foundation_type), intent(in) :: law
-        type(place_type), allocatable :: places(:)
-        integer :: i
-
-        associate (before => size(assembled%model%ground), points => assembled%model%ground_law)
-            places = [(place_in_table(assembled, before + i, points(i)%x), i=law%from, law%to, law%points)]
-        end associate
-    end function places_of_law
 
     !> The piece of a law between the last two of some points
     pure function piece_between(d_a, d_b, f_a, f_b) result(piece)
