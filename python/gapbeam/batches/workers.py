@@ -109,10 +109,6 @@ def processes(jobs: int) -> Iterator[Executor]:
     ----------
     jobs : int
         How many.
-
-    Yields
-    ------
-    Executor
     """
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context

@@ -67,10 +67,6 @@ def json_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ----------
     result, points
         As for `to_json`.
-
-    Yields
-    ------
-    str
     """
     yield from _layout(result.to_data(points, steps=iter, fields=Fields.columns), "")
     yield "\n"
@@ -124,10 +120,6 @@ def csv_parts(result: "Result", points: int = 20) -> Iterator[str]:
     ----------
     result, points
         As for `to_csv`.
-
-    Yields
-    ------
-    str
     """
     governs = result.combinations or result.scene.trains
     columns = (result.envelope(points) if governs else result.fields(points=points)).columns()

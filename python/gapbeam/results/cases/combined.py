@@ -272,10 +272,6 @@ class CombinedResult(Result):
         ----------
         chosen : numpy.ndarray of bool, optional
             Which combinations; default all.
-
-        Yields
-        ------
-        Member
         """
         for k, name in enumerate(self.names):
             if chosen is not None and not chosen[k]:

@@ -150,10 +150,6 @@ def beyond(hints: list[Hint], largest: dict[tuple[str, int | None, str], float])
         From all combinations.
     largest : dict
         Extremes at full load by quantity, support and kind.
-
-    Yields
-    ------
-    Hint
     """
     best: dict[tuple[str, int | None, str], Hint] = {}
     for hint in hints:

@@ -175,10 +175,6 @@ class ExactTraversal:
             Of the beam.
         tension : numpy.ndarray
             Axial force of every piece, which no position changes.
-
-        Yields
-        ------
-        Compression or None
         """
         solved = self.engine.closed[self.engine.status == Status.SOLVED]
         yield from (struts.largest(closed, tension) for closed in np.unique(solved, axis=0))
