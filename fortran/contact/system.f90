@@ -56,7 +56,7 @@ contains
 
         if (allocated(beam%turning)) then
             associate (n => size(beam%links))
-                call find_turning(beam, work%nodes, work%rhs, work%loads, work%turn_size, work%answers, &
+                call find_turning(beam, work%nodes, work%rhs, work%level, work%loads, work%turn_size, work%answers, &
                                   work%deflection_size(n + 1:), work%couple, work%couple_size)
             end associate
         end if

@@ -110,11 +110,13 @@ contains
     end subroutine restrain
 
     !> Rotations from the solution at the nodes of the beam, and the couples that go with them
-    pure subroutine find_turning(beam, nodes, rhs, loads, turn_size, answers, rotation_size, couple, couple_size)
+    pure subroutine find_turning(beam, nodes, rhs, level, loads, turn_size, answers, rotation_size, couple, couple_size)
         type(beam_type), intent(in) :: beam
-        !> Nodes and right-hand sides as apply_turning left them; the loads alone
+        !> Nodes, right-hand sides and levels as apply_turning left them; the loads alone
         type(node_type), intent(in) :: nodes(0:)
-        type(rhs_type), intent(in) :: rhs(0:), loads(0:)
+        type(rhs_type), intent(in) :: rhs(0:)
+        real(wp), intent(in) :: level(0:)
+        type(rhs_type), intent(in) :: loads(0:)
         !> Of every link, the rotations that its loads could make, shape (n)
         real(wp), intent(in) :: turn_size(:)
         !> Solution at the nodes of the beam in, rotations as the deflections of those behind them out, shape (0:n + r)
@@ -143,7 +145,8 @@ contains
                     rotation_size(j) = abs(rotation)
                 else if (of%stiffness > 0.0_wp) then
                     rotation = (couple(j) + known%shear)/of%stiffness
-                    rotation_size(j) = (couple_size(j) + abs(known%shear))/of%stiffness
+                    ! The line of a law is told by a point of it, so that what it gives where it begins may be a difference
+                    rotation_size(j) = (couple_size(j) + abs(known%shear))/of%stiffness + level(v)
                 else
                     call turns_beside(beam, loads, turn_size, answers, i, turn, turn_terms)
                     if (is_of_hinge(beam%turned(j))) then

@@ -27,7 +27,7 @@ module gapbeam_path
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_affine_response, only: response_type, value_at, width_at, falls, stays_at_zero
-    use gapbeam_static_indeterminacy, only: find_indeterminacy
+    use gapbeam_static_indeterminacy, only: find_indeterminacy, refuse_indeterminate
     use gapbeam_refined, only: detail_type, refine_beam
     use gapbeam_extended_precision, only: decide_scheme, reserve_for, rule_given
     use gapbeam_contact_state_quad, only: fine_outcome_type => outcome_type
@@ -216,8 +216,11 @@ contains
         if (node < 0 .or. .not. to > from) return
         acting = closed
         call find_scheme(beam, detail, real(from + (to - from)/2, wp), rule_given, acting, outcome, error)
-        if (.not. allocated(error)) return
-        if (error%code /= gapbeam_indeterminate) deallocate (error)
+        if (allocated(error)) then
+            if (error%code /= gapbeam_indeterminate) deallocate (error)
+        else if (outcome%status == gapbeam_solved) then
+            call refuse_indeterminate(beam, acting, outcome%undecided, error)
+        end if
     end subroutine refuse_redundant_stretch
 
     !> Change what moves through zero, if that is all there is to do

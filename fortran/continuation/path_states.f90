@@ -5,7 +5,7 @@ module gapbeam_path_states
     use gapbeam_error, only: error_type, fatal_error, gapbeam_not_converged
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: named, of_supports
-    use gapbeam_laws, only: law_force, law_scale, law_displacement, begins_steep
+    use gapbeam_laws, only: law_force, law_scale, law_displacement, law_points, begins_steep
     use gapbeam_polyline, only: node_support_type
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_assembled_model, only: assembled_type
@@ -260,7 +260,8 @@ contains
         !> Which support, and both forces
         type(error_type), allocatable, intent(out) :: error
         integer, allocatable :: numbers(:)
-        real(wp) :: past, force, slope, off, most, least, largest, closest, pushes, found, given
+        real(wp) :: past, force, slope, off, most, least, largest, closest, near, pushes, found, given
+        real(wp), allocatable :: points(:, :)
         integer :: i, j, way, worst
 
         allocate (numbers, source=smooth_supports(beam))
@@ -282,10 +283,15 @@ contains
                 ! Nothing where nothing acts: rounding of what the law gives
                 least = arc_settled*law_force(s%law, s%parameter, law_scale(s%law, s%parameter))
                 if (off <= largest + least .or. off <= most) cycle
-                ! Where it begins steep, rounding of the deflection makes much of the force
+                ! Where it begins steep, rounding of the deflection makes much of the force, and so does a polyline's first piece
                 if (begins_steep(s%law, s%parameter)) then
                     pushes = max(0.0_wp, way*reaction_at(beam, state%reaction, numbers(j)))
-                    if (abs(max(past, 0.0_wp) - law_displacement(s%law, s%parameter, pushes)) <= closest) cycle
+                    near = closest
+                    if (rough) then
+                        points = law_points(s%law, s%parameter)
+                        near = max(near, points(1, 1))
+                    end if
+                    if (abs(max(past, 0.0_wp) - law_displacement(s%law, s%parameter, pushes)) <= near) cycle
                 end if
                 most = off
                 worst = numbers(j)

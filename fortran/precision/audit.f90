@@ -166,12 +166,12 @@ contains
             level(:) = 0.0_wp
             call apply_turning(beam, closed, [0, n], nodes, rhs, level)
             found(0:n) = answers(0:n)
-            call find_turning(beam, nodes, rhs, work%loads, work%turn_size, found, rotation_size, couple, couple_size)
+            call find_turning(beam, nodes, rhs, level, work%loads, work%turn_size, found, rotation_size, couple, couple_size)
             call find_turned(beam, numbers)
             allocate (turned(size(beam%turning)))
             turned%rotation = found(n + 1:)%deflection
             turned%rotation_size = rotation_size + everywhere*farthest*maxval(beam%links%inverse)
-            turned%couple_size = couple_size + everywhere*maxval(abs(answers(:n)%moment_left))
+            turned%couple_size = couple_size
             turned%left_out = most_left_out/epsilon(1.0_wp)*maxval(work%load_size)*maxval(beam%links%length)
         end subroutine find_rotations
 
@@ -194,7 +194,7 @@ contains
             do j = 1, 2
                 if (numbers(j, i) == 0) cycle
                 associate (rotation => turned(numbers(j, i)))
-                    rotation%couple_size = rotation%couple_size + everywhere*bent
+                    rotation%couple_size = rotation%couple_size + everywhere*bent + least(moments)
                     rotation%left_out = rotation%left_out + most_left_out/epsilon(1.0_wp)*bent
                 end associate
             end do
@@ -233,21 +233,43 @@ contains
             terms = terms + least(kind)
         end function hidden
 
-        !> What the largest terms of the beam leave everywhere
+        !> What the largest terms of the beam leave everywhere, and those of points that tell lines of laws, which cancel where a
+        !> line passes through no force
         subroutine find_least()
+            real(wp) :: lines(2), longest
+
+            lines(:) = size_of_lines()
+            longest = maxval(beam%links%length)
             most_load = maxval(work%load_size)
             least(:) = 0.0_wp
-            least(forces) = everywhere*max(maxval(abs(shear)), maxval(abs(reaction)), most_load)
+            least(forces) = everywhere*max(maxval(abs(shear)), maxval(abs(reaction)), most_load, lines(1), &
+                                           lines(2)*maxval(beam%links%inverse))
             ! Loads that balance each other on a beam that nothing holds leave as much to rounding
-            if (floats) least(forces) = most_load
+            if (floats) least(forces) = max(least(forces), most_load)
             least(pulls) = least(forces)
-            least(moments) = everywhere*max(maxval(abs(answers%moment_left)), maxval(abs(answers%moment_right)))
+            least(moments) = everywhere*max(maxval(abs(answers%moment_left)), maxval(abs(answers%moment_right)), &
+                                            lines(1)*longest, lines(2))
             ! Where all deflections cancel, they do so from the levels of the supports that act, and from what the loads could make
             if (any(closed)) least(deflections) = maxval(abs(beam%supports%contact), closed)
             least(deflections) = everywhere*(least(deflections) + most_load/softest(beam))
             least(rotations) = everywhere*(farthest*maxval(beam%links%inverse) + maxval(work%turn_size)) &
                 + least(deflections)*maxval(beam%links%inverse)
         end subroutine find_least
+
+        !> Of the points by which lines of laws are known: of forces, and of couples
+        pure function size_of_lines() result(found)
+            real(wp) :: found(2), force, rounding
+            logical :: acts, rigid
+            integer :: k, kind
+
+            found(:) = 0.0_wp
+            do k = 1, size(beam%supports)
+                if (beam%supports(k)%breakpoint == 0) cycle
+                call force_by_spring(beam%supports, closed, k, 0.0_wp, 0.0_wp, acts, rigid, force, rounding)
+                kind = merge(2, 1, beam%supports(k)%node > n)
+                found(kind) = max(found(kind), rounding/epsilon(1.0_wp))
+            end do
+        end function size_of_lines
 
         !> What may have been left out of the forces at node i: reactions that are nothing but rounding, of the largest load or of
         !> what bends the links beside it, and what the force of a law loses where it is small beside that at its breakpoint

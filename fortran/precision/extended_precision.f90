@@ -85,7 +85,8 @@ contains
             if (present(fault)) fault = ledger
             return
         end if
-        call refuse_indeterminate(beam, closed, outcome%undecided, error)
+        ! In a scheme that is known, what only touches pushes nothing: at an event of a path reactions may go from there to others
+        if (known /= rule_given) call refuse_indeterminate(beam, closed, outcome%undecided, error)
     end subroutine decide_scheme
 
     !> Find a contact state and its solution
@@ -174,11 +175,11 @@ contains
 
     !> A scheme that is known, in quadruple precision
     subroutine refer_given(beam, detail, factor, closed, undecided, work, outcome, error)
-        !> As for refer
+        !> As for refer; where part of the beam moves freely, a scheme out that is as right
         type(beam_type), intent(in) :: beam
         type(detail_type), intent(in) :: detail
         real(wp), intent(in) :: factor
-        logical, intent(in) :: closed(:)
+        logical, intent(inout) :: closed(:)
         logical, intent(out) :: undecided(:)
         type(workspace_type), intent(inout) :: work
         type(outcome_type), intent(inout) :: outcome
@@ -201,6 +202,7 @@ contains
             call refer(beam, detail, factor, found, undecided, work, outcome, error)
             same = .not. allocated(error) .and. outcome%status == gapbeam_solved .and. outcome%indifferent
             if (same) same = all((found .eqv. closed) .or. undecided)
+            if (same) closed(:) = found
             if (same) return
             if (has_ended(error)) return
             if (allocated(error)) deallocate (error)

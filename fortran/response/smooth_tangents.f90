@@ -2,7 +2,7 @@
 module gapbeam_smooth_tangents
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: settled_on_laws
-    use gapbeam_laws, only: begins_steep, law_displacement
+    use gapbeam_laws, only: begins_steep, law_displacement, law_force, law_scale
     use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_units, only: stiffness_unit
@@ -22,12 +22,15 @@ module gapbeam_smooth_tangents
     !> Share of a force by which a tangent at the solution is beside its curve at most; the same where more tangents bring no more
     !> digits
     real(wp), parameter :: last_digit = epsilon(1.0_wp)/2, rounding = 1e-13_wp
+    !> Share of the scale of a law below which a force, or a displacement, is none: where nothing acts, tangents lead nearer to
+    !> that for ever
+    real(wp), parameter :: no_force = epsilon(1.0_wp)**2, no_displacement = epsilon(1.0_wp)**8
 
     !> Where the supports with smooth laws are: in the user's units, one entry each
     type :: place_type
         !> Deflection of the beam; displacement past the gap, and which way that goes; force in that way
         real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
-        !> The larger of its distance from the support and the gap, to which digits of the displacement are relative
+        !> The larger of its distance from the support and the gap, or nothing, to which digits of the displacement are relative
         real(wp) :: size = 0.0_wp
         integer :: way = 0
         !> Does the law begin steep, and does the force tell the displacement
@@ -55,7 +58,7 @@ contains
         do j = 1, size(numbers)
             associate (s => assembled%model%supports(numbers(j)), p => places(j))
                 p%deflection = deflection_at(assembled, line%deflection, numbers(j))
-                p%size = max(abs(p%deflection - s%settlement), abs(s%gap))
+                p%size = max(abs(p%deflection - s%settlement), abs(s%gap), least_displacement(s%law, s%parameter))
                 call past_the_gap(s, p%deflection, p%past, p%way)
                 p%reached = p%way*reaction_at(assembled, line%reaction, numbers(j))
                 p%steep = begins_steep(s%law, s%parameter)
@@ -64,6 +67,20 @@ contains
             end associate
         end do
     end subroutine find_places
+
+    !> A displacement that is none
+    pure function least_displacement(law, parameter) result(least)
+        integer, intent(in) :: law
+        real(wp), intent(in) :: parameter(:)
+        real(wp) :: least
+
+        least = law_scale(law, parameter)
+        if (begins_steep(law, parameter)) then
+            least = law_displacement(law, parameter, no_force*law_force(law, parameter, least))
+        else
+            least = no_displacement*least
+        end if
+    end function least_displacement
 
     !> Does another tangent change nothing
     pure function are_settled(assembled, numbers, tangents, places) result(they_are)

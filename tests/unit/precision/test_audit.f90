@@ -21,6 +21,7 @@ program test_audit
 
     call what_is_solved_stands()
     call what_is_broken_is_found()
+    call lines_without_force()
     call another_hinge()
     call rigid_supports_side_by_side()
     call bars()
@@ -238,6 +239,33 @@ contains
         call check(found(5) == of_each(5), "a moment right of a node")
         call check(found(6) == of_each(6), "a shear")
     end subroutine what_is_broken_is_found
+
+    !> Where nothing acts, the points by which lines of laws are known leave their rounding, and no force beside that
+    subroutine lines_without_force()
+        type(sample_type), target :: sample
+        type(workspace_type) :: work
+        type(outcome_type) :: outcome
+        logical, allocatable :: closed(:)
+        real(wp), allocatable :: reaction(:)
+        logical :: stands
+        integer :: k
+
+        call make_beam([3.0_wp, 2.0_wp], [100.0_wp, 100.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
+                       [node_support_type(0, both, infinite(), 0.0_wp), &
+                        node_support_type(2, both, 700.0_wp, 0.1_wp, 1, .false., .true., 70.0_wp, 700.0_wp)], sample)
+        sample%beam%turned = [of_node]
+        sample%beam%turning = [1]
+        call order_supports([sample%beam%supports, node_support_type(3, both, 70.0_wp, 0.1_wp, 1, .false., .true., 7.0_wp, &
+                                                                    70.0_wp)], sample%beam)
+        call solve(sample, closed, work, outcome, stands)
+        call check(stands, "a beam on which nothing acts")
+        reaction = work%reaction
+        do k = 1, size(reaction)
+            reaction(k) = 1e-18_wp
+            call check(is_refused(sample, closed, outcome, work, reaction), "a force that nothing makes")
+            reaction(k) = work%reaction(k)
+        end do
+    end subroutine lines_without_force
 
     !> The solution of a beam in which there is no hinge, or whose restraint is on its other side, or in it
     subroutine another_hinge()

@@ -205,3 +205,38 @@ def test_a_support_that_does_not_move_is_no_other_way():
     beam = 48 * 100 / 4.0**3
     assert [(limit.factor, limit.kind) for limit in result.limits] == [(pytest.approx((9.0 + beam * 0.01) / 100), "limit")]
     assert result.segments[1].others == ()
+
+
+@pytest.mark.parametrize("supports", [
+    [{"x": 2, "law": {"type": "cubic", "k1": 2500, "k3": 3.5e8}}],
+    [{"x": 0, "law": {"type": "tanh", "stiffness": 10000, "limit": 98}}],
+    [{"x": 5, "law": {"type": "power", "d0": 0.005, "limit": 33.9, "n": 1}}],
+    [{"x": 0, "stiffness": 1e4}, {"x": 10, "law": {"type": "cubic", "k1": 1e4, "k3": 3e8}, "rotation": 1.0}],
+    [{"x": 5, "side": "below", "rotation": {"law": {"type": "plastic", "stiffness": 2670, "limit": 30.6}}}],
+    [{"x": 10, "rotation": {"law": {"type": "plastic", "stiffness": 0.008, "limit": 1}}}, {"x": 0, "law": [[1, 3e-5], [1, 1]]}],
+    [{"x": 0, "law": {"type": "power", "d0": 0.005, "limit": 40, "n": 0.33}},
+     {"x": 10, "law": {"type": "brittle", "stiffness": 1, "limit": 1}}],
+])  # fmt: skip
+@pytest.mark.parametrize("analysis", [{}, {"follow": "events"}])
+def test_laws_where_nothing_acts(supports, analysis):
+    step = gapbeam.solve({"beam": {"spans": [10], "EI": 2e4}, "supports": supports, "analysis": analysis}).steps[-1]
+    assert np.abs([*step.reaction, *step.deflection, *step.solution.moment_left]).max() < 1e-24
+
+
+@pytest.mark.parametrize(("law", "load"), [
+    ([[0, 1], [1, 80]], 40),
+    ({"type": "hardening", "stiffness": 1, "limit": 1, "slope": 2e4}, 80),
+])  # fmt: skip
+def test_a_load_at_the_only_support_to_a_breakpoint(law, load):
+    supports, loads = [{"x": 1.73, "law": law}], [{"type": "force", "x": 1.73, "F": load}]
+    scene = {"beam": {"spans": [4], "EI": 1}, "supports": supports, "loads": loads, "analysis": {"follow": "events"}}
+    step = gapbeam.solve(scene).steps[0]
+    assert (step.factor, step.reaction[0]) == (pytest.approx(1 / load), pytest.approx(1.0))
+
+
+def test_supports_that_take_all_of_a_load_beside_laws():
+    yields = {"type": "hardening", "stiffness": 5000, "limit": 6, "slope": 2e4}
+    keeps = {"law": [[0.001, 7], [0.02, 7]], "unloading": "plastic"}
+    supports = [{"x": 0, "rotation": {"law": yields}}, {"x": 1, "rotation": keeps}]
+    scene = {"beam": {"spans": [10], "EI": 2e4}, "supports": supports, "loads": [{"type": "force", "x": 0, "F": 70}]}
+    assert gapbeam.solve({**scene, "analysis": {"follow": "events"}}).steps[-1].reaction[:2].tolist() == [70.0, 0.0]

@@ -378,3 +378,13 @@ def test_a_support_that_keeps_a_set_beside_a_curve():
         assert result.state(factor, leg=2).reaction[2] == pytest.approx(plastic, rel=1e-11)
     assert [segment.exact for segment in result.segments if segment.leg == 0] == [True, True]
     assert not any(segment.exact for segment in result.segments if segment.leg > 0)  # where it yields is known on the polyline
+
+
+def test_a_steep_curve_at_an_event_that_is_not_found_on_the_laws():
+    """What its polyline leaves out where it begins is no force that the law does not give."""
+    steep = {"x": 0, "law": {"type": "power", "d0": 0.005, "limit": 50, "n": 0.3}, "rotation": 100.0}
+    loads = [{"type": "movement", "support": 0, "value": 0.008}, {"type": "force", "x": 6.0, "F": 40}]
+    scene = {"beam": {"spans": [9], "EI": 2e4}, "supports": [{"x": 4.0, "side": "below", "gap": 0.02}, steep], "loads": loads}
+    step = gapbeam.solve({**scene, "analysis": {"follow": "events"}}).steps[0]
+    assert step.reaction == pytest.approx([0.0, 40 * step.factor])
+    assert abs(step.deflection[1]) < 0.005 * 2.0**-22

@@ -117,3 +117,16 @@ def test_trains_and_foundations():
     made["foundation"] = [{"k": 4.0, "side": "below"}]
     with pytest.raises(gapbeam.EngineError, match="more rigid supports than statics can tell apart"):
         gapbeam.solve(made)
+
+
+def test_where_the_reactions_of_a_load_path_go_from_one_support_to_another():
+    """A rigid beam that bends by what is imposed touches three supports at once, at one load factor."""
+    supports = [at(0), below(1), below(2, gap=0.002)]
+    made = scene([3.0, 3.0], supports, [force(4.0, 10.0), {"type": "curvature", "kappa": 5e-4}], **RIGID)
+    made["analysis"] = {"follow": "events"}
+    result = gapbeam.solve(made)
+    assert [(event.support, event.event, event.factor) for event in result.events] == [
+        (1, "opens", pytest.approx(4 / 9)), (2, "closes", pytest.approx(4 / 9))]  # fmt: skip
+    at_event, last = result.steps
+    assert at_event.reaction == pytest.approx(np.array([-1 / 3, 4 / 3, 0]) * 40 / 9)
+    assert last.reaction == pytest.approx([10 / 3, 0, 20 / 3])
