@@ -186,11 +186,12 @@ def draw_contacts(
     """
     if len(scene.supports) > 2 * MOST_SYMBOLS:
         return []
-    groups, opened, moved = defaultdict(list), [], supports_moved(scene, step.factor)
+    groups, opened = defaultdict(list), []
+    level = supports_moved(scene, step.factor) + np.array([support.settlement for support in scene.supports])
     for k, (support, state, x) in enumerate(zip(scene.supports, lanes.kinds, lanes.x, strict=True)):
-        if (support.side != "both" or support.settlement or moved[k]) and support.direction == "normal":
+        if (support.side != "both" or level[k] or step.set[k]) and support.direction == "normal":
             sign = -1.0 if support.side == "above" else 1.0
-            y = support.settlement + moved[k] + sign * support.gap
+            y = level[k] + sign * (support.gap + step.set[k])
             if abs(y) <= 1.5 * largest:
                 groups[state, sign].append((float(x), y))
                 if state == "open" and step.opening[k] > 0.02 * largest:

@@ -24,7 +24,7 @@ from .beam import SupportLanes, draw_beam
 from .bezier import path_of, smooth
 from .curves import add_path, limit_values
 from .ground import GroundLanes, draw_ground, points_a_span
-from .key import CHARACTERS, LINE, Key, source_name
+from .key import CHARACTERS, Key, foot_height, source_name, write_foot
 from .labels import text_width
 from .load_symbols import draw_loads
 from .loads import LoadLanes
@@ -96,11 +96,10 @@ def envelope_figure(result: Result) -> Figure:
         positions = ", with the position of the train" * bool(scene.trains)
         note += f" Beside supports: the largest and the smallest reaction{positions}."
     top = supports.top + 4.0 if loads is None else loads.top
-    lines = textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
-    foot = LINE * len(lines) + 0.08
+    lines = supports.texts.foot + textwrap.wrap(note.strip(), CHARACTERS) + key.lines()
     text = _headline(result, sources, strips)
     handles = legend_handles(symbols_of(scene, states)) * (not supports.rows)
-    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, top, len(panels), foot)
+    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, top, len(panels), foot_height(lines))
     draw_ground(sheet.sketch, ground, ())
     draw_beam(sheet.sketch, scene, states, supports)
     if loads is not None:
@@ -112,7 +111,7 @@ def envelope_figure(result: Result) -> Figure:
         for edge, stretches in enumerate(drawn[quantity] if strips else ()):
             _strip(panel, stretches, key, edge, length)
     sheet.finish()
-    key.write(sheet.picture, lines, 0.24)
+    write_foot(sheet.picture, lines)
     return literal(sheet.picture)
 
 

@@ -1,4 +1,4 @@
-"""Letters and colours for what governs: combinations and trains, told once below the picture."""
+"""Letters and colours for what governs: combinations and trains, told once below the picture; what else stands there."""
 
 from __future__ import annotations
 
@@ -72,11 +72,17 @@ class Key:
         ]
         return textwrap.wrap("; ".join(entries), CHARACTERS, break_on_hyphens=False)
 
-    def write(self, picture: Figure, lines: list[str], left: float) -> None:
-        """Write lines at the foot of a picture, which has room for them."""
-        width, height = picture.get_size_inches()
-        for row, line in enumerate(reversed(lines)):
-            picture.text(left / width, (0.06 + LINE * row) / height, line, fontsize=7, va="bottom", color="0.15")
+
+def foot_height(lines: list[str]) -> float:
+    """Give the height of lines at the foot of a picture (inches)."""
+    return LINE * len(lines) + 0.08 * bool(lines)
+
+
+def write_foot(picture: Figure, lines: list[str]) -> None:
+    """Write lines at the foot of a picture, which has room for them."""
+    width, height = picture.get_size_inches()
+    for row, line in enumerate(reversed(lines)):
+        picture.text(0.24 / width, (0.06 + LINE * row) / height, line, fontsize=7, va="bottom", color="0.15")
 
 
 def source_name(of: object) -> str:

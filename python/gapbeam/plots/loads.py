@@ -234,6 +234,8 @@ class LoadLanes:
                 asides = [above, math.copysign(half + 2.0, stop - start)]
             elif arrow.aside:
                 asides.insert(0, math.copysign(half, arrow.aside))
+            else:  # beside its tip rather than above a label that another one would be in the way of
+                asides += [half + 2.0, -half - 2.0]
             places = [(aside, end + 1.0) for aside in asides if half - MARGIN < x + aside < page - half]
             above = min(max(above, half - MARGIN - x), page - half - x)
             # One of so many is free: a label or an arrow is in the way of less than two of them

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 
 from ..base.characters import with_minus_signs
 from ..results import formatting as fmt
+from .labels import measured_width
 from .panels import Point
 from .turned import Turned, is_turned, raw
 
@@ -23,8 +24,8 @@ MOST_MARKS = 24
 """Largest values of spans that are written, where there is room."""
 WORTH = 0.02
 """Share of the largest value from which one of a span is written."""
-LETTER, HIGH, OFF, NEAR = 4.6, 8.5, 4.0, 5.0
-"""Width of a letter, height of a line, distance from the point, from symbols (points of 1/72 inch)."""
+LETTERS, HIGH, OFF, NEAR = 7.5, 8.5, 4.0, 5.0
+"""Size of letters, height of a line, distance from the point, from symbols (points of 1/72 inch)."""
 FAR = 1.8
 """Lines between a label and its point from which a leader connects them."""
 INWARD = 12.0
@@ -116,7 +117,7 @@ class Marks:
 
     def _write(self, value: float, x: float, text: str, must: bool) -> None:
         outward = (value > 0.0) != self.axes.yaxis_inverted()
-        at, wide = self._points(np.array([[x, value]]))[0], LETTER * max(map(len, text.split("\n"))) + 2.0
+        at, wide = self._points(np.array([[x, value]]))[0], measured_width(text, LETTERS) + 2.0
         found = []
         out = 5.0 * self.turned  # there is room beside the panels of upright beams
         for price, align, upright, box in self._boxes(at, wide, outward, (5 + 5 * self.turned) if must else 1):
@@ -147,7 +148,7 @@ class Marks:
             behind["arrowprops"] = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.4, "shrinkA": 0.0, "shrinkB": 1.5}
         self.axes.plot([x], [value], "o", color="black", markersize=2.6, zorder=4)
         place = (value, x) if self.turned else (x, value)
-        raw(self.axes).annotate(text, place, anchor.tolist(), textcoords="offset points", fontsize=7.5, zorder=5, ha=align,
+        raw(self.axes).annotate(text, place, anchor.tolist(), textcoords="offset points", fontsize=LETTERS, zorder=5, ha=align,
                                 va=upright, **behind)  # fmt: skip
 
     def _free(self, box: Box) -> bool:

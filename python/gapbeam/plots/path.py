@@ -20,12 +20,12 @@ from ..scene.names import column_of
 from ..scene.rotations import TURNING
 from .branches import KINK, MARKERS, Trace, draw_trace, name_limits
 from .ground_path import draw_extremes, draw_zones, note_on_ground, states_on_ground
-from .labels import spread
+from .labels import measured_width, spread
 from .panels import LEFT, WIDTH, Numbers, cut_text, outcome
 from .save import literal, save
 from .sheet import is_upright, positive
 from .support_values import LYING, MOST_CHARACTERS, UPRIGHT, short_names
-from .titles import HEIGHT, SIZE, measured_width, title_lines
+from .titles import HEIGHT, SIZE, title_lines
 
 if TYPE_CHECKING:
     from ..results.result import Result

@@ -23,6 +23,7 @@ from .bezier import cells_of
 from .curves import draw_field
 from .envelope import envelope_figure
 from .ground import GroundLanes, cells_a_span, draw_ground, near_surface, zone_handles
+from .key import foot_height, write_foot
 from .load_symbols import draw_loads
 from .loads import LoadLanes
 from .marks import MOST_MARKS, find_peaks
@@ -94,7 +95,8 @@ def figure(result: "Result", step: int = -1) -> Figure:
     loads = LoadLanes(scene, supports.top, length, factor)
     text = _headline(result, step, kinds, contact) if stands else outcome(result)
     handles = legend_handles(symbols_of(scene, kinds)) * (not supports.rows) + zone_handles(contact, result.scene)
-    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, loads.top, len(panels))
+    foot = supports.texts.foot
+    sheet = Sheet(scene, heading_height(scene, text, handles), supports.bottom, loads.top, len(panels), foot_height(foot))
     draw_ground(sheet.sketch, ground, contact)
     draw_beam(sheet.sketch, scene, states, supports)
     draw_loads(sheet.sketch, loads)
@@ -116,6 +118,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
             for value, x in peaks[:MOST_MARKS]:
                 marks.peak(value, x)
     sheet.finish()
+    write_foot(sheet.picture, foot)
     return literal(sheet.picture)
 
 

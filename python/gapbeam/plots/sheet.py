@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..results import formatting as fmt
-from .labels import text_width
+from .labels import measured_width, text_width
 from .panels import LEFT, PANEL, RIGHT, SPACE, WIDTH, Numbers, axis_label
 from .titles import HEIGHT, SIZE, title_lines
 from .turned import Turned
@@ -166,9 +166,9 @@ class Sheet:
 
 def legend_rows(text: str, handles: list[Line2D]) -> int:
     """Count the rows of a legend under a text; 0 where it has room beside it."""
-    wide = [4.6 * len(str(handle.get_label())) + 26.0 for handle in handles]
+    wide = [measured_width(str(handle.get_label()), 7.5) + 26.0 for handle in handles]
     page = (WIDTH - RIGHT - LEFT / 4) * 72
-    if 4.7 * max(map(len, text.split("\n"))) + sum(wide) <= page:
+    if measured_width(text, 8.0) + 12.0 + sum(wide) <= page:
         return 0
     return -(-len(wide) // max(1, int(page / max(wide))))
 

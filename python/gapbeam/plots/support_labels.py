@@ -32,8 +32,8 @@ DENSE = 20.0
 """Distance of places below which they are near one another (points)."""
 EACH = 3
 """Supports with the same gap or spring, of which it is said once for all of them."""
-BESIDE = 40
-"""Characters of a line beside an upright beam."""
+BESIDE, ALONE = 40, 50
+"""Characters of a line beside an upright beam; where every place has one only."""
 WIDE = 110
 """Characters of a line of a note."""
 
@@ -75,8 +75,8 @@ class SupportTexts:
         Lower edge (points).
     unit : str
         Heading of the reactions where their unit does not stand beside them; may be empty.
-    notes : list of str
-        What holds for many supports, and what is not labelled.
+    notes, foot : list of str
+        What holds for many supports, and what is not labelled; as much of that as belongs at the foot of the page.
     """
 
     def __init__(
@@ -90,11 +90,13 @@ class SupportTexts:
         for index, place in enumerate(x.tolist()):
             self.at[place].append(index)
         self.unit, self.notes = "", []
+        self.foot: list[str] = []
         self.few = len(self.at) <= MOST_UNITS
         self.each = self._common()
         if upright:
             self.texts = self._beside(top)
             self.bottom = min((text.y - text_width(text.words) for text in self.texts), default=top) - 2.0
+            self.foot = self.notes
         else:
             groups, every = self._groups()
             words = [self._numbers(group) for group in groups]
@@ -265,28 +267,44 @@ class SupportTexts:
         self.notes += [line.replace(FIXED, " ") for line in textwrap.wrap("; ".join(words), WIDE)]
 
     def _beside(self, start: float) -> list[Text]:
-        """Write lines for every place to the right of an upright beam, moved along it as little as need be."""
-        found: list[tuple[float, list[str], bool]] = []
-        for place, indices in sorted(self.at.items()):
-            told = self.values.told(indices, self.few, False) if self.values is not None else None
-            lines = [*told.lines, *told.openings] if told else []
-            lines += self._of_place(place, indices).replace("\n", ", ").split("\n") if self._of_place(place, indices) else []
-            across = sum(self.scene.supports[k].direction == "normal" for k in indices)
-            head = self._numbers([place])
-            whole = [line.replace(" ", FIXED) for line in lines]  # broken between what is said
-            text = head if not lines else f"{head}: {', '.join(whole)}" if across < 2 else ", ".join(whole)
-            rows = [row.replace(FIXED, " ") for row in textwrap.wrap(text, BESIDE, break_long_words=False)]
-            found.append((place, rows, bool(told and told.lifted)))
+        """Write lines for every place to the right of an upright beam, moved along it as little as need be.
+
+        Gaps, settlements and springs are summed up where not all has room, then of every place there is one line.
+        """
         most = int(self.page * self.scale / LINE)
+        if self.values is not None and not self.few:
+            self.notes.append(f"beside supports: {self.values.heading}")
+        found = self._rows_beside(True, BESIDE)
         if sum(len(rows) for _, rows, _ in found) > most:
-            found = [(place, [" ".join(rows)], lifted) for place, rows, lifted in found]
+            self._sum_up(False)
+            found = self._rows_beside(False, BESIDE)
+        if sum(len(rows) for _, rows, _ in found) > most:
+            found = [(place, [f"{rows[0]} ..." if rows[1:] else rows[0]], lifted)
+                     for place, rows, lifted in self._rows_beside(False, ALONE)]  # fmt: skip
         if len(found) > most:
-            self.notes.append(f"{most} of {len(found)} places labelled")
-            found = found[:: -(-len(found) // most)]
+            every = -(-len(found) // most)
+            found, places = found[::every], fmt.count(len(found), "place")
+            self.notes.append(f"{len(found)} of {places} labelled")
         wanted = [place * self.scale + LINE * (k - (len(rows) - 1) / 2) for place, rows, _ in found for k in range(len(rows))]
         texts = [(row, lifted) for _, rows, lifted in found for row in rows]
         at = spread(wanted, LINE, self.page * self.scale - LINE / 2)
         return [Text(y / self.scale, start, text, lifted) for y, (text, lifted) in zip(at, texts, strict=True)]
+
+    def _rows_beside(self, whole: bool, characters: int) -> list[tuple[float, list[str], bool]]:
+        """Word every place in rows of so many characters, with what its supports are if asked, and whether they have no contact."""
+        found = []
+        for place, indices in sorted(self.at.items()):
+            told = self.values.told(indices, self.few, False) if self.values is not None else None
+            lines = [*told.lines, *told.openings] if told else []
+            of_place = self._of_place(place, indices) if whole else ""
+            lines += of_place.replace("\n", ", ").split("\n") if of_place else []
+            across = sum(self.scene.supports[k].direction == "normal" for k in indices)
+            head = self._numbers([place])
+            unbroken = [line.replace(" ", FIXED) for line in lines]  # broken between what is said
+            text = head if not lines else f"{head}: {', '.join(unbroken)}" if across < 2 else ", ".join(unbroken)
+            rows = [row.replace(FIXED, " ") for row in textwrap.wrap(text, characters, break_long_words=False)]
+            found.append((place, rows, bool(told and told.lifted)))
+        return found
 
 
 def _middle(places: list[float]) -> float:

@@ -1,12 +1,8 @@
-"""Titles of pictures: as many lines as are needed, none beyond the edge of the page; how wide a text is."""
+"""Titles of pictures: as many lines as are needed, none beyond the edge of the page."""
 
 from __future__ import annotations
 
-from warnings import catch_warnings, filterwarnings
-
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import text_to_path
-
+from .labels import measured_width
 from .panels import WIDTH
 
 SIZE, MOST_LINES = 10.0, 2
@@ -42,21 +38,6 @@ def title_lines(text: str, width: float = WIDTH - 0.48) -> list[str]:
             lines[-1] = " ".join([lines[-1], *words[k:]])
             break
     return [_cut(line, width) for line in lines]
-
-
-def measured_width(text: str, size: float, weight: str = "normal") -> float:
-    """Measure a text (points).
-
-    Parameters
-    ----------
-    text : str
-        Of one line.
-    size, weight : float, str
-        Of its letters.
-    """
-    with catch_warnings():
-        filterwarnings("ignore", "Glyph .* missing")  # said where the text is drawn
-        return text_to_path.get_text_width_height_descent(text, FontProperties(weight=weight, size=size), ismath=False)[0]
 
 
 def _fits(text: str, width: float) -> bool:

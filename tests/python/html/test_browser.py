@@ -1,6 +1,7 @@
 """What pages do in Chromium: sliders, events, tables, themes, keys; and that what they draw is what the solver says."""
 
 import itertools
+import re
 import shutil
 import tempfile
 import time
@@ -325,3 +326,16 @@ def test_a_beam_that_cannot_stand_is_shown_moving(browser, look_at):
     assert "tips about the support at x = 4" in find(browser, "#caption").text
     find(browser, "#slider").send_keys(Keys.END)
     assert find(browser, ".girder.moving").get_attribute("d") != path
+
+
+def test_a_support_that_keeps_a_set_is_drawn_where_it_is(browser, look_at):
+    """Where it has been pressed to: unloaded the beam is as far above it as the opening says."""
+    yields = {"node": 1, "side": "below", "law": [[0.004, 60.0], [0.05, 80.0]], "unloading": "plastic"}
+    result = look_at({
+        "beam": {"spans": [5.0, 5.0], "EI": 2e4}, "supports": [{"node": 0}, yields, {"node": 2}],
+        "loads": [{"type": "uniform", "q": 20.0}], "analysis": {"follow": "events", "history": [1.0, 0.0]},
+    })  # fmt: skip
+    symbols = [find(browser, f"[data-support='{k}'] .symbol").get_attribute("d") for k in range(2)]
+    held, kept = (float(re.match(r"M[\d.]+[ ,]([\d.]+)", drawn)[1]) for drawn in symbols)
+    deepest, opening = result.history_extremes["deflection"]["max"].value, result.steps[-1].opening[1]
+    assert kept - held == pytest.approx(34 * opening / deepest, abs=0.2)

@@ -233,3 +233,46 @@ def test_movements_are_written_where_gaps_and_springs_are_summed_up():
         said = "; ".join(text.get_text() for text in drawn.axes[0].texts)
         assert "springs from" in said
         assert "moves \u2191 3 mm" in said or "6 movements from \u22126 to \u22121 mm" in said
+
+
+def test_labels_of_large_numbers_stand_apart_from_one_another_and_from_arrows():
+    """Widths are measured: digits and signs are wider than letters."""
+    supports = [{"node": k, "stiffness": 1.2345e9 + k} for k in range(6)]
+    loads = [{"type": "force", "x": 3000, "F": 2.3456789e9}, {"type": "force", "x": 4500, "F": -1.3456789e9}]
+    scene = {"units": {"force": "N", "length": "mm"}, "beam": {"spans": 5 * [6000], "EI": 1e18}, "supports": supports}
+    made = figure(gapbeam.solve(scene | {"loads": loads}))
+    made.draw_without_rendering()
+    sketch = made.axes[0]
+    boxes = [text.get_window_extent() for text in words(sketch)]
+    assert not [(a, b) for k, a in enumerate(boxes) for b in boxes[:k] if a.shrunk(1, 0.7).overlaps(b)]
+    first, second = (
+        next(text for text in words(sketch) if text.get_text() == said) for said in ("2.3457e+09 N", "1.3457e+09 N")
+    )
+    assert first.get_window_extent().x1 < sketch.transData.transform((3000, 0))[0]
+    assert second.get_window_extent().x0 > sketch.transData.transform((4500, 0))[0]
+
+
+def test_supports_that_keep_a_set_are_drawn_where_they_are():
+    yields = {"node": 1, "side": "above", "law": [[0.004, 60], [0.05, 80]], "unloading": "plastic", "gap": 0.002}
+    scene = {"beam": {"spans": [5, 5], "EI": 2e4}, "supports": [{"node": 0}, yields, {"node": 2}],
+             "loads": [{"type": "uniform", "q": -20}], "analysis": {"follow": "events", "history": [1.0, 0.3]}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    panel, step = figure(result).axes[1], result.steps[-1]
+    (mark,) = (one for one in panel.collections if one.get_label() == "contact open")
+    assert step.set[1] > 0.04
+    assert mark.get_offsets()[0][1] == pytest.approx(step.deflection[1] - step.opening[1])
+
+
+@pytest.mark.parametrize(("stiffer", "said"), [
+    (0.0, "31 supports: spring 10000 kN/m each"),
+    (1.0, "31 springs from 10000 to 10030 kN/m"),
+])  # fmt: skip
+def test_upright_beams_with_many_long_names_are_no_wider_and_say_the_rest_at_the_foot(stiffer, said):
+    supports = [{"node": k, "name": f"Tieback {k}, northern wall, anchor {k}", "stiffness": 1e4 + stiffer * k} for k in range(31)]
+    scene = {"units": {"force": "kN", "length": "m"}, "beam": {"spans": 30 * [0.7], "EI": 5e4, "direction": "down"},
+             "supports": supports, "loads": [{"type": "uniform", "q": 60.0}]}  # fmt: skip
+    made = figure(gapbeam.solve(scene))
+    assert made.get_size_inches()[0] < 11.5
+    foot = [text.get_text() for text in made.texts]
+    assert said in foot
+    assert "beside supports: reaction [kN]" in foot

@@ -240,7 +240,7 @@ function drawSupports(state, scale, y, axis, changed) {
     }
     const way = above ? -1 : 1, shares = above && supports.some((other, j) => j !== k && other.x === one.x && other.side >= 0 && state.words[j] !== "open");
     let tip = at + way * 3;
-    if (idle && one.side !== 0) tip = way * Math.max(way * (axis + scale.lift * one.level) + 3, way * at + 7);
+    if (idle && one.side !== 0) tip = way * Math.max(way * (axis + scale.lift * (state.deflection[k] + one.side * state.opening[k])) + 3, way * at + 7);
     const kind = idle ? "open" : one.side === 0 ? "bilateral" : "closed";
     parts.push(`<g class="support ${kind}${changed.has(k) ? " changed" : ""}" data-support="${k}" data-state="${state.words[k]}">`);
     if (one.turning === 2) parts.push(line(x, at - 12, x, at + 12, "wall"));
