@@ -24,6 +24,9 @@ module gapbeam_rigid_solver
     private
     public :: solve_on_rigid_ground
 
+    !> Share of its piece within which a place is beside a node: of a couple there would be forces of more than the inverse of it
+    real(qp), parameter :: least_lever = 2.0_qp**(-30)
+
 contains
 
     !> Solve at a load factor
@@ -72,6 +75,7 @@ contains
             if (has_ended(error)) return
             if (allocated(error)) cycle
             if (.not. settled .or. found%status /= gapbeam_solved) cycle
+            if (any(without_lever(straight, fine_rigid%contacts))) cycle
             solution%solves = rigid%solves + fine_rigid%solves
             outcome = outcome_type(indifferent=found%indifferent)
             call take_solution(straight, real(factor, qp), fine_rigid, closed, solution)
@@ -81,8 +85,22 @@ contains
         end do
         if (allocated(error)) deallocate (error)
         call fatal_error(error, gapbeam_not_converged, "where the beam touches the rigid ground could not be settled: look for "// &
-                         "loads or supports that press it against a corner of the ground, or give the ground a stiffness k")
+                         "loads or supports that press it against a corner of the ground or hold it where it turns into the "// &
+                         "ground, or give the ground a stiffness k")
     end subroutine solve_on_rigid_ground
+
+    !> Does a beam that is held where it would turn into the ground touch that beside the place: no force does without a lever
+    elemental function without_lever(fine, contact) result(it_is)
+        type(fine_ground_type), intent(in) :: fine
+        type(fine_contact_type), intent(in) :: contact
+        logical :: it_is
+        real(qp) :: lever
+
+        associate (length => fine%pieces(contact%piece)%length)
+            lever = min(contact%from, length - contact%to)
+            it_is = lever > 0.0_qp .and. lever < least_lever*length .and. contact%to - contact%from < least_lever*length
+        end associate
+    end function without_lever
 
     !> Ground that is straight but for the rounding of its levels at nodes, which a stiff beam would feel, made straight
     subroutine straighten(fine, straight)

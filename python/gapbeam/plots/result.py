@@ -81,7 +81,7 @@ def figure(result: "Result", step: int = -1) -> Figure:
     kinds, values, state = plain_kinds(states), None, None
     if stands:
         state = result.steps[step]
-        contact, states, kinds, values = state.contact, state.state, kinds_of(result._beam, state), StateValues(scene, state)
+        contact, states, kinds, values = state.contact, state.state, kinds_of(scene, result._beam, state), StateValues(scene, state)
         cells = cells_of(result, step, cells_a_span(scene, result._beam))
         panels = [panel for panel in PANELS if panel[0] in cells.values]
     elif not result.motion:

@@ -10,11 +10,13 @@ from matplotlib.path import Path
 
 from ..results.event_words import STATES
 from ..results.state.breakpoints import Piece, piece_of, what_happens
+from ..scene.laws import law_points
 from ..scene.rotations import turns
 
 if TYPE_CHECKING:
     from ..engine.beam import Beam
     from ..results.state.step import Step
+    from ..scene.laws import Law
     from ..scene.structs import Scene
 
 #: State -> fill of its symbol; in this order in the legend
@@ -67,11 +69,13 @@ SYMBOLS = {
 }
 
 
-def kinds_of(beam: Beam, step: Step) -> tuple[str, ...]:
+def kinds_of(scene: Scene, beam: Beam, step: Step) -> tuple[str, ...]:
     """Tell what every support does.
 
     Parameters
     ----------
+    scene : Scene
+        The scene.
     beam : Beam
     step : Step
         The state.
@@ -87,6 +91,9 @@ def kinds_of(beam: Beam, step: Step) -> tuple[str, ...]:
         if piece.number:
             broken = piece.number > 1 and piece.slope == 0.0 == step.reaction[k]
             kinds[k] = "broken" if broken else "closed" if piece.number == 1 else _beyond(beam, k, step, piece)
+    for k, support in enumerate(scene.supports):
+        if support.direction == "axial" and support.law is not None and kinds[k] not in SYMBOLS:
+            kinds[k] = _beyond_along(support.law, int(kinds[k].rpartition(" ")[2]))
     return tuple(kinds)
 
 
@@ -166,3 +173,14 @@ def _beyond(beam: Beam, support: int, step: Step, piece: Piece) -> str:
         return "broken"
     happened = what_happens(Piece(piece.number - 1, float(slope), piece.way), piece)
     return {"": "closed", "breaks": "broken"}.get(happened, happened)
+
+
+def _beyond_along(law: Law, branch: int) -> str:
+    """Name what has happened to a support along the beam that is on a branch of its law."""
+    if branch < 2:
+        return "closed"
+    points = np.array([(0.0, 0.0), *law_points(law)])
+    with np.errstate(divide="ignore"):
+        slopes = np.divide(*np.diff(points, axis=0).T[::-1])
+    before, after = slopes[min(branch, len(slopes)) - 2], slopes[min(branch, len(slopes)) - 1]
+    return what_happens(Piece(branch - 1, float(before), 1), Piece(branch, float(after), 1)) or "closed"

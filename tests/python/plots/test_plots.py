@@ -263,3 +263,12 @@ def test_figure_leaves_pyplot_alone():
 
     figure(gapbeam.solve(paper()))
     assert "matplotlib.pyplot" not in sys.modules
+
+
+@pytest.mark.parametrize(("force", "does"), [(5.0, "in contact"), (15.0, "yields"), (30.0, "hardens")])
+def test_supports_along_the_beam_with_a_law_are_drawn(force, does):
+    law = {"direction": "axial", "node": 0, "law": [[0.005, 10], [0.03, 20], [0.05, 40]]}
+    scene = {"beam": {"spans": [8], "EI": 3e4, "EA": 1e5}, "supports": [{"node": 0}, {"node": 1}, law],
+             "loads": [{"type": "axial", "x": 8, "F": force}, {"type": "uniform", "q": 1}]}  # fmt: skip
+    (legend,) = figure(gapbeam.solve(scene)).legends
+    assert does in [text.get_text() for text in legend.get_texts()]

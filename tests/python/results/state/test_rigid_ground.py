@@ -359,3 +359,13 @@ def test_rigid_foundations_one_over_another_are_refused():
     ground = [{"side": "below", "from": 0.2, "to": 1.5, "k": math.inf}, {"side": "below", "k": math.inf}]
     with pytest.raises(gapbeam.SceneError, match=r"foundation\[0\]\.k: from x = 0\.2 to x = 1\.5 one foundation lies over another"):
         gapbeam.solve({"beam": {"spans": [2.0, 3.5], "EI": 1800.0}, "supports": [], "loads": [], "foundation": ground})
+
+
+@pytest.mark.parametrize("side", ["below", "above"])
+@pytest.mark.parametrize("couple", [-0.7, 0.7])
+def test_a_support_about_which_the_beam_turns_into_the_ground(side, couple):
+    """Ground beside the support would have to take the couple without a lever, by a force without bounds."""
+    scene = {"beam": {"spans": [7], "EI": 3000}, "supports": [{"x": 2}], "foundation": [{"k": float("inf"), "side": side}],
+             "loads": [{"type": "moment", "x": 6.98, "M": couple}]}  # fmt: skip
+    with pytest.raises(gapbeam.EngineError, match="hold it where it turns into the ground"):
+        gapbeam.solve(scene)
