@@ -11,7 +11,7 @@ from ..results.envelopes.envelope import AT_SUPPORTS
 from ..results.envelopes.hints import beyond
 from ..results.envelopes.lifted import NONE
 from ..results.envelopes.over_path import is_followed
-from ..results.equilibrium import sum_of_loads, sum_of_reactions
+from ..results.equilibrium import sum_of_loads, sum_of_reactions, without_rounding
 from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
 from ..scene.rotations import at_support, which_turn
@@ -148,7 +148,7 @@ def _reactions(say: Writer, result: "CombinedResult") -> None:
             for i in supports
         ]  # fmt: skip
         step = one.steps[-1]
-        sums = sum_of_reactions(one.scene, step).force, sum_of_loads(one.scene, step.factor).force
+        sums = without_rounding(sum_of_reactions(one.scene, step).force, sum_of_loads(one.scene, step.factor).force)
         rows.append([name, *texts, *(fmt.number(value, fmt.DIGITS) for value in sums)])
     for words, best in (("largest", np.nanmax), ("smallest", np.nanmin)):
         ends = fmt.without_noise(best(reaction, axis=0).tolist())

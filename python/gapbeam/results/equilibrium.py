@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from .result import Result
     from .state.step import Step
 
-NONE = 1e-12
-"""Sums below this share of what is added up are said to be zero."""
+NONE, SAME = 1e-12, 1e-9
+"""Sums below this share of what is added up are said to be zero; two that differ by a smaller share are the same."""
 FAR = 2.0**960
 """Numbers above this are added up in this unit."""
 SAME = 1e-12
@@ -296,6 +296,11 @@ def _sum(values: Iterable[float]) -> float:
     return 0.0 if abs(total) <= NONE * largest else total
 
 
+def without_rounding(reactions: float, loads: float) -> tuple[float, float]:
+    """Give both sums as one number where they are: rounding would be seen where it decides on the last digit that is shown."""
+    return (loads if math.isclose(reactions, loads, rel_tol=SAME) else reactions, loads)
+
+
 def balance_in_words(result: Result, step: Step) -> list[str]:
     """Set the sums of reactions above those of loads.
 
@@ -321,7 +326,7 @@ def balance_in_words(result: Result, step: Step) -> list[str]:
         parts.append(("along the beam", "force", [one.axial for one in sums]))
     lines = ["Sum of reactions  ", "Sum of loads      "]
     for name, quantity, values in parts:
-        texts = [fmt.value(scene, quantity, value) for value in values]
+        texts = [fmt.value(scene, quantity, value) for value in without_rounding(*values)]
         width = max(map(len, texts))
         lead = f"   {name}  " if name else ""
         lines = [f"{line}{lead if k == 0 else ' ' * len(lead)}{texts[k]:<{width}}" for k, line in enumerate(lines)]

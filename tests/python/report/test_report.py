@@ -280,3 +280,13 @@ def test_combinations_that_are_followed_say_once_what_is_between():
     text = result.report()
     assert "Largest values over the loading history" in text
     assert "Not looked for" not in text
+
+
+@pytest.mark.parametrize("combinations", [[], [{"name": "all", "factors": {"live": 1.0}}]])
+def test_sums_that_are_one_number_are_written_alike(combinations):
+    """Reactions add up to 10.000499999999999, which alone would be written with another last digit than the load of 10.0005."""
+    scene = {"beam": {"spans": [7.3], "EI": 1e4}, "supports": [{"node": 0}, {"node": 1}], "combinations": combinations,
+             "loads": [{"type": "force", "x": 3 * 0.91, "F": 10.0005}]}  # fmt: skip
+    text = gapbeam.solve(scene).report()
+    assert re.search(r"Sum of reactions +10.001 |10.001 +10.001", text)
+    assert not re.search(r"Sum of reactions +10 |10.000 +10.001|10 +10.001", text)
