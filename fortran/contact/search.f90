@@ -387,7 +387,8 @@ contains
                              " rests on more rigid supports than statics can tell apart: give the stretch"// &
                              " or one of its supports a finite stiffness")
         else
-            call fatal_error(error, gapbeam_not_converged, "the scheme near node "//text//" cannot be solved")
+            call fatal_error(error, gapbeam_not_converged, "near node "//text//" so little holds the beam that it cannot be "// &
+                             "solved: give supports or ground there a stiffness from the start, or ask for more of the load")
         end if
     end subroutine refuse_scheme
 
