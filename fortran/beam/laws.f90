@@ -240,8 +240,9 @@ contains
         if (n > 0) then
             points = points(:, :n)
             ! What tends to a force carries no more than that, however far it goes
-            if (law_bound(law, p) <= huge(force)) &
+            if (law_bound(law, p) <= huge(force)) then
                 points = reshape([points, 2*points(1, n), law_bound(law, p), 4*points(1, n), law_bound(law, p)], [2, n + 2])
+            end if
         else
             points = reshape([scale_of_law, law_force(law, p, scale_of_law)], [2, 1])
         end if

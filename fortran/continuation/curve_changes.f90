@@ -41,8 +41,9 @@ contains
         associate (s => assembled%beam%supports(number), support => assembled%normal(number))
             past = s%side*(state%deflection(s%node) - s%contact)
             associate (given => assembled%model%supports(support))
-                if (state%closed(number) .and. begins_steep(given%law, given%parameter)) &
+                if (state%closed(number) .and. begins_steep(given%law, given%parameter)) then
                     past = abs(reaction_at(assembled, state%reaction, support))
+                end if
             end associate
         end associate
     end function past_curve

@@ -175,8 +175,9 @@ contains
                     exit
                 end if
             end do
-            if (curved .and. .not. allocated(error) .and. factor >= limit .and. outcome%status == gapbeam_solved) &
+            if (curved .and. .not. allocated(error) .and. factor >= limit .and. outcome%status == gapbeam_solved) then
                 call check_end(assembled, limit, closed, error)
+            end if
         end if
         call name_range(assembled, error)
     end subroutine follow_some_events

@@ -350,8 +350,9 @@ contains
                     pieces = merge((last - first + 1)/2, 0, s%side == 0)
                     ! Of a law that begins steep the force tells sooner than the displacement
                     if (begins_steep(s%law, s%parameter)) past = way*reaction_at(assembled, state%reaction, numbers(j))
-                    if (past > 0.0_wp .and. .not. (s%side == 0 .and. .not. abs(s%gap) > 0.0_wp)) &
+                    if (past > 0.0_wp .and. .not. (s%side == 0 .and. .not. abs(s%gap) > 0.0_wp)) then
                         pieces = pieces + merge(way, 1, s%side == 0)
+                    end if
                     state%closed(first:last) = [(k <= pieces, k=1, last - first + 1)]
                     cycle
                 end if
