@@ -7,24 +7,23 @@ module gapbeam_tolerances
     implicit none
     private
     public :: sign_width, worst_digits, worst_correction, rounding_unit, extreme_margin, proximal_ratio, splitter
-    public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power
-    public :: narrowest_interval, narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left
-    public :: root_piece_length, same_parameters, tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution
-    public :: same_compression, least_share, little_compression, long_compression, no_jump, mode_digits, mode_width, same_length
-    public :: no_decay_length, shortest_step, most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change
-    public :: pivot_hair, least_quad_pivot, near_zero, last_width, rounding_product, most_in_subdomains, subdomain_lengths
-    public :: boundary_share, first_spring, first_reaction_share, last_correction, harmless_correction, no_work, no_speed
-    public :: clearly_more, least_spring_force, at_rest_share, short_zone, one_crossing, one_place_on_curves, touching_width
-    public :: lone_node_zone, parts_of_decay, straight_force, no_node_slope, balanced, flat_energy, first_way, last_way
-    public :: moving_noise, far_from_solution, largest_ratio, most_ahead, same_ends, unmoved_share, straight_field
-    public :: stationary_place, mesh_rounding, fine_width, most_left_out, most_hidden, given_leeway, least_force_share
-    public :: softest_hinge, steepest_taper, most_deepening
-    public :: everywhere, audit_allows, movement_safety, fine_error, upward, rough, nearly_settled, fine_ends, movable_ends
-    public :: no_displacement, min_tied_zone, least_tied_share, no_tied_force, no_ground_work, fine_rounding, near_motion
-    public :: ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance, same_extreme
-    public :: rigid_noise, shortest_zone, same_level, rigid_places, fine_rigid_places
-    public :: worst_shear_digits, largest_error_share, second_order, greatest_squared, smallest_squared, greatest_product
-    public :: smallest_product, least_load, unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error
+    public :: position_tolerance, end_tolerance, cubic_rounding, settled_on_laws, most_unit_power, narrowest_interval
+    public :: narrowest_patch, patch_rounding, newton_leaves, ground_ulps, no_decay_left, root_piece_length, same_parameters
+    public :: tanh_is_one, largest_field, no_curve_slope, beginning_of_way, step_caution, same_compression, least_share
+    public :: little_compression, long_compression, no_jump, mode_digits, mode_width, same_length, no_decay_length, shortest_step
+    public :: most_root_pieces, taylor_tail, root_place, pivot_digits, hidden_change, pivot_hair, least_quad_pivot, near_zero
+    public :: last_width, rounding_product, most_in_subdomains, subdomain_lengths, boundary_share, first_spring
+    public :: first_reaction_share, last_correction, harmless_correction, no_work, no_speed, clearly_more, least_spring_force
+    public :: at_rest_share, short_zone, one_crossing, one_place_on_curves, touching_width, lying_width, lone_node_zone
+    public :: parts_of_decay, straight_force, no_node_slope, balanced, flat_energy, first_way, last_way, moving_noise
+    public :: far_from_solution, largest_ratio, most_ahead, same_ends, unmoved_share, straight_field, stationary_place
+    public :: mesh_rounding, fine_width, most_left_out, most_hidden, given_leeway, least_force_share, softest_hinge, steepest_taper
+    public :: most_deepening, everywhere, audit_allows, movement_safety, fine_error, upward, rough, nearly_settled, fine_ends
+    public :: movable_ends, no_displacement, min_tied_zone, least_tied_share, most_tied_slope, no_tied_force, no_ground_work
+    public :: fine_rounding, near_motion, ground_fine_width, same_ratio_of_slopes, lost_digits, same_slope, touching_distance
+    public :: same_extreme, rigid_noise, shortest_zone, same_level, rigid_places, fine_rigid_places, worst_shear_digits
+    public :: largest_error_share, second_order, greatest_squared, smallest_squared, greatest_product, smallest_product, least_load
+    public :: unknown_movement, audit_unit, refined_rest, underflow_takes, cut_load_error
 
     !> Rounding errors beyond which a sign counts. The estimates of rounding are sums of first order; 32 of them have never been
     !> exceeded by the attacks, and what lies within goes to quadruple precision, so that more would only cost time. Read by
@@ -213,9 +212,10 @@ module gapbeam_tolerances
     !> The same share where laws are curves, and for ends on a mesh: in a shorter zone the fields at its ends are known too badly
     !> to go on from. Read by contact/find_zones, contact/mesh_zones
     real(wp), parameter :: one_place_on_curves = epsilon(1.0_wp)**0.75_wp
-    !> Distance from a line, beside deflection and line, below which crossings may have been taken for rounding; tuned. Read by
-    !> contact/find_zones
+    !> Distance from a line, beside deflection and line, of crossings taken for rounding; tuned. Read by contact/find_zones
     real(wp), parameter :: touching_width = 2**12*epsilon(1.0_wp)
+    !> The same of a beam that lies on it without load. Read by contact/find_zones
+    real(wp), parameter :: lying_width = 4*epsilon(1.0_wp)
     !> In how many parts beside it a zone reaches at least that shows at one node only. Read by contact/mesh_zones
     real(wp), parameter :: lone_node_zone = 0.5_wp
     !> Parts of a mesh in a decay length of the ground; tuned. Read by contact/ground_mesh
@@ -329,17 +329,17 @@ module gapbeam_tolerances
     real(wp), parameter :: no_displacement = 1e-6_wp
     !> Zones of less than this share of the beam have no length: rounding of the place. Read by precision/ground_ties
     real(qp), parameter :: min_tied_zone = 4*epsilon(1.0_wp)
-    !> Share of all loads, or of what they bend the beam by, that is nothing while zones are not settled; tuned. Read by
-    !> precision/ground_ties
+    !> Share of all loads that is nothing while zones are not settled; tuned. Read by precision/ground_ties
     real(qp), parameter :: least_tied_share = 1e-6_qp
+    !> Slope in such a zone, in what loads and gaps move the beam by over its length, that has no end. Read by precision/ground_ties
+    real(qp), parameter :: most_tied_slope = 1e8_qp
     !> The same where quadruple precision has settled all zones. Read by precision/ground_ties
     real(qp), parameter :: no_tied_force = 1e-20_qp
     !> Work on ground at its limit, relative to its parts, that counts as none: places and loads are rounded to doubles. Read by
     !> precision/ground_limit
     real(qp), parameter :: no_ground_work = 8*epsilon(1.0_wp)
-    !> Numbers in quadruple precision that are smaller beside what they are made of are nothing but rounding: excess of work, so
-    !> that all load factors but one are on one side of the limit; displacements of a motion; forces. Read by
-    !> precision/ground_limit, precision/ground_solution
+    !> Numbers in quadruple precision that are smaller beside what they are made of are rounding: excess of work, displacements,
+    !> forces. Read by precision/ground_limit, precision/ground_solution, precision/ground_ties
     real(qp), parameter :: fine_rounding = 2.0_qp**(-90)
     !> How near to a motion its search comes: the work is wrong by the square of that. Read by precision/ground_limit
     real(qp), parameter :: near_motion = 2.0_qp**(-52)

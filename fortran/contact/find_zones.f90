@@ -2,7 +2,7 @@
 !> All crossings inside every stretch are isolated with certainty, and what acts between them is judged anew.
 module gapbeam_find_zones
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: one_crossing, one_place_on_curves, touching_width
+    use gapbeam_tolerances, only: one_crossing, one_place_on_curves, touching_width, lying_width
     use gapbeam_watch, only: is_stopped
     use gapbeam_foundation, only: stretch_load_type
     use gapbeam_foundation_fields, only: fields_at
@@ -11,8 +11,7 @@ module gapbeam_find_zones
     use gapbeam_curved, only: curved_type, curved_fields
     use gapbeam_laws, only: law_cubic, parameters_of_law
     use gapbeam_layers, only: layer_type, pieces_of_law, has_curves, other_way
-    use gapbeam_ground_laws, only: contact_line, breaks_on_line, line_of_breakpoint, distance_to_breakpoint, &
-        piece_of_deflection, parameters_at
+    use gapbeam_ground_laws, only: contact_line, breaks_on_line, line_of_breakpoint, piece_of_deflection, parameters_at
     use gapbeam_workspace, only: workspace_type
     use gapbeam_foundation_stretch, only: without_slip
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, new_zones, resize, steps_of_piece
@@ -258,7 +257,7 @@ contains
             integer, intent(in) :: k, i
             real(wp), intent(in) :: from, to
             integer :: acts, before, law, look
-            real(wp) :: psi, moment, shear, length, place, past, change
+            real(wp) :: psi, moment, shear, length, place
 
             associate (layer => ground%layers(k))
                 acts = 1
@@ -284,8 +283,7 @@ contains
                 if (before <= acts) return
                 ! A beam that lies on it without any load stays as it is
                 do law = before, acts + 1, -1
-                    call distance_to_breakpoint(ground%laws, layer, law, deflection(look), 0.0_wp, place, length, past, change)
-                    if (abs(past) > 0.0_wp) cycle
+                    if (.not. is_on_line(layer, law, deflection(look), place, length, lying_width)) cycle
                     acts = law
                     return
                 end do
@@ -309,15 +307,25 @@ contains
             integer, intent(in) :: acts
             real(wp), intent(in) :: w, place, length
             logical :: touches
-            real(wp) :: line
             integer :: law
 
-            touches = .false.
-            do law = max(1, acts), min(acts + 1, pieces_of_law(layer))
-                line = line_of_breakpoint(ground%laws, layer, law, place, length)
-                touches = touches .or. abs(w - line) <= touching_width*max(abs(w), abs(line))
-            end do
+            touches = any([(is_on_line(layer, law, w, place, length, touching_width), &
+                            law=max(1, acts), min(acts + 1, pieces_of_law(layer)))])
         end function touches
+
+        !> Is it on the line at which a piece of its law begins, but for rounding
+        pure function is_on_line(layer, law, w, place, length, width) result(it_is)
+            type(layer_type), intent(in) :: layer
+            integer, intent(in) :: law
+            real(wp), intent(in) :: w, place, length
+            !> Beside deflection and line
+            real(wp), intent(in) :: width
+            logical :: it_is
+            real(wp) :: line
+
+            line = line_of_breakpoint(ground%laws, layer, law, place, length)
+            it_is = abs(w - line) <= width*max(abs(w), abs(line))
+        end function is_on_line
 
         !> Load of a stretch at the factor
         pure function load_of(i) result(load)

@@ -12,7 +12,7 @@ module gapbeam_ground_events
     implicit none
     private
     public :: ground_path_type, ground_event_type, ground_segment_type, held_type, note_changes, list_changes, add_segment, &
-        same_contact
+        same_contact, beside
 
     !> A change of what holds the beam
     type :: ground_event_type
@@ -52,6 +52,10 @@ module gapbeam_ground_events
     type, extends(point_type) :: held_type
         logical, allocatable :: closed(:)
         type(zone_type), allocatable :: zones(:)
+        !> May the beam move freely: then what it touches is not unique, and only these of them, which carry something, are
+        logical :: loose = .false.
+        logical, allocatable :: carries(:)
+        type(zone_type), allocatable :: carrying(:)
         !> Deflections of the beam at supports whose law is a curve
         real(wp), allocatable :: on_curves(:)
         !> Where the search for other states may begin
@@ -184,6 +188,17 @@ contains
         path%segment(path%segments)%from = from
         allocate (path%segment(path%segments)%closed, source=held%closed)
     end subroutine add_segment
+
+    !> A state beside another one: what carries where both may move freely
+    pure function beside(held, other) result(seen)
+        type(held_type), intent(in) :: held, other
+        type(held_type) :: seen
+
+        seen = held
+        if (.not. (held%loose .and. other%loose)) return
+        seen%closed = held%carries
+        seen%zones = held%carrying
+    end function beside
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind
     pure function same_contact(held, other) result(same)

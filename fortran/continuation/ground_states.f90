@@ -26,7 +26,7 @@ module gapbeam_ground_states
     use gapbeam_ground_changes, only: find_zones
     use gapbeam_curve_changes, only: is_of_curve, past_curve, narrow_on_curve
     use gapbeam_ground_events, only: ground_path_type, held_type, list_changes_between => list_changes, note_changes, &
-        add_segment, same_contact
+        add_segment, same_contact, beside
     implicit none
     private
     public :: ground_states_type
@@ -75,6 +75,7 @@ contains
         class(point_type), intent(in), optional :: near
         type(held_type), allocatable :: held
         type(ground_start_type) :: start
+        type(ground_solution_type) :: solution
 
         allocate (held)
         held%at = at
@@ -101,6 +102,13 @@ contains
             held%on_curves = deflections_at_curves(problem%assembled, problem%state%deflection)
             call start_from(problem%state%ground, problem%state%closed, held%start)
             call find_zones(problem%assembled, problem%state%ground, held%zones, error)
+            held%loose = problem%state%indifferent
+            if (held%loose .and. .not. allocated(error)) then
+                solution = problem%state%ground
+                held%carries = held%closed .and. .not. solution%undecided
+                where (abs(solution%resultant) <= solution%no_force) solution%acts = 0
+                call find_zones(problem%assembled, solution, held%carrying, error)
+            end if
         else
             allocate (held%motion(0:size(problem%state%motion) - 1), source=problem%state%motion)
             held%reached = problem%state%ground%axial_share*at
@@ -142,9 +150,13 @@ contains
         type(ground_solution_type) :: solution
         type(grounded_type) :: grounded
         type(workspace_type) :: work
-        logical :: settled, solved
+        logical :: settled, solved, loose
 
-        if (at < problem%last .and. .not. (problem%falls .or. problem%on_curves)) then
+        select type (near)
+        type is (held_type)
+            loose = near%loose
+        end select
+        if (at < problem%last .and. .not. (problem%falls .or. problem%on_curves .or. loose)) then
             allocate (held)
             held%at = at
             call start_in(near, held%start)
@@ -192,7 +204,7 @@ contains
         type is (held_type)
             select type (after)
             type is (held_type)
-                alike = same_contact(before, after)
+                alike = same_contact(beside(before, after), beside(after, before))
             end select
         end select
     end function alike
@@ -207,7 +219,7 @@ contains
         type is (held_type)
             select type (after)
             type is (held_type)
-                call list_changes_between(problem%assembled, before, after, changes)
+                call list_changes_between(problem%assembled, beside(before, after), beside(after, before), changes)
             end select
         end select
     end subroutine list_changes
@@ -346,7 +358,8 @@ contains
         type is (held_type)
             select type (after)
             type is (held_type)
-                call note_changes(problem%assembled, before, after, at, place, problem%path, error)
+                call note_changes(problem%assembled, beside(before, after), beside(after, before), at, place, problem%path, &
+                                  error)
                 if (.not. allocated(error)) call add_segment(minval(at), after, problem%path, error)
             end select
         end select

@@ -53,8 +53,8 @@ module gapbeam_ground_solution
         !> Of the supports
         real(wp), allocatable :: reaction(:)
         logical, allocatable :: undecided(:)
-        !> Load factor of its live loads, to which supports and ground have moved
-        real(wp) :: factor = 0.0_wp
+        !> Load factor of its live loads, to which supports and ground have moved; up to which forces of layers are none
+        real(wp) :: factor = 0.0_wp, no_force = 0.0_wp
         !> Linear solves; rounds of zones in double precision
         integer :: solves = 0
         !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears,

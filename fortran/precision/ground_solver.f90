@@ -36,7 +36,7 @@ module gapbeam_ground_solver
     use gapbeam_ground_fields, only: largest_inside
     use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
-    use gapbeam_ground_ties, only: stands_on_edge, may_move
+    use gapbeam_ground_ties, only: stands_on_edge, may_move, least_force
     use gapbeam_ground_limit, only: find_collapse
     implicit none
     private
@@ -71,8 +71,8 @@ contains
         logical, allocatable :: start(:)
         type(mesh_type) :: mesh
         logical :: ends, on_edge, collapses, tied, stands, weighed
-        real(wp), allocatable :: motion(:)
-        integer :: try, first, last, pressed, edges
+        real(wp), allocatable :: motion(:), edge_motion(:)
+        integer :: try, first, last, pressed, edges, tries
 
         call reserve_memory(for_ground, size(ground%pieces), size(closed), 0, error)
         if (allocated(error)) return
@@ -84,7 +84,6 @@ contains
             call bound_errors(ground, grounded, work, factor, solution)
             return
         end if
-        edges = 0
         if (present(near)) then
             closed(:) = near%closed
             zones = near%zones
@@ -100,8 +99,10 @@ contains
                 if (only_near) return
             end if
             closed(:) = start
-            edges = 0
+            if (allocated(edge_motion)) deallocate (edge_motion)
         end if
+        edges = 0
+        tries = 0
         call full_contact(ground, zones)
         on_edge = .false.
         collapses = .false.
@@ -128,8 +129,11 @@ contains
                 end if
                 if (allocated(error)) then
                     ! A finer mesh may tell
-                    if (try == last) return
-                    cycle
+                    if (try < last) cycle
+                    ! Nor does any where it turns without end
+                    if (tries == 0 .or. edges < tries) return
+                    deallocate (error)
+                    exit
                 end if
                 if (outcome%status /= gapbeam_solved) then
                     ! A mesh is not the ground where next to no load more would be too much
@@ -153,7 +157,11 @@ contains
         end do
         if (allocated(error)) return
         ! From whatever zones it began, a part of the beam came to stand on an edge; the others may lie on the ground
-        on_edge = on_edge .or. edges == last + 1 - first
+        if (tries > 0 .and. edges == tries) then
+            on_edge = .true.
+            outcome = outcome_type(status=gapbeam_no_equilibrium)
+            call move_alloc(edge_motion, outcome%motion)
+        end if
         if (on_edge .and. outcome%status == gapbeam_no_equilibrium) then
             ! The last node alone holds what no zone can, however short: the beam tips over the edge of the ground
             if (size(outcome%motion) /= size(grounded%node)) then
@@ -176,10 +184,11 @@ contains
             logical, intent(in) :: only_near_by
             !> Is that all: a solution, or an error with which other zones would end too
             logical, intent(out) :: ends
-            logical :: settled, known, carries
+            logical :: settled, known, stands_there
             real(wp) :: moved
 
             ends = .false.
+            tries = tries + 1
             call settle_zones(ground, factor, rule, rough, zones, closed, grounded, work, outcome, known, moved, error)
             solution%solves = solution%solves + work%solves
             if (allocated(error)) then
@@ -191,8 +200,11 @@ contains
             if (outcome%status /= gapbeam_solved) return
             ! Where it all but touches, only quadruple precision tells where
             if (.not. known .and. only_near_by .and. moved > nearly_settled) return
-            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, carries, error)
-            if (carries) edges = edges + 1
+            call settle_finely(fine, real(factor, qp), rule, zones, known, closed, solution, outcome, settled, stands_there, error)
+            if (stands_there) then
+                edges = edges + 1
+                edge_motion = outcome%motion
+            end if
             if (allocated(error)) then
                 ! A mesh may tell that there is no equilibrium
                 ends = all(error%code /= [gapbeam_not_converged, gapbeam_not_finite])
@@ -266,7 +278,7 @@ contains
     end subroutine solve_on_ground
 
     !> Go on in quadruple precision, and round what is found
-    subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, carries, error)
+    subroutine settle_finely(fine, factor, rule, rough_zones, known, closed, solution, outcome, settled, stands, error)
         type(fine_ground_type), intent(in) :: fine
         real(qp), intent(in) :: factor
         integer, intent(in) :: rule
@@ -277,10 +289,9 @@ contains
         type(ground_solution_type), intent(inout) :: solution
         type(outcome_type), intent(inout) :: outcome
         logical, intent(out) :: settled
-        !> Does a zone of no length carry a force
-        logical, intent(out) :: carries
+        !> Does it stand on a zone of no length
+        logical, intent(out) :: stands
         type(error_type), allocatable, intent(out) :: error
-        logical :: stands
         type(fine_zones_type) :: zones
         type(fine_grounded_type) :: grounded
         type(fine_workspace_type) :: work
@@ -289,7 +300,7 @@ contains
 
         call refine_zones(fine, rough_zones, zones)
         settled = .false.
-        carries = .false.
+        stands = .false.
         if (known) then
             call polish_zones(fine, factor, rule, movable_ends, zones, closed, grounded, work, found, settled, error)
             solution%solves = solution%solves + work%solves
@@ -304,7 +315,7 @@ contains
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
         outcome = outcome_type(status=found%status)
-        call stands_on_edge(fine, factor, zones, grounded, work, stands, carries)
+        call stands_on_edge(fine, factor, zones, grounded, work, stands)
         settled = .not. stands
         if (stands) then
             ! So it tips over the edge
@@ -315,11 +326,9 @@ contains
             end associate
             return
         end if
+        solution%no_force = least_force(fine, factor, solution%resultant, work)
         outcome%indifferent = found%indifferent
-        if (.not. found%indifferent) then
-            outcome%indifferent = may_move(fine, factor, zones, grounded, solution%resultant, closed, solution%undecided, &
-                                           work)
-        end if
+        if (.not. found%indifferent) outcome%indifferent = may_move(fine, zones, grounded, closed, solution)
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return
         call out_of_range(error)
     end subroutine settle_finely

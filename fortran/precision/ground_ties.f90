@@ -1,9 +1,10 @@
 !> Zones of contact that carry nothing, or are too short for what they would have to carry
 module gapbeam_ground_ties
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_tolerances, only: min_tied_zone, least_tied_share, no_tied_force
+    use gapbeam_tolerances, only: min_tied_zone, least_tied_share, most_tied_slope, no_tied_force, fine_rounding
     use gapbeam_piece_quad, only: piece_load_type, combine_loads, greatest_softness
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
+    use gapbeam_nodes, only: is_hinge
     use gapbeam_layers_quad, only: other_way
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
@@ -11,16 +12,17 @@ module gapbeam_ground_ties
     use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_turning_quad, only: turn_with
     use gapbeam_law_kinematics_quad, only: leaves_all
+    use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private
-    public :: stands_on_edge, may_move
+    public :: stands_on_edge, may_move, least_force
 
 contains
 
     !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple; or is the
     !> beam pressed into the ground there, which is so where it turns over an edge without end
-    pure subroutine stands_on_edge(ground, factor, zones, grounded, work, stands, carries)
+    pure subroutine stands_on_edge(ground, factor, zones, grounded, work, stands)
         !> The beam and its ground, and the load factor
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
@@ -28,25 +30,29 @@ contains
         type(zones_type), intent(in) :: zones
         type(grounded_type), intent(in) :: grounded
         type(workspace_type), intent(in) :: work
-        !> Any of these, and is it a force or a couple
-        logical, intent(out) :: stands, carries
-        real(qp) :: length, force, way
+        logical, intent(out) :: stands
+        real(qp) :: length, force, way, modulus, rounding
         integer :: i
 
         length = sum(ground%pieces%length)
-        call size_of_loads(ground, factor, force, way)
+        call size_of_loads(ground, factor, force, way, modulus)
         associate (supports => grounded%beam%supports)
             do i = 1, size(supports)
                 if (supports(i)%node > size(zones%piece) .or. .not. abs(work%reaction(i)) > 0.0_qp) cycle
                 way = max(way, abs(work%answers(supports(i)%node)%deflection))
             end do
         end associate
+        ! Without loads forces are rounding of what movements of the ground would make, and depths that of deflections
+        force = max(least_tied_share*force, fine_rounding*length*modulus*way)
+        rounding = fine_rounding*max(way, maxval(abs(work%answers%deflection)))
         stands = .false.
-        carries = .false.
         do i = 1, size(zones%piece)
-            if (zones%to(i) - zones%from(i) > min_tied_zone*length .or. .not. any(zones%acts(:, i) > 0)) cycle
-            carries = carries .or. force_on(grounded, factor, work, i, length) > least_tied_share*force
-            stands = stands .or. carries .or. depth_in(ground, zones, work, i, min_tied_zone*length) > least_tied_share*way
+            associate (along => zones%to(i) - zones%from(i))
+                if (along > min_tied_zone*length .or. .not. any(zones%acts(:, i) > 0)) cycle
+                stands = force_on(grounded, factor, work, i, length) > force .or. &
+                    depth_in(ground, grounded, zones, work, i, min_tied_zone*length) > rounding + most_tied_slope*way*along/length
+            end associate
+            if (stands) return
         end do
     end subroutine stands_on_edge
 
@@ -65,8 +71,9 @@ contains
     end function force_on
 
     !> How deep the beam is pressed into the ground at the ends of a stretch, in the layers that act one way, and on it alone
-    pure function depth_in(ground, zones, work, i, short) result(depth)
+    pure function depth_in(ground, grounded, zones, work, i, short) result(depth)
         type(ground_type), intent(in) :: ground
+        type(grounded_type), intent(in) :: grounded
         type(zones_type), intent(in) :: zones
         type(workspace_type), intent(in) :: work
         integer, intent(in) :: i
@@ -80,7 +87,7 @@ contains
             do k = ground%first(j), ground%first(j + 1) - 1
                 associate (layer => ground%layers(k), length => ground%pieces(j)%length)
                     if (layer%side == 0 .or. zones%acts(k - ground%first(j) + 1, i) == 0) cycle
-                    if (goes_on(ground, zones, i, layer%side, short)) cycle
+                    if (goes_on(ground, grounded%beam%kind, zones, i, layer%side, short)) cycle
                     depth = max(depth, &
                                 layer%side*(a%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%from(i), length)), &
                                 layer%side*(b%deflection - line_of_breakpoint(ground%laws, layer, 1, zones%to(i), length)))
@@ -89,9 +96,11 @@ contains
         end associate
     end function depth_in
 
-    !> Does ground on one side act beside a stretch as well, on more than another short one
-    pure function goes_on(ground, zones, i, side, short) result(it_does)
+    !> Does ground on one side act beside a stretch as well, on more than another short one. Beyond a hinge it holds no rotation
+    pure function goes_on(ground, kind, zones, i, side, short) result(it_does)
         type(ground_type), intent(in) :: ground
+        !> Kinds of the nodes between the stretches, shape (0:m)
+        integer, intent(in) :: kind(0:)
         type(zones_type), intent(in) :: zones
         !> The stretch, the side, and as for depth_in
         integer, intent(in) :: i, side
@@ -103,6 +112,7 @@ contains
         do step = -1, 1, 2
             j = i + step
             do while (j >= 1 .and. j <= size(zones%piece))
+                if (is_hinge(kind(min(j, j - step)))) exit
                 associate (first => ground%first(zones%piece(j)), next => ground%first(zones%piece(j) + 1))
                     if (.not. any(zones%acts(:next - first, j) > 0 .and. ground%layers(first:next - 1)%side == side)) exit
                 end associate
@@ -115,11 +125,13 @@ contains
 
     !> Sum of the sizes of all loads as forces, imposed curvatures by what would straighten the beam; and how far loads and gaps
     !> may move it
-    pure subroutine size_of_loads(ground, factor, force, way)
+    pure subroutine size_of_loads(ground, factor, force, way, modulus)
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
         real(qp), intent(out) :: force, way
-        real(qp) :: length, kappa, bent, modulus, soft(2, size(ground%pieces))
+        !> Greatest modulus of the ground
+        real(qp), intent(out) :: modulus
+        real(qp) :: length, kappa, bent, soft(2, size(ground%pieces))
         type(piece_load_type) :: load
         integer :: j
 
@@ -145,50 +157,66 @@ contains
         way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
             + force*length*(maxval(soft(1, :))*length**2 + maxval(soft(2, :))) &
             + force/(length*modulus)
+        do j = 1, size(ground%beam%supports)
+            associate (s => ground%beam%supports(j))
+                if (s%node <= size(ground%pieces) .and. abs(s%contact) <= huge(way)) way = max(way, abs(s%contact))
+            end associate
+        end do
         force = force + bent
     end subroutine size_of_loads
 
-    !> May the beam move although it is in equilibrium: off supports and ground that carry nothing, and against nothing else
-    function may_move(ground, factor, zones, grounded, carried, closed, undecided, work) result(free)
+    !> Up to which a force of the ground is none. The gain of the shear does not tell: on a beam that lies evenly it is 0, since the
+    !> load is in it
+    pure function least_force(ground, factor, carried, work) result(least)
         !> As for stands_on_edge
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
+        !> Forces of the layers on the stretches, up, shape (most layers, stretches): of a layer that pushes one way 0 only if its
+        !> pressure is
+        real(wp), intent(in) :: carried(:, :)
+        type(workspace_type), intent(in) :: work
+        real(wp) :: least
+        real(qp) :: force, way, modulus
+
+        call size_of_loads(ground, factor, force, way, modulus)
+        force = max(force, real(maxval(sum(abs(carried), 1)), qp), maxval([0.0_qp, abs(work%reaction)]), &
+                    sum(ground%pieces%length)*modulus*way)
+        least = real(no_tied_force*force, wp)
+    end function least_force
+
+    !> May the beam move although it is in equilibrium: off supports and ground that carry nothing, and against nothing else
+    function may_move(ground, zones, grounded, closed, solution) result(free)
+        !> As for stands_on_edge
+        type(ground_type), intent(in) :: ground
         type(zones_type), intent(in) :: zones
         type(grounded_type), intent(in) :: grounded
-        !> Forces of the layers on the stretches, up, shape (most layers, stretches): of a layer that pushes one way 0 only if its
-        !> pressure is. The gain of the shear does not tell: on a beam that lies evenly it is 0, since the load is in it
-        real(wp), intent(in) :: carried(:, :)
-        !> States of the supports, and which of them are at zero
-        logical, intent(in) :: closed(:), undecided(:)
-        type(workspace_type), intent(in) :: work
+        !> States of the supports, and the solution
+        logical, intent(in) :: closed(:)
+        type(ground_solution_type), intent(in) :: solution
         logical :: free
         type(beam_type) :: beam
         type(motion_type), allocatable :: motions(:)
         logical :: idle(size(zones%piece))
-        real(qp) :: moved(0:last_place(grounded%beam)), forces(size(zones%piece)), length, force, way
+        real(qp) :: moved(0:last_place(grounded%beam))
         integer :: i, m, sense
 
         free = .false.
-        length = sum(ground%pieces%length)
-        call size_of_loads(ground, factor, force, way)
-        forces(:) = sum(abs(real(carried, qp)), 1)
-        force = max(force, maxval(forces), maxval([0.0_qp, abs(work%reaction)]))
         do i = 1, size(zones%piece)
-            idle(i) = acts_one_way(i) .and. forces(i) <= no_tied_force*force
+            idle(i) = acts_one_way(i) .and. sum(abs(solution%resultant(:, i))) <= solution%no_force
         end do
-        if (.not. (any(idle) .or. any(closed .and. undecided))) return
+        if (.not. (any(idle) .or. any(closed .and. solution%undecided))) return
         beam = grounded%beam
         where (idle)
             beam%ground%grounded = .false.
             beam%ground%gaa = (grounded%stretches%tension + grounded%stretches%tension_change/2)/grounded%stretches%length
         end where
-        call free_motions(beam, closed .and. .not. undecided, motions)
+        call free_motions(beam, closed .and. .not. solution%undecided, motions)
         do m = 1, size(motions)
             moved(:) = 0.0_qp
             moved(motions(m)%first:motions(m)%last) = motions(m)%displacement
             call turn_with(beam, moved)
             do sense = -1, 1, 2
-                free = free .or. (leaves_all(beam%supports, undecided, moved, sense) &
+                free = free .or. (leaves_all(beam%supports, solution%undecided, moved, sense) &
                                   .and. leaves_ground(motions(m), sense))
             end do
         end do

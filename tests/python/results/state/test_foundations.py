@@ -160,6 +160,59 @@ def test_a_part_of_a_beam_on_an_edge():
     assert (zone.from_, zone.to, zone.resultant) == (0.0, pytest.approx(3e-4, rel=1e-9), pytest.approx(43.0, rel=1e-9))
 
 
+def beyond_a_hinge(to=6.0, **beam):
+    """Ground that is pressed up to a hinge, and beyond it a part without load."""
+    return {"beam": {"spans": [6.0], "EI": 2e4, "hinges": [4.0]} | beam, "foundation": [{"k": 3000.0, "side": "below", "to": to}],
+            "loads": [{"type": "uniform", "q": 7.0, "to": 4.0}]}  # fmt: skip
+
+
+def test_a_part_without_load_beyond_a_hinge_turns_without_end():
+    """The ground pushes its end up as long as it touches there, however little, and nothing holds the rest."""
+    made = beyond_a_hinge()
+    for scene in (made, made | {"analysis": {"follow": "events"}}, beyond_a_hinge(GA=1e4)):
+        result = gapbeam.solve(scene)
+        assert result.status == "no-equilibrium"
+        assert "the part between the hinge at x = 4 and the right end tips about the hinge at x = 4" in result.reason
+        assert "moves" not in result.reason
+    gap = made | {"foundation": [made["foundation"][0] | {"gap": 0.001}], "analysis": {"follow": "events"}}
+    result = gapbeam.solve(gap)
+    assert result.status == "no-equilibrium"
+    assert max(step.factor for step in result.steps) < 1e-8
+    assert "moves" not in result.reason
+
+
+def test_what_holds_a_part_without_load_beyond_a_hinge():
+    """Where the ground ends at the hinge it is free to turn; tension, or a stop above it, say where it stays."""
+    free = gapbeam.solve(beyond_a_hinge(to=4.0))
+    assert free.steps[-1].indifferent
+    assert free.at(4.0).deflection == pytest.approx(7.0 / 3000.0, rel=1e-12)
+    pulled = gapbeam.solve(beyond_a_hinge(N=10.0))
+    x = np.linspace(4.0, pulled.steps[-1].contact[-1].to, 2001)
+    couple = np.trapezoid(3000.0 * pulled.at(x).deflection * (x - 4.0), x)
+    assert couple == pytest.approx(10.0 * (pulled.at(4.0).deflection - pulled.at(6.0).deflection), rel=1e-6)
+    stopped = gapbeam.solve(beyond_a_hinge() | {"supports": [{"x": 6.0, "side": "above", "gap": 0.01}]})
+    assert not stopped.steps[-1].indifferent
+    assert stopped.at(6.0).deflection == -0.01
+
+
+def test_a_beam_without_load_in_a_clearance():
+    """It lies on ground that has moved, or touches an edge of it, and is free to move; rounding said that it stood on the edge."""
+    lying = {"beam": {"spans": [12.0], "EI": float("inf")},
+             "foundation": [{"k": 1e4, "side": "below", "gap": 0.002, "name": "moved"}, {"k": 5e3, "side": "above", "gap": 0.002}],
+             "loads": [{"type": "movement", "foundation": "moved", "value": -0.0024}]}  # fmt: skip
+    lifted = {"beam": {"spans": [3.0], "EI": 2000.0}, "supports": [{"node": 1, "side": "below", "gap": 0.002}],
+              "foundation": [{"k": 1000.0, "side": "above", "to": 2.01}],
+              "loads": [{"type": "movement", "support": 0, "value": -0.0021}]}  # fmt: skip
+    for scene, at, deflection in ((lying, 0.0, -0.0004), (lifted, 3.0, -0.0001)):
+        result = gapbeam.solve(scene)
+        assert result.steps[-1].indifferent
+        assert result.at(at).deflection == pytest.approx(deflection, rel=1e-12)
+        assert max(abs(one.value) for one in result.extremes["moment"].values()) < 1e-30
+        followed = gapbeam.solve(scene | {"analysis": {"follow": "events"}})
+        assert followed.status == "solved"
+        assert followed.steps[-1].indifferent
+
+
 def test_a_beam_about_to_tip_over_an_edge():
     """All of it stands on 6e-7 next to the edge, in three zones, two of them 1e-12 long; and then it tips."""
     made = scaled_scene(10316, 0.0383832)
