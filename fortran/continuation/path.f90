@@ -18,7 +18,7 @@ module gapbeam_path
     use gapbeam_kinds, only: wp, qp
     use gapbeam_limits, only: short_beam_links
     use gapbeam_path_tolerances, only: enter_next_interval, agreement, shortest_interval, far_from_zero, same_factor
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_memory, only: for_following_closely
     use gapbeam_polyline, only: vertical_pieces
     use gapbeam_model, only: beam_type
@@ -217,7 +217,7 @@ contains
         acting = closed
         call find_scheme(beam, detail, real(from + (to - from)/2, wp), rule_given, acting, outcome, error)
         if (allocated(error)) then
-            if (error%code /= gapbeam_indeterminate) deallocate (error)
+            if (error%code /= gapbeam_indeterminate .and. .not. has_ended(error)) deallocate (error)
         else if (outcome%status == gapbeam_solved) then
             call refuse_indeterminate(beam, acting, outcome%undecided, error)
         end if

@@ -3,7 +3,8 @@
 module gapbeam_train_search
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: first_train_share, most_train_share, sliver
-    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_error, only: error_type, has_ended, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_indeterminate, &
+        gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: find_contact_state, outcome_type
@@ -54,6 +55,7 @@ contains
         trial%share = merge(0.0_wp, first_train_share, is_place)
         do
             call try_scheme(track, train, before, passage, trial, traversal, error)
+            if (has_ended(error)) return
             if (.not. trial%right .and. .not. trial%closely) then
                 trial%closely = .true.
                 if (allocated(error)) deallocate (error)

@@ -76,6 +76,7 @@ contains
                     call open_and_close(assembled, numbers, state)
                     return
                 end if
+                if (has_ended(error)) return
                 if (allocated(error)) deallocate (error)
                 deallocate (state%laws)
                 state%closed(:) = closed
