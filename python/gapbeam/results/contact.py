@@ -95,7 +95,7 @@ def contact_in_words(result: Result, lifted: list[Lifted], carrying: Collection[
     x, lines = result.scene.positions(supports), _closed_gaps(result, {one.support for one in lifted})
     if not lifted and not lost:
         return [*lines, "No support lifts off." if len(one_sided) > 1 or lines else "The support that can lift off does not."]
-    largest = sorted(lifted, key=lambda one: -one.opening)
+    largest = sorted(lifted, key=lambda one: (turns(supports[one.support]), -one.opening))
     for one in sorted(largest[:MOST_NAMED]):
         place = f"{_named(result.scene, one.support)} (x = {fmt.number(x[one.support], fmt.DIGITS)})"
         lines.append(f"{place} {_how_far(result, one, one.support in carrying)}.")

@@ -98,6 +98,18 @@ def test_rounding_is_written_as_zero():
     assert "e-1" not in text.partition("Error bound")[0]
 
 
+@pytest.mark.parametrize("unit", [1.0, 2.0**43])
+def test_openings_of_restraints_are_rotations(unit):
+    """However small the unit of length: an opening of 1.3e-3 is much beside the largest rotation, also in cases."""
+    made = {"beam": {"spans": [4.0 * unit], "EI": 1e4 * unit**2},
+            "supports": [{"node": 0, "rotation": {"stiffness": 1e3 * unit, "slack": 0.02}}, {"node": 1}],
+            "loads": [{"type": "uniform", "q": 5.0 / unit}]}  # fmt: skip
+    (one,) = gapbeam.solve(made).lifted
+    assert (one.support, one.opening) == (2, pytest.approx(0.02 - 1.0 / 750.0, rel=1e-12))
+    (of_cases,) = gapbeam.prepare(made).solve([[0.0], [1.0]]).lifted
+    assert (of_cases.support, of_cases.case, of_cases.share) == (2, 0, 1.0)
+
+
 def test_a_combination_is_named():
     combinations = [{"name": "heavy", "factors": {"dead": 1.0, "live": 1.0}}, {"name": "empty", "factors": {"dead": 1.0}}]
     result = gapbeam.solve(spans([scenes.uniform(2.0, case="dead"), scenes.force(3.0, 160.0)], combinations=combinations))

@@ -17,7 +17,7 @@ from ...base.records import read_only
 from ...engine.combinations import Combined, Varied
 from ...scene.names import labels
 from ..envelopes.envelope import AT_SUPPORTS
-from ..envelopes.lifted import Lifted, lifted_in_cases
+from ..envelopes.lifted import Lifted, least_openings, lifted_in_cases
 from ..envelopes.tables import support_places
 from ..state.arguments import whole
 from ..state.step import name_states
@@ -235,9 +235,7 @@ class CaseVerbs(Shown):
         solved = np.atleast_1d(self.ok)
         if not solved.any():
             return []
-        largest = max(float(np.nanmax(np.abs(one.value))) for one in self.extremes["deflection"].values())
-        one_sided = np.array([support.side != "both" for support in self.scene.supports], dtype=bool)
-        return lifted_in_cases(np.where(one_sided, openings, 0.0), solved, largest)
+        return lifted_in_cases(openings, solved, least_openings(self.scene.supports, self.extremes))
 
     @property
     def extremes(self) -> CaseExtremes:

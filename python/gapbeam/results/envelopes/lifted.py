@@ -6,15 +6,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ...scene.rotations import which_turn
 from ..views.extreme import KINDS, given_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ...scene.structs import Support
     from ..result import Result
     from ..trains.envelope import TrainEnvelope
+    from ..views.extreme import Extreme
     from .envelope import Envelope
 
 NONE = 1e-10
-"""Openings below this share of the largest deflection are said to be none."""
+"""Openings below this share of the largest deflection, or rotation, are said to be none."""
 
 
 class Lifted(NamedTuple):
@@ -50,6 +55,30 @@ class Lifted(NamedTuple):
     to_dict = given_of
 
 
+def least_openings(supports: Sequence[Support], extremes: Mapping[str, Mapping[str, Extreme | None]]) -> np.ndarray:
+    """Give the openings up to which supports are said to be in contact: those of restraints and hinges are rotations.
+
+    Parameters
+    ----------
+    supports : sequence of Support
+        Of the scene.
+    extremes : mapping
+        Of the fields, those of cases as arrays.
+
+    Returns
+    -------
+    numpy.ndarray
+        In the order of the supports.
+    """
+    turning = which_turn(supports)
+
+    def largest(name: str) -> float:
+        values = [np.abs(one.value).ravel() for one in extremes[name].values() if one is not None]
+        return float(np.fmax.reduce(np.concatenate([np.zeros(1), *values])))
+
+    return NONE * np.where(turning, largest("rotation") if turning.any() else 0.0, largest("deflection"))
+
+
 def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[Lifted]:
     """Find the supports that are without contact somewhere on the way of the load, in a combination or while trains pass.
 
@@ -65,10 +94,9 @@ def lifted_supports(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     list of Lifted
         In the order of the supports.
     """
-    deflection = envelope.extremes["deflection"]
-    largest = max((abs(one.value) for one in deflection.values() if one is not None), default=0.0)
     found = []
-    for k in np.flatnonzero(envelope.supports.values("opening", "max") > NONE * largest).tolist():
+    least = least_openings(result.scene.supports, envelope.extremes)
+    for k in np.flatnonzero(envelope.supports.values("opening", "max") > least).tolist():
         one = envelope.supports[k]["opening"]["max"]
         factor = one.factor
         if factor is None and one.train is None and one.combination is None and result.steps:
@@ -94,7 +122,7 @@ def carrying_supports(envelope: Envelope | TrainEnvelope) -> set[int]:
     return set(np.flatnonzero((sizes > NONE * np.nanmax(sizes, initial=0.0)).any(axis=0)).tolist())
 
 
-def lifted_in_cases(openings: np.ndarray, solved: np.ndarray, largest: float) -> list[Lifted]:
+def lifted_in_cases(openings: np.ndarray, solved: np.ndarray, least: np.ndarray) -> list[Lifted]:
     """Find the supports that are without contact in some of many cases, and in which part of them.
 
     Parameters
@@ -103,15 +131,15 @@ def lifted_in_cases(openings: np.ndarray, solved: np.ndarray, largest: float) ->
         Cases by supports.
     solved : numpy.ndarray of bool
         Which cases count.
-    largest : float
-        The largest deflection of all.
+    least : numpy.ndarray
+        By `least_openings`.
 
     Returns
     -------
     list of Lifted
         In the order of the supports.
     """
-    there = np.where(solved[:, None] & (openings > NONE * largest), openings, -np.inf)
+    there = np.where(solved[:, None] & (openings > least), openings, -np.inf)
     share = np.isfinite(there).sum(axis=0) / max(int(solved.sum()), 1)
     cases = there.argmax(axis=0) if len(there) else np.zeros(there.shape[1], int)
     return [Lifted(k, float(there[cases[k], k]), case=int(cases[k]), share=float(share[k])) for k in np.flatnonzero(share).tolist()]
