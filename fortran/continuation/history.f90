@@ -199,7 +199,7 @@ contains
         if (.not. allocated(error) .and. outcome == no_way_on .and. history%number == 0) then
             call fatal_error(error, gapbeam_not_converged, "before it carries any load a part of the beam can move freely "// &
                              "without work of the loads, so the path of supports that yield or move cannot be followed: "// &
-                             "hold that part, or give its supports no gap or slack")
+                             "hold that part, give its supports no gap or slack, or take steps where supports only move")
         end if
         walk%branch%rounded_places = rounded_places
         ! On the polylines of smooth laws, equal ones soften all but together: which goes first is told by all digits only

@@ -86,21 +86,22 @@ def take_movements(scene: Scene, only_dead: bool = False) -> tuple[Scene, Moveme
     return msgspec.structs.replace(scene, loads=loads), taken
 
 
-def settle_movements(scene: Scene) -> Scene:
+def settle_movements(scene: Scene, factor: float = 1.0) -> Scene:
     """Make loads that move supports settlements, as they are at full load.
 
     Parameters
     ----------
     scene : Scene
         The scene; left as it is.
+    factor : float
+        Load factor, if not 1.
     """
+    moves = supports_moved(scene, factor)
     scene, taken = take_movements(scene)
     if taken is None:
         return scene
-    moves = np.zeros((1, len(scene.supports)))
-    taken.add_to(moves, np.ones((1, len(scene.loads))))
     others = set(range(len(scene.loads))).difference(taken.load.tolist())
-    return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves[0])
+    return replace_settlements(msgspec.structs.replace(scene, loads=[scene.loads[k] for k in sorted(others)]), moves)
 
 
 def moves_with_load(scene: Scene) -> bool:

@@ -11,11 +11,12 @@ import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
 from ...engine.states import Solution
-from ...scene.movements import refuse_movements
+from ...scene.movements import refuse_movements, settle_movements
+from ...scene.reading import beam_of
 from ..state.motion import cause_of_fall
 from ..state.schemes import starting_scheme
 from ..state.step import solve_step
-from ..state.steps import LoadSteps, PathSteps
+from ..state.steps import LoadSteps, MovedSteps, PathSteps
 from .branches import follow_branches
 from .compression_check import check_compression
 from .ground_path import GroundPath, follow_on_ground
@@ -80,8 +81,12 @@ def _way(result: Result) -> Callable[[Result, np.ndarray], None]:
 
 def _by_steps(result: Result, closed: np.ndarray) -> None:
     """Solve at equal steps of the load factor."""
-    result.steps = LoadSteps(result._beam, result._rule, closed, result.scene.analysis.steps)
-    fallen = result.steps.solve_all()
+    _take_steps(result, LoadSteps(result._beam, result._rule, closed, result.scene.analysis.steps))
+
+
+def _take_steps(result: Result, steps: LoadSteps) -> None:
+    result.steps = steps
+    fallen = steps.solve_all()
     if fallen is not None:
         factor, *how = fallen
         result._refuse(f"at load factor {factor:g}", *how)
@@ -110,6 +115,19 @@ def _refuse_beyond_bounds(result: Result) -> None:
                 return
 
 
+def _moves_settled(result: Result) -> bool:
+    """Solve every step by itself where loads do no more than move supports: these have moved then, on whatever path."""
+    scene = result.scene
+    if scene.analysis.has_history:
+        return False
+    settled = settle_movements(scene)
+    beam = result._beam if settled is scene else beam_of(settled)
+    if beam.depends_on_path:
+        return False
+    _take_steps(result, MovedSteps(scene, beam, result._rule, starting_scheme(beam), scene.analysis.steps))
+    return True
+
+
 def follow_path(result: Result, closed: np.ndarray | None = None) -> None:
     """Solve a scene whose state depends on the loading history.
 
@@ -131,7 +149,12 @@ def follow_path(result: Result, closed: np.ndarray | None = None) -> None:
     by_steps = analysis.follow == "steps"
     if by_steps and analysis.at_limit == "follow":
         raise SceneError("analysis.at_limit", '"follow" needs follow = "events": with falling load there is no state by steps')
-    result.path = follow_branches(result)
+    try:
+        result.path = follow_branches(result)
+    except EngineError as error:
+        if not (error.status == Status.NOT_CONVERGED and by_steps and _moves_settled(result)):
+            raise
+        return
     _refuse_beyond_bounds(result)
     if result.path is None:
         return

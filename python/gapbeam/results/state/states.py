@@ -31,7 +31,7 @@ from .motion import FallingGround, describe_fall, describe_motion
 from .schemes import starting_scheme
 from .slip_zones import with_ends_of_slip
 from .step import Step, solve_step
-from .steps import LoadSteps, Steps
+from .steps import LoadSteps, MovedSteps, Steps
 from .system import System, system_of
 
 if TYPE_CHECKING:
@@ -216,13 +216,13 @@ class States(Pickled, WithModes):
         segment = self.path.find(factor) if self.path is not None else None
         if segment is not None:
             return self.path.step(segment, factor)
-        if self._beam.depends_on_path:
+        if self._beam.depends_on_path and not isinstance(self.steps, MovedSteps):
             raise ValueError(f"factor: the path of the load does not come to load factor {factor:g}")
         if not self.segments:
             closed = self.steps.nearest(factor)
         else:
             closed = starting_scheme(self._beam) if self.depends_on_path else self.path.at(factor)
-        step = solve_step(self._beam, factor, self._rule, closed)
+        step = solve_step(self.steps.beam_at(factor), factor, self._rule, closed)
         if isinstance(step, Solution):
             raise ValueError(f"factor: there is no equilibrium at load factor {factor:g}")
         return step

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -13,6 +13,10 @@ from ...base.memory import LITTLE, refuse_beyond
 from ...base.records import Pickled, read_only
 from ...engine.beam import Beam
 from ...engine.modes import Buckling
+from ...scene.held import hold
+from ...scene.movements import settle_movements
+from ...scene.reading import beam_of
+from ...scene.structs import Scene
 from .arguments import whole
 from .motion import FallingGround, cause_of_fall
 from .step import Known, Step, name_states, solve_step
@@ -63,6 +67,16 @@ class Steps(Pickled, Sequence[Step]):
         numpy.ndarray of int
             1 where a support across the beam acts.
         """
+
+    def beam_at(self, factor: float) -> Beam:
+        """Give the beam at a load factor.
+
+        Parameters
+        ----------
+        factor : float
+            Load factor.
+        """
+        return self._beam
 
     @abstractmethod
     def factor(self, k: int) -> float:
@@ -181,7 +195,7 @@ class LoadSteps(Steps):
 
     def _make(self, k: int) -> Step:
         known = Known(self.closed(k), int(self._solves[k]), float(self._seconds[k]))
-        return Step(self._beam, self.factor(k), self._rule, self._before(k), known)
+        return Step(self.beam_at(self.factor(k)), self.factor(k), self._rule, self._before(k), known)
 
     def solve_all(self) -> tuple[float, np.ndarray | None, Buckling | FallingGround | None] | None:
         """Solve one step after the other, as long as they stand.
@@ -198,7 +212,7 @@ class LoadSteps(Steps):
             As `Beam.solve`.
         """
         for k in range(self._count):
-            step = solve_step(self._beam, self.factor(k), self._rule, self._before(k))
+            step = solve_step(self.beam_at(self.factor(k)), self.factor(k), self._rule, self._before(k))
             if not isinstance(step, Step):
                 self._schemes, self._solves, self._seconds = (
                     part[:k].copy() for part in (self._schemes, self._solves, self._seconds)
@@ -235,6 +249,31 @@ class LoadSteps(Steps):
         """
         k = round(min(max(factor * self._count, 1.0), float(self._solved))) - 1
         return self._before(k + 1)
+
+
+class MovedSteps(LoadSteps):
+    """The same of a beam whose supports loads have moved: it is another one at every load factor.
+
+    Parameters
+    ----------
+    scene : Scene
+        With loads that move supports.
+    beam, rule, start, count
+        As for `LoadSteps`, the beam that of any load factor.
+    """
+
+    def __init__(self, scene: Scene, beam: Beam, rule: str, start: np.ndarray, count: int):
+        super().__init__(beam, rule, start, count)
+        self._scene = hold(scene)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the attributes back."""
+        super().__setstate__(state)
+        hold(self._scene)
+
+    def beam_at(self, factor: float) -> Beam:
+        """Give the beam at a load factor, as in `LoadSteps`."""
+        return beam_of(settle_movements(self._scene, factor))
 
 
 class PathSteps(Steps):

@@ -1,5 +1,6 @@
 """Movements of supports that grow with the load factor, beside settlements in rational numbers."""
 
+import pickle
 import random
 from fractions import Fraction
 from itertools import pairwise
@@ -182,3 +183,31 @@ def test_axial_supports_beside_a_curve_are_not_moved():
     }  # fmt: skip
     with pytest.raises(gapbeam.SceneError, match=r"supports\[3\]\.direction: a load that moves an axial support beside a support"):
         gapbeam.solve(scene)
+
+
+def free_at_first(**analysis):
+    """Two bodies, of which the support in the middle holds one; the other has no load, and is free to turn."""
+    supports = [at(0, stiffness=1e3, settlement=-0.001), at(1, side="below", stiffness=1e5)]
+    loads = [force(2.5, 5.0), movement(1, -0.003)]
+    return scene([3.0, 5.0], supports, loads, EI=2e4, hinges=[6.0]) | {"analysis": analysis}
+
+
+@pytest.mark.parametrize("steps", [1, 3])
+def test_where_no_path_begins_every_step_is_that_with_settlements(steps):
+    """As in prepared cases and combinations, where supports have moved, on whatever path."""
+    made = free_at_first(steps=steps)
+    result = gapbeam.solve(made)
+    assert result.steps[-1].indifferent
+    assert len(result.steps) == steps
+    for step in result.steps:
+        right = gapbeam.solve(settled(free_at_first(), step.factor) | {"loads": [force(2.5, 5.0 * step.factor)]})
+        assert step.reaction == pytest.approx(right.steps[-1].reaction, rel=1e-12)
+        assert result.state(step.factor).reaction == pytest.approx(step.reaction, rel=1e-12)
+    assert gapbeam.prepare(made).solve([1.0, 1.0]).reaction == pytest.approx(result.steps[-1].reaction, rel=1e-12)
+    assert "free to move" in result.report()
+    assert pickle.loads(pickle.dumps(result)).steps[0].reaction == pytest.approx(result.steps[0].reaction)
+
+
+def test_a_path_that_does_not_begin_is_refused_by_events():
+    with pytest.raises(gapbeam.EngineError, match=r"can move freely.*take steps"):
+        gapbeam.solve(free_at_first(**EVENTS))
