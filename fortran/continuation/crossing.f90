@@ -62,25 +62,29 @@ contains
         !> Next to the zero on the side on which the margin is smooth, on the other side, and the last one
         type(measured_type) :: near, over, now
         !> The one behind that next to the zero
-        real(wp) :: far_at, far_margin
-        real(wp) :: next, slope, way, growth, size
+        real(wp) :: far_at, far_margin, next, slope, way, growth, size, unit, of_over
         integer :: step, waited
-        logical :: known, is_over
+        logical :: known
 
         found = .false.
         crossing%change = change
         size = problem%size_at(high%at)
         call measure_at(problem, change, low%at, low, near, known)
         if (known) call measure_at(problem, change, high%at, high, over, known)
+        if (known) known = min(near%margin, over%margin) < 0.0_wp .and. max(near%margin, over%margin) > 0.0_wp
         if (.not. known) return
-        if (.not. min(near%margin, over%margin) < 0.0_wp .or. .not. max(near%margin, over%margin) > 0.0_wp) return
         ! The ground may be far stiffer than the beam, so that the margin bends sharply where a zone begins
         if (change%support == 0 .and. (near%margin < 0.0_wp .neqv. change%greatest)) call swap(near, over)
-        far_at = near%at
-        far_margin = near%margin
+        ! A support has a force where it acts, and a distance where it does not: in the unit of the smooth side both have one slope
+        of_over = over%margin
+        unit = 1.0_wp
+        if (change%support > 0) unit = abs(near%margin/of_over)
+        over%margin = unit*of_over
         now%at = near%at
         now%margin = near%margin
         now%place = near%place
+        far_at = near%at
+        far_margin = near%margin
         way = high%at - low%at
         growth = back
         waited = 0
@@ -113,14 +117,51 @@ contains
             end if
             if (.not. known) return
             if (.not. abs(now%margin) > 0.0_wp) exit
-            is_over = now%margin > 0.0_wp .eqv. over%margin > 0.0_wp
-            if (.not. is_over) then
+            if (now%margin > 0.0_wp .eqv. over%margin > 0.0_wp) then
+                call take_over()
+            else
                 far_at = near%at
                 far_margin = near%margin
+                call become(near, now)
             end if
-            if (is_over) call become(over, now)
-            if (.not. is_over) call become(near, now)
         end do
+        call put_crossing(change, near, over, now, slope, crossing)
+        found = abs(now%margin) <= abs(slope)*rounding*problem%size_at(now%at)
+
+    contains
+
+        !> Take what was measured on the other side in the unit of the smooth one
+        subroutine take_over()
+            real(wp) :: slope_over
+
+            slope_over = (of_over - now%margin)/(over%at - now%at)
+            if (change%support > 0 .and. may_be_secant() .and. slope_over*slope > 0.0_wp) unit = slope/slope_over
+            of_over = now%margin
+            now%margin = unit*of_over
+            call become(over, now)
+        end subroutine take_over
+
+        !> Are there two points on the smooth side that tell a slope, of the sign that it has to have
+        pure function may_be_secant() result(may_be)
+            logical :: may_be
+
+            may_be = abs(near%at - far_at) > zero_motion*size
+            if (.not. may_be) return
+            may_be = (near%margin - far_margin)/(near%at - far_at) &
+                *((over%margin - near%margin)/(over%at - near%at)) > 0.0_wp
+        end function may_be_secant
+
+    end subroutine follow_margin
+
+    !> What is known of it at last
+    subroutine put_crossing(change, near, over, now, slope, crossing)
+        !> As in follow_margin
+        type(change_type), intent(in) :: change
+        type(measured_type), intent(inout) :: near
+        type(measured_type), intent(in) :: over, now
+        real(wp), intent(in) :: slope
+        type(crossing_type), intent(inout) :: crossing
+
         crossing%at = now%at
         crossing%one_further = now%at
         if (abs(now%margin) > 0.0_wp) then
@@ -135,21 +176,7 @@ contains
                 crossing%change%to = min(change%to, now%place + way)
             end associate
         end if
-        found = abs(now%margin) <= abs(slope)*rounding*problem%size_at(now%at)
-
-    contains
-
-        !> Are there two points on the smooth side that tell a slope, of the sign that it has to have
-        pure function may_be_secant() result(may_be)
-            logical :: may_be
-
-            may_be = abs(near%at - far_at) > zero_motion*size
-            if (.not. may_be) return
-            may_be = (near%margin - far_margin)/(near%at - far_at) &
-                *((over%margin - near%margin)/(over%at - near%at)) > 0.0_wp
-        end function may_be_secant
-
-    end subroutine follow_margin
+    end subroutine put_crossing
 
     !> Measure a margin at a parameter
     subroutine measure_at(problem, change, at, start, measured, known, other)

@@ -343,6 +343,9 @@ contains
             if (allocated(error)) return
             if (problem%boxes(number)%of%status /= gapbeam_solved) exit
             is_below = alike_states(problem%boxes(crossing%below)%of, problem%boxes(number)%of)
+            ! What is like both does not tell, so the position as computed does
+            if (is_below) is_below = next <= crossing%at .or. &
+                .not. alike_states(problem%boxes(crossing%above)%of, problem%boxes(number)%of)
             call take_undecided(problem%boxes(number)%of, problem%boxes(merge(crossing%below, crossing%above, is_below))%of)
             if (is_below) crossing%below = number
             if (.not. is_below) crossing%above = number

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from attack.trains import draw_scene
 from scenes import nodes_of
-from scenes.tapered import taper, with_joints
-from scenes.train import frozen
+from scenes.tapered import taper, with_joints, with_tapers
+from scenes.train import frozen, random_scene
+from scenes.units import in_units
 
 PAIRED = {
     "beam": {"spans": [6.75, 4.75, 5.125], "EI": 6500.0, "N": 1e-9},
@@ -75,3 +76,29 @@ def test_supports_change_where_they_do_without_axial_force():
     where = [[(e.support, e.event, e.position) for e in one.trains["axle"].traversals[0].events] for one in results]
     assert [event[:2] for event in where[0]] == [event[:2] for event in where[1]]
     np.testing.assert_allclose([event[2] for event in where[0]], [event[2] for event in where[1]], rtol=1e-9)
+
+
+@pytest.mark.parametrize("seed", [5, 8, 56])
+def test_positions_of_events_do_not_depend_on_units(seed):
+    """A support has a force on one side of an event, a distance on the other. Nearly prismatic, they are polynomials' roots."""
+    made = random_scene(seed)
+    length, EI = sum(made["beam"]["spans"]), made["beam"]["EI"]
+    right = None
+    if not isinstance(EI, list):
+        right = events_of(made)
+        made["sections"] = [{"from": 0.0, "to": length, "EI": [EI, EI * (1.0 + 2.0**-51)]}]
+    else:
+        made = with_tapers(random.Random(seed), made)
+    found = events_of(made)
+    assert found
+    if right is not None:
+        assert [one[1:] for one in found] == [one[1:] for one in right]
+        assert [one[0] for one in found] == pytest.approx([one[0] for one in right], abs=1e-12 * length)
+    for force, unit in ((2.0**10, 1.0), (1.0, 2.0**-7)):
+        other = events_of(in_units(made, force, unit))
+        assert [one[1:] for one in other] == [one[1:] for one in found]
+        assert [one[0] / unit for one in other] == pytest.approx([one[0] for one in found], abs=1e-11 * length)
+
+
+def events_of(made):
+    return [(one.position, one.support, one.event) for train in gapbeam.solve(made).trains.values() for one in train.events]
