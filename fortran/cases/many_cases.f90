@@ -4,10 +4,14 @@
 !> way of their own (gapbeam_stretch_cases)
 module gapbeam_many_cases
     use gapbeam_watch, only: is_stopped
-    use gapbeam_error, only: gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
+    use gapbeam_kinds, only: wp
+    use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_memory, only: enough_memory, for_solving
     use gapbeam_search, only: rule_block
+    use gapbeam_scene, only: gapbeam_axial
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_solution, only: state_type, new_state
+    use gapbeam_along_axis, only: solve_along_axis
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type, remaining
     use gapbeam_full_load, only: is_solved_alone
     use gapbeam_cases, only: case_loads_type
@@ -15,7 +19,8 @@ module gapbeam_many_cases
     use gapbeam_lane_spans, only: fits_spans
     use gapbeam_lane_cases, only: lane_room_type, fits_lanes, solve_in_lanes
     use gapbeam_segment_cases, only: segments_type, fits_segments, solve_in_segments
-    use gapbeam_single_cases, only: single_room_type, solve_one_by_one
+    use gapbeam_single_cases, only: single_room_type, solve_one_by_one, give_none
+    use gapbeam_combinations, only: combination_type, combine_case
     use gapbeam_stretch_cases, only: stretch_room_type, solve_stretch_cases
     use gapbeam_limits, only: least_cases
     implicit none
@@ -85,7 +90,50 @@ contains
             where (done) solutions%status = gapbeam_solved
         end if
         if (.not. all(done)) call solve_one_by_one(assembled, loads, numbers, remaining(done), room%single, solutions)
+        call refuse_along_axis(assembled, numbers, solutions)
         if (is_stopped(assembled%beam%watch)) solutions%status(:) = gapbeam_stopped
     end subroutine solve_cases
+
+    !> Refuse cases in which supports along the beam share a force that statics cannot tell apart, or it slides: what is across the
+    !> beam does not depend on that
+    subroutine refuse_along_axis(assembled, numbers, solutions)
+        !> As for solve_cases
+        type(assembled_type), intent(in) :: assembled
+        type(case_numbers_type), intent(in) :: numbers
+        type(case_solutions_type), intent(inout) :: solutions
+        type(combination_type) :: combined
+        type(state_type) :: state
+        type(error_type), allocatable :: error
+        integer :: i
+
+        if (.not. may_be_held_twice(assembled)) return
+        do i = 1, size(solutions%status)
+            if (is_stopped(assembled%beam%watch)) return
+            if (solutions%status(i) /= gapbeam_solved) cycle
+            call combine_case(assembled, numbers, i, combined, error)
+            if (.not. allocated(error)) call new_state(combined%assembled, state, error)
+            if (.not. allocated(error)) then
+                state%factor = 1.0_wp
+                call solve_along_axis(combined%assembled, state, error)
+            end if
+            if (allocated(error)) then
+                call give_none(error%code, i, solutions)
+            else if (state%slides) then
+                call give_none(gapbeam_no_equilibrium, i, solutions)
+            end if
+        end do
+    end subroutine refuse_along_axis
+
+    !> May two supports along the beam hold it with nothing between them that gives way
+    pure function may_be_held_twice(assembled) result(may)
+        type(assembled_type), intent(in) :: assembled
+        logical :: may
+
+        associate (model => assembled%model)
+            may = count(model%supports%direction == gapbeam_axial) > 1
+            if (may) may = any(model%spans%EA > huge(1.0_wp)) .or. size(model%sections) > 0
+        end associate
+        if (may .and. allocated(assembled%axial%flexibility)) may = .not. all(assembled%axial%flexibility > 0.0_wp)
+    end function may_be_held_twice
 
 end module gapbeam_many_cases

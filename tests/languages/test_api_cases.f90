@@ -4,15 +4,16 @@ program test_api_cases
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
     use testing, only: check, check_close, finish
     use gapbeam, only: model_type, span_type, support_type, law_point_type, foundation_type, prepared_type, options_type, &
-        result_type, error_type, cases_type, uniform_load, point_force, prepare_model, replace_loads, solve_beam, get_supports, &
-        get_motion, count_nodes, prepare_cases, solve_cases, get_nodes, gapbeam_below, gapbeam_axial, gapbeam_dead, &
+        result_type, error_type, cases_type, uniform_load, point_force, axial_force, prepare_model, replace_loads, solve_beam, &
+        get_supports, get_motion, count_nodes, prepare_cases, solve_cases, get_nodes, gapbeam_below, gapbeam_axial, gapbeam_dead, &
         gapbeam_infinity, gapbeam_closed, gapbeam_open, gapbeam_branch, gapbeam_bilateral, gapbeam_rule_single, gapbeam_solved, &
-        gapbeam_no_equilibrium, gapbeam_bad_input, gapbeam_not_prepared
+        gapbeam_no_equilibrium, gapbeam_indeterminate, gapbeam_bad_input, gapbeam_not_prepared
     implicit none
     integer :: status
 
     call as_one_by_one()
     call laws_and_axial()
+    call held_twice()
     call refused()
     call finish(status)
     if (status /= 0) stop 1, quiet=.true.
@@ -144,6 +145,27 @@ contains
         call solve_cases(beam, cases, reshape([1.0_wp, -1.0_wp], [1, 2]), codes, error, moves)
         call refuse(error, gapbeam_bad_input, "has a law", "movements beside a law")
     end subroutine laws_and_axial
+
+    !> Two supports along a beam that does not lengthen share a force, which only the case without it does not have
+    subroutine held_twice()
+        type(model_type) :: model
+        type(prepared_type) :: beam
+        type(cases_type) :: cases
+        type(error_type), allocatable :: error
+        real(wp) :: reaction(4, 2)
+        integer :: codes(2)
+
+        model%spans = [span_type(4.0_wp, EI=1e4_wp)]
+        model%supports = [support_type(node=0), support_type(node=1), support_type(node=0, direction=gapbeam_axial), &
+                          support_type(node=1, direction=gapbeam_axial)]
+        model%loads = [uniform_load(1.0_wp, from=0.0_wp, to=4.0_wp), axial_force(5.0_wp, x=2.0_wp)]
+        model%first_order = .true.
+        call prepare_model(model, beam, error)
+        call prepare_cases(beam, cases, error)
+        call solve_cases(beam, cases, reshape([1.0_wp, 1.0_wp, 2.0_wp, 1.0_wp], [2, 2]), codes, error, reaction=reaction)
+        call check(.not. allocated(error) .and. all(codes == gapbeam_indeterminate), "held twice along the axis")
+        call check(all(ieee_is_nan(reaction)), "no reactions then")
+    end subroutine held_twice
 
     !> What is no case
     subroutine refused()

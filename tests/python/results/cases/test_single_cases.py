@@ -213,3 +213,32 @@ def test_extremes_do_not_depend_on_what_was_wanted(kind):
             for name, found in cases._pairs_of_extremes().items():
                 for sense in found:
                     assert np.array_equal(found[sense], expected[name][sense], equal_nan=True), (name, sense)
+
+
+@pytest.mark.parametrize("first_order", [True, False])
+@pytest.mark.parametrize("loads", [[1.0, 1.0], [[1.0, 1.0], [2.0, 1.0]]])
+def test_cases_say_that_forces_along_the_beam_cannot_be_told(first_order, loads):
+    """Two supports hold a beam of infinite EA along its axis, and share a force: the values along it would be none."""
+    made = {"beam": {"spans": [4.0, 4.0], "EI": 1e4},
+            "supports": [{"node": 0}, {"node": 1}, {"node": 2}, *({"node": i, "direction": "axial"} for i in (0, 2))],
+            "loads": [{"type": "uniform", "q": 1.0}, {"type": "axial", "x": 2.0, "F": 5.0}],
+            "analysis": {"first_order": first_order}}  # fmt: skip
+    with pytest.raises(gapbeam.EngineError, match="cannot be told apart") as refused:
+        gapbeam.solve(made)
+    cases = gapbeam.prepare(made).solve(loads)
+    assert not np.any(cases.ok)
+    assert np.all(cases.status == refused.value.status)
+    assert np.isnan(cases.reaction).all()
+    assert "cannot be told apart" in cases.reason
+    made["beam"]["EA"] = 1e6
+    cases = gapbeam.prepare(made).solve(loads)
+    assert np.all(cases.ok)
+    assert np.isfinite(cases.reactions[4]).all()
+
+
+def test_a_movement_of_one_case_is_shared_by_no_other():
+    made = {"beam": {"spans": [4.0], "EI": 1e4}, "loads": [{"type": "uniform", "q": 1.0}],
+            "supports": [{"node": 0}, {"node": 1}, *({"node": i, "direction": "axial"} for i in (0, 1))]}  # fmt: skip
+    cases = gapbeam.prepare(made).solve(extra_settlement={3: [0.0, 0.001]})
+    assert cases.ok.tolist() == [True, False]
+    assert "cannot be told apart" in cases.reason
