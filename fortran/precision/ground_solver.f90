@@ -36,7 +36,7 @@ module gapbeam_ground_solver
     use gapbeam_ground_fields, only: largest_inside
     use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
-    use gapbeam_ground_ties, only: stands_on_edge, may_move, least_force
+    use gapbeam_ground_ties, only: stands_on_edge, may_move, least_force, come_to_rest
     use gapbeam_ground_limit, only: find_collapse
     implicit none
     private
@@ -327,6 +327,7 @@ contains
             return
         end if
         solution%no_force = least_force(fine, factor, solution%resultant, work)
+        call come_to_rest(fine, factor, solution)
         outcome%indifferent = found%indifferent
         if (.not. found%indifferent) outcome%indifferent = may_move(fine, zones, grounded, closed, solution)
         if (all(abs(solution%deflection) <= huge(1.0_wp)) .and. all(abs(solution%moment_left) <= huge(1.0_wp))) return

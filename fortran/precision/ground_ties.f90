@@ -16,7 +16,7 @@ module gapbeam_ground_ties
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private
-    public :: stands_on_edge, may_move, least_force
+    public :: stands_on_edge, may_move, least_force, come_to_rest
 
 contains
 
@@ -183,6 +183,36 @@ contains
                     sum(ground%pieces%length)*modulus*way)
         least = real(no_tied_force*force, wp)
     end function least_force
+
+    !> A beam without loads on which nothing pushes has no forces: what is left of them is rounding, of which none is left beside it
+    pure subroutine come_to_rest(ground, factor, solution)
+        !> As for stands_on_edge
+        type(ground_type), intent(in) :: ground
+        real(qp), intent(in) :: factor
+        !> With the force that is none
+        type(ground_solution_type), intent(inout) :: solution
+        type(piece_load_type) :: load
+        integer :: j
+
+        if (any(abs(solution%resultant) > solution%no_force) .or. any(abs(solution%reaction) > solution%no_force)) return
+        if (any(abs(ground%beam%force(1, :) + factor*ground%beam%force(2, :)) > 0.0_qp) &
+            .or. any(abs(ground%beam%couple(1, :) + factor*ground%beam%couple(2, :)) > 0.0_qp)) return
+        do j = 1, size(ground%pieces)
+            load = combine_loads(ground%dead(j), ground%live(j), factor)
+            if (any(abs([load%qa, load%qb, load%force, load%couple, load%couple_a, load%couple_b]) > 0.0_qp)) return
+        end do
+        if (any(abs(ground%pieces%tension) > 0.0_qp) .or. any(abs(ground%pieces%tension_change) > 0.0_qp)) return
+        solution%resultant(:, :) = 0.0_wp
+        solution%reaction(:) = 0.0_wp
+        solution%shear(:, :) = 0.0_wp
+        solution%force(:, :) = 0.0_wp
+        solution%moment_left(:) = 0.0_wp
+        solution%moment_right(:) = 0.0_wp
+        solution%ends%moment_a = 0.0_wp
+        solution%ends%moment_b = 0.0_wp
+        solution%loads%qa = 0.0_wp
+        solution%loads%qb = 0.0_wp
+    end subroutine come_to_rest
 
     !> May the beam move although it is in equilibrium: off supports and ground that carry nothing, and against nothing else
     function may_move(ground, zones, grounded, closed, solution) result(free)

@@ -203,7 +203,10 @@ def test_a_beam_without_load_in_a_clearance():
     lifted = {"beam": {"spans": [3.0], "EI": 2000.0}, "supports": [{"node": 1, "side": "below", "gap": 0.002}],
               "foundation": [{"k": 1000.0, "side": "above", "to": 2.01}],
               "loads": [{"type": "movement", "support": 0, "value": -0.0021}]}  # fmt: skip
-    for scene, at, deflection in ((lying, 0.0, -0.0004), (lifted, 3.0, -0.0001)):
+    pressed = {"beam": {"spans": [5.0], "EI": float("inf"), "hinges": [2.9]},
+               "foundation": [{"k": 1e4, "side": "above", "gap": 0.002, "name": "moved", "from": 0.56, "to": 4.59}],
+               "loads": [{"type": "movement", "foundation": "moved", "value": value} for value in (0.0018, 0.0045)]}  # fmt: skip
+    for scene, at, deflection in ((lying, 0.0, -0.0004), (lifted, 3.0, -0.0001), (pressed, 5.0, 0.0043)):
         result = gapbeam.solve(scene)
         assert result.steps[-1].indifferent
         assert result.at(at).deflection == pytest.approx(deflection, rel=1e-12)
