@@ -152,6 +152,7 @@ contains
         type(workspace_type) :: work
         logical :: settled, solved, loose
 
+        loose = .false.
         select type (near)
         type is (held_type)
             loose = near%loose
