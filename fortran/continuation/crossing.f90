@@ -165,7 +165,9 @@ contains
         crossing%at = now%at
         crossing%one_further = now%at
         if (abs(now%margin) > 0.0_wp) then
-            crossing%one_further = max(min(near%at, over%at), min(max(near%at, over%at), near%at - near%margin/slope))
+            crossing%one_further = near%at - near%margin/slope
+            if (change%support > 0) crossing%one_further = now%at - now%margin/slope
+            crossing%one_further = max(min(near%at, over%at), min(max(near%at, over%at), crossing%one_further))
         end if
         crossing%slope = slope
         crossing%place = now%place
