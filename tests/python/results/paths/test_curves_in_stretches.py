@@ -112,6 +112,29 @@ def test_states_on_ground(ground):
     assert w == pytest.approx(other.deflection[1], rel=1e-12)
 
 
+def test_a_zone_that_appears_beside_a_curve():
+    """At a factor known to all digits, on the tangent there."""
+    scene = span(LAWS["hyperbolic"][0]) | {"foundation": [{"k": 3e3, "side": "below", "gap": 0.008}]}
+    (event,) = gapbeam.solve(scene | {"analysis": {"follow": "events"}}).events
+    touched = float((mpf(0.008) / compliance(0) + LAWS["hyperbolic"][1](mpf(0.008))) / 60)
+    assert (event.event, event.x) == ("zone appears", pytest.approx(L / 2))
+    assert event.factor == pytest.approx(touched, rel=1e-13)
+
+
+def test_both_ways_with_a_gap():
+    """The curve is mirrored, and begins where the gap ends on either side."""
+    scene = span(LAWS["hyperbolic"][0], {"N": 3e3}, side="both", gap=0.002) | {"analysis": {"follow": "events"}}
+    down = gapbeam.solve(scene)
+    up = gapbeam.solve(scene | {"loads": [{"type": "force", "x": L / 2, "F": -60.0}]})
+    for result in (down, up):
+        assert [(event.event, event.factor) for event in result.events] == [
+            ("closes", pytest.approx(float(mpf(0.002) / (60 * compliance(3e3))), rel=1e-13))
+        ]
+        assert result.steps[-1].state[1] == "branch 1"
+    assert up.steps[-1].reaction == pytest.approx(-down.steps[-1].reaction, rel=1e-14)
+    assert up.state(0.01).state[1] == "open"
+
+
 def test_axial_loads_bend_beside_curves():
     """They were of first order there."""
     scene = span(LAWS["tanh"][0], {"EA": 1e6})

@@ -193,3 +193,25 @@ def test_an_event_next_to_a_curve_that_is_next_to_level():
     at_once = gapbeam.solve(scene | {"loads": load, "analysis": {}}).steps[-1]
     assert (event.support, event.event) == (0, "closes")
     assert abs(at_once.deflection[0]) < 1e-15
+
+
+def test_an_event_just_beside_another_one():
+    """The tangents led past a support that opens just before: it closed at 0.5587493."""
+    scene = {
+        "beam": {"spans": [6.0, 3.0, 2.0], "EI": 13289.370577379661, "GA": 66446.8528868983},
+        "supports": [
+            {"node": 0, "law": {"type": "tanh", "stiffness": 209.41386546201988, "limit": 1.3223630098940482}},
+            {"node": 1, "side": "below", "gap": 0.005, "settlement": 0.001,
+             "law": {"type": "cubic", "k1": 0.0, "k2": 0.0, "k3": 7563624.015758617}},
+            {"node": 2, "side": "above"}, {"node": 3, "side": "below", "gap": 0.002},
+        ],
+        "loads": [{"type": "force", "x": 4.58, "F": 10.0}], "analysis": {"follow": "events"},
+    }  # fmt: skip
+    event = gapbeam.solve(scene).events[-1]
+    assert (event.support, event.event) == (2, "closes")
+    below, above = (
+        gapbeam.solve(scene | {"loads": [{"type": "force", "x": 4.58, "F": 10.0 * event.factor * share}], "analysis": {}}).steps[-1]
+        for share in (1 - 1e-11, 1 + 1e-11)
+    )
+    assert below.opening[2] > 0.0
+    assert above.reaction[2] < 0.0
