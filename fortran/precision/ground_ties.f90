@@ -11,6 +11,7 @@ module gapbeam_ground_ties
     use gapbeam_workspace_quad, only: workspace_type
     use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_turning_quad, only: turn_with
+    use gapbeam_law, only: both
     use gapbeam_law_kinematics_quad, only: leaves_all
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
@@ -195,6 +196,8 @@ contains
         integer :: j
 
         if (any(abs(solution%resultant) > solution%no_force) .or. any(abs(solution%reaction) > solution%no_force)) return
+        ! Pressures both ways under one stretch may balance each other
+        if (any(ground%layers%side == both)) return
         if (any(abs(ground%beam%force(1, :) + factor*ground%beam%force(2, :)) > 0.0_qp) &
             .or. any(abs(ground%beam%couple(1, :) + factor*ground%beam%couple(2, :)) > 0.0_qp)) return
         do j = 1, size(ground%pieces)
