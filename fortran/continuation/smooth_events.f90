@@ -36,9 +36,10 @@ contains
         real(wp), intent(inout) :: factor
         type(error_type), allocatable, intent(out) :: error
         type(acting_type) :: before
-        real(wp) :: at
+        real(wp) :: at, on_polylines
         logical :: found, is_below, is_above, known
 
+        on_polylines = factor
         at = factor
         before = acts_in(assembled, assembled%normal(number), closed)
         call go_along_tangents(assembled, closed, number, at, error)
@@ -51,7 +52,7 @@ contains
             if (.not. known) return
             if (is_below .and. .not. is_above) return
         end if
-        at = factor
+        at = on_polylines
         call halve_between(assembled, assembled%normal(number), before, at, found)
         if (.not. found) return
         factor = at
