@@ -532,6 +532,30 @@ def test_laws_of_supports_by_name_agree(library, seed):
     assert {state for _, k, state in events if k in smooth} <= {0, 3, 11}
 
 
+def test_curves_of_supports_on_foundations_agree(library):
+    """In C as in Python: states and events; Fortran 77 takes laws by name without foundations only."""
+    curves, events = [law for law in NAMED if law["type"] in SMOOTH], 0
+    for seed in range(22):
+        scene = ground_scene(seed) | {"analysis": {"follow": "events"}}
+        scene.pop("sections", None)
+        for k, support in enumerate(scene["supports"]):
+            if (k + seed) % 2 and "law" not in support:
+                support.pop("stiffness", None)
+                support["law"] = curves[(k + seed) % len(curves)]
+        result = python_result(scene)
+        beam, message = library.prepare(scene)
+        assert message == ""
+        status, found = beam.follow_ground(1.0, "block")
+        assert not isinstance(result, EngineError)
+        assert status == (0 if result.status == "solved" else 1)
+        assert [(f, k) for f, k, *_ in found] == [(e.factor, -1 if e.support is None else e.support) for e in result.events]
+        events += len(found)
+        if status == 0:
+            np.testing.assert_allclose(beam.at_supports()[0], result.steps[-1].reaction, rtol=1e-12, atol=1e-12)
+        beam.close()
+    assert events > 10
+
+
 def soft_scene(seed):
     """Supports with cubics whose forces fall, beside others, and load factors in turn."""
     rng = np.random.default_rng(seed)
