@@ -33,8 +33,8 @@ def wheel_with_openblas(tmp_path):
     shutil.rmtree(build, ignore_errors=True)
     if made.exists():
         shutil.copytree(made, build, symlinks=True)
-    options = ["--no-deps", "--no-build-isolation", "--quiet", "-w", tmp_path, f"-Cbuild-dir={build}"]
-    options += [f"-Csetup-args=-D{one}" for one in settings]
+    options = ["--no-deps", "--no-build-isolation", "--quiet", "-w", tmp_path, f"--config-settings=build-dir={build}"]
+    options += [f"--config-settings=setup-args=-D{one}" for one in settings]
     done = subprocess.run([sys.executable, "-m", "pip", "wheel", *options, TOP], capture_output=True, text=True)
     shutil.rmtree(build)
     assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
