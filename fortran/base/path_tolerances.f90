@@ -5,7 +5,7 @@ module gapbeam_path_tolerances
     implicit none
     private
     public :: narrow_bracket, clear_jump
-    public :: load_begin, train_slack, train_equal
+    public :: load_begin, missing_of_limit, train_slack, train_equal
     public :: first_share_of_way, last_share_of_way, unseen_share, weaker_springs, enter_next_interval, agreement
     public :: shortest_interval, far_from_zero, near_breakpoint, no_rate, same_factor, same_breakpoint, first_train_share
     public :: no_friction, same_reaction, no_push, no_return, beginning_part, first_slip, found_slip, slip_settled, stiff_part
@@ -20,6 +20,9 @@ module gapbeam_path_tolerances
     !> What acts at this share of the way acts from the beginning: at factor 0 a beam without dead load lies on the ground without
     !> any force; tuned. Read by continuation/ground_path and, through the engine, by gapbeam.plots
     real(wp), parameter :: load_begin = 2.0_wp**(-40)
+    !> Curves come to their limit where the beam has gone without end: a path is followed until this share of it is missing, or
+    !> that; tuned. Read by continuation/ground_problem and, through the engine, by gapbeam.results
+    real(wp), parameter :: missing_of_limit(2) = [2.0_wp**(-20), 2.0_wp**(-10)]
     !> Values under trains that differ by less than this share of the largest may be the same, for they are not refined: half of
     !> the digits. Read by moving_load/train_bounds, moving_load/train_curves, moving_load/train_envelope,
     !> moving_load/train_support_bounds

@@ -2,16 +2,16 @@
 !> it. Along the curve nothing happens.
 module gapbeam_curve_changes
     use gapbeam_kinds, only: wp
-    use gapbeam_laws, only: is_smooth, begins_steep
+    use gapbeam_laws, only: is_smooth
     use gapbeam_line_search, only: bracket_type, place_inside, narrow
     use gapbeam_zone_margin, only: change_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_smooth_laws, only: reaction_at
+    use gapbeam_smooth_laws, only: past_curve
     use gapbeam_solution, only: state_type
     use gapbeam_path_problem, only: point_type, path_problem_type, crossing_type
     implicit none
     private
-    public :: is_of_curve, past_curve, narrow_on_curve
+    public :: is_of_curve, margin_of_curve, narrow_on_curve
 
     !> Share of a parameter within which it is known before all its digits are looked for
     real(wp), parameter :: beside = 2.0_wp**(-22)
@@ -28,25 +28,17 @@ contains
         if (it_is) it_is = is_smooth(assembled%model%supports(assembled%normal(change%support))%law)
     end function is_of_curve
 
-    !> How far the beam is past the beginning of a curve: a distance, or, where that grows with the square of the load or so, since
-    !> the curve begins steep, the force there
-    pure function past_curve(assembled, state, number) result(past)
+    !> How far away such a change is in a state on the curves: below zero before it, above zero after it
+    pure function margin_of_curve(assembled, state, change) result(margin)
         type(assembled_type), intent(in) :: assembled
-        !> On the curves
         type(state_type), intent(in) :: state
-        !> Of the breakpoint of the beam at which it begins
-        integer, intent(in) :: number
-        real(wp) :: past
+        type(change_type), intent(in) :: change
+        real(wp) :: margin
+        integer :: way
 
-        associate (s => assembled%beam%supports(number), support => assembled%normal(number))
-            past = s%side*(state%deflection(s%node) - s%contact)
-            associate (given => assembled%model%supports(support))
-                if (state%closed(number) .and. begins_steep(given%law, given%parameter)) then
-                    past = abs(reaction_at(assembled, state%reaction, support))
-                end if
-            end associate
-        end associate
-    end function past_curve
+        call past_curve(assembled, assembled%normal(change%support), state%deflection, state%reaction, margin, way)
+        margin = merge(-abs(margin), abs(margin), state%closed(change%support) .eqv. change%closed)
+    end function margin_of_curve
 
     !> All digits of the parameter at which a support on a curve changes
     subroutine narrow_on_curve(problem, crossing, found)

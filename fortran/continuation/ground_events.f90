@@ -189,15 +189,20 @@ contains
         allocate (path%segment(path%segments)%closed, source=held%closed)
     end subroutine add_segment
 
-    !> A state beside another one: what carries where both may move freely
+    !> What holds the beam of a state beside another one: what carries where both may move freely
     pure function beside(held, other) result(seen)
         type(held_type), intent(in) :: held, other
+        !> Supports and zones alone
         type(held_type) :: seen
 
-        seen = held
-        if (.not. (held%loose .and. other%loose)) return
-        seen%closed = held%carries
-        seen%zones = held%carrying
+        seen%stands = held%stands
+        if (held%loose .and. other%loose) then
+            seen%closed = held%carries
+            seen%zones = held%carrying
+        else
+            if (allocated(held%closed)) seen%closed = held%closed
+            if (allocated(held%zones)) seen%zones = held%zones
+        end if
     end function beside
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind

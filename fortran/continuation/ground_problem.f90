@@ -4,10 +4,11 @@
 !> are curves, limit analysis knows it.
 module gapbeam_ground_problem
     use gapbeam_kinds, only: wp
+    use gapbeam_path_tolerances, only: missing_of_limit
     use gapbeam_error, only: error_type, gapbeam_buckles, gapbeam_no_equilibrium
     use gapbeam_kinematics, only: work_of_loads
     use gapbeam_piece, only: is_compressed
-    use gapbeam_laws, only: is_smooth, law_bound
+    use gapbeam_laws, only: law_bound
     use gapbeam_layers, only: has_limit, has_curves
     use gapbeam_ground, only: ground_type
     use gapbeam_filled_ground, only: any_falls
@@ -25,9 +26,6 @@ module gapbeam_ground_problem
     private
     public :: ground_problem_type, new_ground_problem
 
-    !> Curves come to their limit where the beam has gone without end: the path is followed until this share of it is missing, or
-    !> that, powers of 2
-    integer, parameter :: missing_powers(*) = [-20, -10]
     !> Next to the limit of laws that are curves states take long: there parameters as near as this are neighbours
     real(wp), parameter :: near_on_curves = 2.0_wp**(-20)
     !> So near to the factor at which the loads begin to do work there is equilibrium, and none; at least so near to it that a path
@@ -65,6 +63,7 @@ contains
         !> With the scheme that every search starts from
         type(state_type), intent(in) :: state
         type(ground_problem_type), intent(out) :: problem
+        integer, allocatable :: curves(:)
         integer :: k
 
         problem%assembled => assembled
@@ -74,7 +73,8 @@ contains
         problem%parameter = "load factor"
         problem%last = last
         problem%state = state
-        problem%on_curves = size(smooth_supports(assembled)) > 0
+        curves = smooth_supports(assembled)
+        problem%on_curves = size(curves) > 0
         allocate (problem%start, source=state%closed)
         do k = 1, size(assembled%layers)
             associate (layer => assembled%layers(k))
@@ -83,14 +83,12 @@ contains
                 problem%levels_off = problem%levels_off .or. has_curves(layer)
             end associate
         end do
-        associate (supports => assembled%model%supports)
-            do k = 1, size(supports)
-                if (.not. is_smooth(supports(k)%law) .or. assembled%beam_support(k) == 0) cycle
-                if (.not. law_bound(supports(k)%law, supports(k)%parameter) <= huge(last)) cycle
-                problem%yields = .true.
-                problem%levels_off = .true.
-            end do
-        end associate
+        do k = 1, size(curves)
+            associate (support => assembled%model%supports(curves(k)))
+                problem%levels_off = problem%levels_off .or. law_bound(support%law, support%parameter) <= huge(last)
+            end associate
+        end do
+        problem%yields = problem%yields .or. problem%levels_off
         problem%falls = any_falls(problem%ground)
         problem%yields = problem%yields .or. problem%falls
         problem%levels_off = problem%levels_off .and. .not. problem%falls
@@ -133,8 +131,8 @@ contains
         call refine_links(detail_of(problem%assembled), fine)
         call find_limit(fine, bears, beyond, found)
         if (.not. found) return
-        do k = 1, size(missing_powers)
-            associate (last => bears*(1 - 2.0_wp**missing_powers(k)))
+        do k = 1, size(missing_of_limit)
+            associate (last => bears*(1 - missing_of_limit(k)))
                 if (last <= below%at) return
                 call problem%find(last, point, error, below)
             end associate

@@ -24,7 +24,7 @@ module gapbeam_ground_states
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_path_problem, only: point_type, path_problem_type, crossing_type
     use gapbeam_ground_changes, only: find_zones
-    use gapbeam_curve_changes, only: is_of_curve, past_curve, narrow_on_curve
+    use gapbeam_curve_changes, only: is_of_curve, margin_of_curve, narrow_on_curve
     use gapbeam_ground_events, only: ground_path_type, held_type, list_changes_between => list_changes, note_changes, &
         add_segment, same_contact, beside
     implicit none
@@ -225,7 +225,7 @@ contains
         end select
     end subroutine list_changes
 
-    !> How far a change is away at a load factor, in double precision
+    !> How far a change is away at a load factor, in double precision; where laws of supports are curves, on the tangents there
     subroutine measure(problem, change, at, near, point, margin, place, known, other)
         class(ground_states_type), intent(inout) :: problem
         type(change_type), intent(in) :: change
@@ -240,62 +240,58 @@ contains
         type(workspace_type) :: work
         logical :: settled
 
-        if (problem%on_curves) then
-            call measure_on_curves(problem, change, at, near, point, margin, place, known, other)
-            return
-        end if
-        allocate (held)
-        held%at = at
-        call start_in(near, held%start)
-        call move_ground(problem%ground, at)
-        call settle_nearby(problem%ground, at, problem%rule, held%start, grounded, work, problem%solves, settled, known)
-        if (present(other) .and. .not. settled) then
-            call start_in(other, held%start)
-            call settle_nearby(problem%ground, at, problem%rule, held%start, grounded, work, problem%solves, settled, known)
-        end if
         margin = 0.0_wp
         place = -1.0_wp
+        allocate (held)
+        held%at = at
+        if (problem%on_curves) then
+            call find_on_curves(problem, at, near, point, known, other)
+            if (.not. known) return
+            if (is_of_curve(problem%assembled, change)) then
+                margin = margin_of_curve(problem%assembled, problem%state, change)
+                return
+            end if
+            call put_tangents(problem)
+            call settle_from(point)
+        else
+            call settle_from(near)
+            if (present(other) .and. .not. settled) call settle_from(other)
+        end if
         if (known) call find_margin(problem%ground, grounded, held%start%zones, at, work, held%start%closed, change, margin, place)
-        call move_alloc(held, point)
+        if (.not. problem%on_curves) call move_alloc(held, point)
+
+    contains
+
+        !> Settle the zones from those of a point
+        subroutine settle_from(one)
+            class(point_type), intent(in) :: one
+
+            call start_in(one, held%start)
+            call move_ground(problem%ground, at)
+            call settle_nearby(problem%ground, at, problem%rule, held%start, grounded, work, problem%solves, settled, known)
+        end subroutine settle_from
+
     end subroutine measure
 
-    !> The same where laws of supports are curves: on the tangents in the state at that factor
-    subroutine measure_on_curves(problem, change, at, near, point, margin, place, known, other)
-        !> As for measure
+    !> The state at a load factor where laws of supports are curves, from one of two nearby
+    subroutine find_on_curves(problem, at, near, point, known, other)
         class(ground_states_type), intent(inout) :: problem
-        type(change_type), intent(in) :: change
         real(wp), intent(in) :: at
         class(point_type), intent(in) :: near
         class(point_type), allocatable, intent(out) :: point
-        real(wp), intent(out) :: margin, place
+        !> Does the beam stand there
         logical, intent(out) :: known
         class(point_type), intent(in), optional :: other
         type(error_type), allocatable :: error
-        type(ground_start_type) :: start
-        type(grounded_type) :: grounded
-        type(workspace_type) :: work
-        logical :: settled
 
-        margin = 0.0_wp
-        place = -1.0_wp
         call problem%find(at, point, error, near)
-        known = .not. allocated(error) .and. point%stands
-        if (present(other) .and. .not. known) then
-            call problem%find(at, point, error, other)
-            known = .not. allocated(error) .and. point%stands
-        end if
-        if (.not. known) return
-        if (is_of_curve(problem%assembled, change)) then
-            margin = past_curve(problem%assembled, problem%state, change%support)
-            if (change%closed) margin = -margin
-            return
-        end if
-        call put_tangents(problem)
-        call start_in(point, start)
-        call move_ground(problem%ground, at)
-        call settle_nearby(problem%ground, at, problem%rule, start, grounded, work, problem%solves, settled, known)
-        if (known) call find_margin(problem%ground, grounded, start%zones, at, work, start%closed, change, margin, place)
-    end subroutine measure_on_curves
+        known = .not. allocated(error)
+        if (known) known = point%stands
+        if (known .or. .not. present(other)) return
+        call problem%find(at, point, error, other)
+        known = .not. allocated(error)
+        if (known) known = point%stands
+    end subroutine find_on_curves
 
     !> Put the tangents of the state solved last in place of curves
     subroutine put_tangents(problem)
@@ -311,7 +307,6 @@ contains
         type(crossing_type), intent(inout) :: crossing
         logical, intent(out) :: found
         class(point_type), allocatable :: point
-        type(error_type), allocatable :: error
 
         found = .false.
         associate (c => crossing)
@@ -322,9 +317,8 @@ contains
                     return
                 end if
                 ! On the tangents next to it
-                call problem%find(c%at, point, error, c%near)
-                if (allocated(error)) return
-                if (.not. point%stands) return
+                call find_on_curves(problem, c%at, c%near, point, found)
+                if (.not. found) return
                 call put_tangents(problem)
             end if
             select type (near => crossing%near)

@@ -5,7 +5,7 @@ module gapbeam_smooth_events
     use gapbeam_laws, only: is_smooth, begins_steep
     use gapbeam_search, only: rule_block
     use gapbeam_pieces, only: acting_type, acts_in, gapbeam_open
-    use gapbeam_smooth_laws, only: past_the_gap, deflection_at, reaction_at
+    use gapbeam_smooth_laws, only: past_curve, reaction_at
     use gapbeam_limits, only: most_tangents
     use gapbeam_tolerances, only: settled_on_laws
     use gapbeam_extended_precision, only: rule_given, rule_extended
@@ -80,14 +80,11 @@ contains
         known = .not. allocated(error)
         if (known) known = state%status == gapbeam_solved
         if (.not. known) return
-        associate (given => assembled%model%supports(support))
-            if (is_smooth(given%law)) then
-                call past_the_gap(given, deflection_at(assembled, state%deflection, support), past, way)
-                if (begins_steep(given%law, given%parameter)) past = way*reaction_at(assembled, state%reaction, support)
-                it_does = (past > 0.0_wp) .eqv. before%condition /= gapbeam_open
-                return
-            end if
-        end associate
+        if (is_smooth(assembled%model%supports(support)%law)) then
+            call past_curve(assembled, support, state%deflection, state%reaction, past, way)
+            it_does = (past > 0.0_wp) .eqv. before%condition /= gapbeam_open
+            return
+        end if
         acting = acts_in(assembled, support, state%closed)
         it_does = acting%condition == before%condition .and. acting%way == before%way
     end subroutine acts_still

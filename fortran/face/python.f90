@@ -7,13 +7,15 @@
 ! 10 an error with its MESSAGE and nothing else set.
 
 ! Thresholds and limits that Python reads too
-subroutine gbtole(place, endtol, begin, equal, segmts, change)
+subroutine gbtole(place, endtol, begin, equal, lacks, segmts, change)
     use gapbeam_tolerances, only: position_tolerance, end_tolerance
-    use gapbeam_path_tolerances, only: load_begin, train_equal
+    use gapbeam_path_tolerances, only: load_begin, train_equal, missing_of_limit
     use gapbeam_limits, only: most_path_segments, changes_at_a_time
     implicit none
     ! POSITION_TOLERANCE, END_TOLERANCE, LOAD_BEGIN, TRAIN_EQUAL
     double precision, intent(out) :: place, endtol, begin, equal
+    ! MISSING_OF_LIMIT
+    double precision, intent(out) :: lacks(2)
     ! MOST_PATH_SEGMENTS, CHANGES_AT_A_TIME
     integer, intent(out) :: segmts, change
 
@@ -21,6 +23,7 @@ subroutine gbtole(place, endtol, begin, equal, segmts, change)
     endtol = end_tolerance
     begin = load_begin
     equal = train_equal
+    lacks = missing_of_limit
     segmts = most_path_segments
     change = changes_at_a_time
 end subroutine gbtole

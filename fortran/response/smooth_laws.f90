@@ -1,15 +1,15 @@
 !> Smooth laws of supports over the deflections of the beam, in the user's units, and lines in place of them in the engine's.
 module gapbeam_smooth_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_laws, only: is_smooth, law_force, law_slope
+    use gapbeam_laws, only: is_smooth, begins_steep, law_force, law_slope
     use gapbeam_scene, only: support_type, gapbeam_both
     use gapbeam_polyline, only: node_support_type, last_breakpoint, piece_that_acts
     use gapbeam_units, only: stiffness_unit
     use gapbeam_assembled_model, only: assembled_type
     implicit none
     private
-    public :: smooth_supports, past_the_gap, force_and_slope, deflection_at, deflections_at_curves, largest_deflection, &
-        reaction_at, put_line, put_pieces
+    public :: smooth_supports, past_the_gap, past_curve, force_and_slope, deflection_at, deflections_at_curves, &
+        largest_deflection, reaction_at, put_line, put_pieces
 
 contains
 
@@ -36,6 +36,27 @@ contains
         if (way == gapbeam_both) way = merge(-1, 1, deflection - support%settlement < 0.0_wp)
         past = way*(deflection - support%settlement) - support%gap
     end subroutine past_the_gap
+
+    !> How far a state is past the beginning of a curve: a distance, or, where that grows with the square of the load or so, since
+    !> the curve begins steep, the force there
+    pure subroutine past_curve(assembled, support, deflection, reaction, past, way)
+        type(assembled_type), intent(in) :: assembled
+        !> Of the model
+        integer, intent(in) :: support
+        !> Of the nodes and of the beam's supports, in the engine's units
+        real(wp), intent(in) :: deflection(0:), reaction(:)
+        !> Above 0 where it acts; and as for past_the_gap
+        real(wp), intent(out) :: past
+        integer, intent(out) :: way
+        real(wp) :: force
+
+        associate (given => assembled%model%supports(support))
+            call past_the_gap(given, deflection_at(assembled, deflection, support), past, way)
+            if (.not. begins_steep(given%law, given%parameter)) return
+            force = way*reaction_at(assembled, reaction, support)
+            past = merge(force, min(past, 0.0_wp), force > 0.0_wp)
+        end associate
+    end subroutine past_curve
 
     !> Force in the way of a displacement past the gap, and its slope
     elemental subroutine force_and_slope(support, past, force, slope)

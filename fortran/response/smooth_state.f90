@@ -10,7 +10,7 @@ module gapbeam_smooth_state
     use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_not_converged
-    use gapbeam_laws, only: is_smooth, begins_steep, law_bound, law_slope
+    use gapbeam_laws, only: is_smooth, law_bound, law_slope
     use gapbeam_search, only: rule_block
     use gapbeam_extended_precision, only: rule_given, rule_extended
     use gapbeam_input_error, only: named, of_supports
@@ -18,7 +18,7 @@ module gapbeam_smooth_state
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_law_energy, only: new_line, go_towards, way_to_rest
     use gapbeam_smooth_energy, only: smooth_line_type
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, largest_deflection, &
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, past_curve, force_and_slope, deflection_at, largest_deflection, &
         reaction_at, put_line, put_pieces
     use gapbeam_smooth_tangents, only: place_type, find_places, are_settled, put_tangents, last_digit, rounding
     use gapbeam_ground_start, only: ground_start_type, start_from
@@ -343,14 +343,12 @@ contains
         if (state%status /= gapbeam_solved) return
         do j = 1, size(numbers)
             associate (s => assembled%model%supports(numbers(j)))
-                call past_the_gap(s, deflection_at(assembled, state%deflection, numbers(j)), past, way)
                 first = assembled%beam_support(numbers(j))
                 last = last_breakpoint(assembled%beam%supports, first)
                 if (allocated(state%ground)) then
                     ! Nothing looks for the pieces of polylines there: the gap, and the curve on either side of it
                     pieces = merge((last - first + 1)/2, 0, s%side == 0)
-                    ! Of a law that begins steep the force tells sooner than the displacement
-                    if (begins_steep(s%law, s%parameter)) past = way*reaction_at(assembled, state%reaction, numbers(j))
+                    call past_curve(assembled, numbers(j), state%deflection, state%reaction, past, way)
                     if (past > 0.0_wp .and. .not. (s%side == 0 .and. .not. abs(s%gap) > 0.0_wp)) then
                         pieces = pieces + merge(way, 1, s%side == 0)
                     end if
@@ -358,6 +356,7 @@ contains
                     cycle
                 end if
                 if (s%side == 0) cycle
+                call past_the_gap(s, deflection_at(assembled, state%deflection, numbers(j)), past, way)
                 if (past > 0.0_wp) state%closed(first) = .true.
                 if (past < 0.0_wp) state%closed(first:last) = .false.
             end associate

@@ -40,26 +40,34 @@ class CondensedBeam(Problem):
     """
 
     def __init__(self, scene):
-        self.scene, supports = scene, scene["supports"]
-        self.which = [i for i, s in enumerate(supports) if "law" in s or s.get("side", "both") != "both"]
+        supports = self.take(scene)
         self.sign = [-1 if supports[i].get("side") == "above" else 1 for i in self.which]
         self.curves = [curve_of(supports[i]) for i in self.which]
-        self.linear = [s for i, s in enumerate(supports) if i not in self.which]
         self.shift = [
             -s * Fraction(supports[i].get("settlement", 0.0)) - min(ZERO, Fraction(supports[i].get("gap", 0.0)))
             for i, s in zip(self.which, self.sign, strict=True)
         ]
-        m = len(self.which)
-        pushed = [self.moved([{"type": "force", "F": 1.0, **place}]) for place in map(self.place, self.which)]
+        m, (pushed, dead, live) = len(self.which), self.compliances()
         self.P = [[ONE if i == j else ZERO for j in range(m)] for i in range(m)]
         self.Q = [[(pushed[j][i] * s + pushed[i][j] * s) * z / 2 for j, z in enumerate(self.sign)] for i, s in enumerate(self.sign)]
-        loads = scene.get("loads", [])
-        dead = self.moved([load for load in loads if load.get("case") == "dead"], settled=True)
-        live = self.moved([load for load in loads if load.get("case") != "dead"])
         self.g = [s * w + c for s, w, c in zip(self.sign, dead, self.shift, strict=True)], [
             s * w for s, w in zip(self.sign, live, strict=True)
         ]
         self.prepare_stiffness()
+
+    def take(self, scene):
+        """Which supports it is condensed to, and which are linear; all of them."""
+        self.scene, supports = scene, scene["supports"]
+        self.which = [i for i, s in enumerate(supports) if "law" in s or s.get("side", "both") != "both"]
+        self.linear = [s for i, s in enumerate(supports) if i not in self.which]
+        return supports
+
+    def compliances(self):
+        """Deflections at the supports `which` without them: under a force at each, under the dead loads, under the live ones."""
+        pushed = [self.moved([{"type": "force", "F": 1.0, **place}]) for place in map(self.place, self.which)]
+        loads = self.scene.get("loads", [])
+        dead = self.moved([load for load in loads if load.get("case") == "dead"], settled=True)
+        return pushed, dead, self.moved([load for load in loads if load.get("case") != "dead"])
 
     def place(self, i):
         """Where a support is, as in a load."""

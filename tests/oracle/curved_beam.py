@@ -58,16 +58,12 @@ class CurvedBeam(CondensedBeam):
     """
 
     def __init__(self, scene):
-        self.scene, supports = scene, scene["supports"]
-        self.which = [i for i, s in enumerate(supports) if "law" in s or s.get("side", "both") != "both"]
-        self.linear = [s for i, s in enumerate(supports) if i not in self.which]
+        supports = self.take(scene)
         self.curves = [curve(supports[i]) for i in self.which]
         with mp.workdps(WORKING):
-            pushed = [self.moved([{"type": "force", "F": 1.0, **place}]) for place in map(self.place, self.which)]
+            pushed, dead, live = self.compliances()
             self.soft = mp.matrix([[number(row[j]) for row in pushed] for j in range(len(self.which))])
-            loads = scene.get("loads", [])
-            self.dead = [number(w) for w in self.moved([load for load in loads if load.get("case") == "dead"], settled=True)]
-            self.live = [number(w) for w in self.moved([load for load in loads if load.get("case") != "dead"])]
+            self.dead, self.live = [number(w) for w in dead], [number(w) for w in live]
 
     def past(self, k, w):
         """Displacement of support k past its gap, and which way that goes."""

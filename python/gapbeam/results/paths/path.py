@@ -14,15 +14,12 @@ from ...base.records import read_only
 from ...engine.arrays import Stretch
 from ...engine.beam import GIVEN, NO_EQUILIBRIUM, Beam
 from ...engine.paths import NO_EVENT, TURNS, follow_stretch
-from ...engine.tolerances import CHANGES_AT_A_TIME
+from ...engine.tolerances import CHANGES_AT_A_TIME, MISSING_OF_LIMIT
 from ..state.breakpoints import EVENTS
 from ..state.step import Step, solve_step
 
 if TYPE_CHECKING:
     from ..result import Result
-
-MISSING = (2.0**-20, 2.0**-10)
-"""Curves come to their limit where the beam has gone without end: shares of it by which a path may end before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +219,7 @@ class Path:
             Whether they carry it anywhere: at the end, or next to a limit, which is noted.
         """
         last = self.segments[-1]
-        for share in (0.0, *MISSING):
+        for share in (0.0, *MISSING_OF_LIMIT.tolist()):
             stop = last.stop * (1.0 - share)
             with suppress(EngineError):
                 if stop > last.start and isinstance(solve_step(self._beam, stop, GIVEN, self.closed(last)), Step):
