@@ -3,7 +3,7 @@ module gapbeam_train_changes
     use gapbeam_kinds, only: wp
     use gapbeam_laws, only: is_smooth
     use gapbeam_zone_margin, only: change_type
-    use gapbeam_smooth_laws, only: past_the_gap, deflection_at, reaction_at
+    use gapbeam_smooth_laws, only: past_curve, reaction_at
     use gapbeam_solution, only: way_to_contact
     use gapbeam_pieces, only: gapbeam_merges, gapbeam_splits
     use gapbeam_ground_changes, only: zone_change_type, compare_zones
@@ -47,7 +47,7 @@ contains
         end do
     end subroutine list_changes_between
 
-    !> How far a support is past where it begins to act: of one that acts by its force
+    !> How far a support is past where it begins to act: of one that acts by its force, or on its curve
     subroutine measure_support(kept, number, margin, known)
         type(kept_type), intent(in) :: kept
         !> Of the engine
@@ -61,7 +61,7 @@ contains
             associate (support => placed%model%supports(s))
                 known = .true.
                 if (is_smooth(support%law)) then
-                    call past_the_gap(support, deflection_at(placed, kept%state%deflection, s), margin, way)
+                    call past_curve(placed, s, kept%state%deflection, kept%state%reaction, margin, way)
                 else if (placed%with_law(s)) then
                     known = .false.
                 else if (kept%state%closed(number)) then

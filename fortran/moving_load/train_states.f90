@@ -11,7 +11,7 @@ module gapbeam_train_states
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state, ground_of
-    use gapbeam_smooth_laws, only: past_the_gap, deflection_at, deflections_at_curves, reaction_at
+    use gapbeam_smooth_laws, only: past_curve, deflections_at_curves, reaction_at
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_branch
     use gapbeam_ground_changes, only: zone_type, find_zones, same_zones
@@ -158,7 +158,7 @@ contains
                 if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
                 s = placed%normal(k)
                 if (is_smooth(models(s)%law)) then
-                    call past_the_gap(models(s), deflection_at(placed, kept%state%deflection, s), past, way)
+                    call past_curve(placed, s, kept%state%deflection, kept%state%reaction, past, way)
                     held = past > 0.0_wp .or. (models(s)%side == gapbeam_both .and. .not. abs(models(s)%gap) > 0.0_wp)
                     if (models(s)%side /= gapbeam_both .or. .not. held) way = 1
                     held = held .and. abs(reaction_at(placed, kept%state%reaction, s)) > 0.0_wp
