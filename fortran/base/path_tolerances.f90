@@ -22,7 +22,7 @@ module gapbeam_path_tolerances
     real(wp), parameter :: load_begin = 2.0_wp**(-40)
     !> Curves come to their limit where the beam has gone without end: a path is followed until this share of it is missing, or
     !> that; tuned. Read by continuation/ground_problem and, through the engine, by gapbeam.results
-    real(wp), parameter :: missing_of_limit(2) = [2.0_wp**(-20), 2.0_wp**(-10)]
+    real(wp), dimension(2), parameter :: missing_of_limit = [2.0_wp**(-20), 2.0_wp**(-10)]
     !> Values under trains that differ by less than this share of the largest may be the same, for they are not refined: half of
     !> the digits. Read by moving_load/train_bounds, moving_load/train_curves, moving_load/train_envelope,
     !> moving_load/train_support_bounds
