@@ -10,6 +10,7 @@ module gapbeam_ground_path
     use gapbeam_walk, only: walk_along
     use gapbeam_ground_events, only: ground_path_type, held_type, add_segment
     use gapbeam_ground_problem, only: ground_problem_type, new_ground_problem
+    use gapbeam_steady_path, only: pass_steady
     implicit none
     private
     public :: follow_on_ground
@@ -71,6 +72,7 @@ contains
         type is (held_type)
             call add_segment(0.0_wp, start, problem%path, error)
         end select
+        if (.not. allocated(error)) call pass_steady(problem, start, error)
         if (allocated(error)) return
         call walk_along(problem, start, ended, error)
         if (allocated(error) .or. ended) return
