@@ -19,7 +19,7 @@ module gapbeam_branch
     use gapbeam_affine_response_quad, only: value_at, width_at, zero_of
     use gapbeam_region_responses, only: outgoing_type, new_responses, solve_responses, are_one, turn, rise, fall, from_nowhere
     use gapbeam_outgoing_directions, only: find_outgoing
-    use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, &
+    use gapbeam_local_step, only: new_local, enter_local, find_next, pass_breakpoints, take_direction, local_index, &
         clear_arrival, doubtful
     use gapbeam_branch_state, only: branch_type, note_place, break_supports, find_shared, sense_of, laws_of, parallel, stays_broken
     implicit none
@@ -126,7 +126,8 @@ contains
         integer, intent(out) :: outcome
         !> If not, the branch is where it was, its lines in quadruple precision at hand
         logical, intent(out) :: done
-        integer :: found, k
+        integer, allocatable :: numbers(:)
+        integer :: found
         real(dp) :: next
 
         done = .false.
@@ -138,7 +139,7 @@ contains
                 if (.not. local%current) return
             end if
             call find_next(local, way%closed, real(branch%factor, dp), real(target, dp), &
-                           way%direction == leg .and. abs(target) < huge(target), next, k, found)
+                           way%direction == leg .and. abs(target) < huge(target), next, numbers, found)
             segment%from = branch%factor
             if (found == clear_arrival) then
                 segment%to = target
@@ -147,7 +148,7 @@ contains
                 done = .true.
                 return
             end if
-            if (found /= doubtful) call pass_locally(branch, k, next, leg, done)
+            if (found /= doubtful) call pass_locally(branch, numbers, next, leg, done)
             if (done) then
                 branch%factor = next
                 segment%to = next
@@ -160,11 +161,11 @@ contains
         end associate
     end subroutine step_locally
 
-    !> Pass a breakpoint in double precision
-    subroutine pass_locally(branch, k, factor, leg, done)
+    !> Pass breakpoints in double precision
+    subroutine pass_locally(branch, numbers, factor, leg, done)
         type(branch_type), intent(inout) :: branch
-        !> The breakpoint, and its load factor
-        integer, intent(in) :: k
+        !> The breakpoint, or several, and their load factor
+        integer, intent(in) :: numbers(:)
         real(dp), intent(in) :: factor
         integer, intent(in) :: leg
         !> If not, the branch is where it was
@@ -174,10 +175,10 @@ contains
         logical :: breaks
 
         done = .false.
-        associate (s => branch%beam%supports(k), local => branch%local, closed => branch%way%closed)
+        associate (k => numbers(1), s => branch%beam%supports(numbers(1)), local => branch%local, closed => branch%way%closed)
             breaks = branch%unloading(k) == stays_broken .and. .not. closed(k) .and. s%before < -huge(1.0_wp)
             if (breaks .and. local%any_set) return
-            call pass_breakpoint(local, k, breaks, factor, closed, direction)
+            call pass_breakpoints(local, numbers, breaks, factor, closed, direction)
             if (local%stretch%current .and. (direction /= turn .or. breaks)) then
                 way%index = local_index(local, closed)
                 way%direction = direction
@@ -192,7 +193,7 @@ contains
                 return
             end if
         end associate
-        call take_laws(branch, k, breaks)
+        call take_laws(branch, numbers(1), breaks)
         if (allocated(branch%outgoing)) deallocate (branch%outgoing)
         allocate (branch%outgoing(merge(2, 1, breaks)))
         ! Its scheme is asked for where there are others

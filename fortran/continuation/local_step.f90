@@ -1,8 +1,9 @@
 !> The next breakpoint of a path and the region beyond it in double precision, by local updates.
 !>
 !> Where one support alone reaches a breakpoint, the region beyond it is the only way on, and the load goes as that breakpoint moves
-!> away from zero. Lines are updated around it (gapbeam_stretch). Whatever rounding errors leave open (several at once, what does
-!> not move, several that turn back at once, factors that lose digits) is left to quadruple precision (gapbeam_branch).
+!> away from zero. Where no force falls and several reach theirs at once, as in symmetric beams, there is one way on too: that
+!> beyond all of them, if all move away from zero there. Lines are updated around them (gapbeam_stretch). Whatever rounding errors
+!> leave open (what does not move, factors that lose digits) is left to quadruple precision (gapbeam_branch).
 module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
@@ -12,13 +13,13 @@ module gapbeam_local_step
     use gapbeam_law_margins, only: is_watched_in
     use gapbeam_model, only: beam_type
     use gapbeam_update, only: update_scheme
-    use gapbeam_affine_response, only: response_type, falls, rises, value_at, width_at
+    use gapbeam_affine_response, only: response_type, falls, rises, value_at, width_at, zero_of
     use gapbeam_queue, only: first_key, all_up_to
     use gapbeam_stretch, only: stretch_type, new_stretch, start_stretch, queue_all, change_supports, next_in_queue, response_in, &
         unloads_from_here
     implicit none
     private
-    public :: local_type, new_local, enter_local, find_next, pass_breakpoint, take_direction, local_index, rounded, find_passed
+    public :: local_type, new_local, enter_local, find_next, pass_breakpoints, take_direction, local_index, rounded, find_passed
     public :: clear_arrival, doubtful
 
     !> What find_next came to
@@ -33,7 +34,7 @@ module gapbeam_local_step
     !> Rate beside the way to a breakpoint, or the force, below which it is none
     real(wp), parameter :: no_rate = epsilon(1.0_wp)**4
 
-    !> Supports that turn back in turn where one support yields
+    !> Rounds in which supports turn back in turn where others yield
     integer, parameter :: most_turns = 8
 
     !> A path in double precision
@@ -145,23 +146,22 @@ contains
     end function is_clear
 
     !> The next breakpoint along the lines, or the end of the leg
-    subroutine find_next(local, closed, factor, target, arrives, next, k, found)
+    subroutine find_next(local, closed, factor, target, arrives, next, at_zero, found)
         type(local_type), intent(inout) :: local
         logical, intent(in) :: closed(:)
         !> Load factors at hand and at the end of the leg; does the load go there
         real(wp), intent(in) :: factor, target
         logical, intent(in) :: arrives
-        !> Load factor of the breakpoint, and its number
+        !> Load factor of the breakpoint, and its number; or those of several
         real(wp), intent(out) :: next
-        integer, intent(out) :: k
+        integer, allocatable, intent(out) :: at_zero(:)
         !> clear_event, clear_arrival or doubtful
         integer, intent(out) :: found
-        integer, allocatable :: at_zero(:)
         real(wp) :: here, goal, first, near, limit
 
         found = doubtful
         next = factor
-        k = 0
+        allocate (at_zero(0))
         associate (stretch => local%stretch)
             here = stretch%direction*factor
             goal = huge(goal)
@@ -175,54 +175,79 @@ contains
                 found = clear_arrival
                 return
             end if
-            at_zero = [integer ::]
             call next_in_queue(local%beam, closed, here, limit, stretch, at_zero, next)
-            if (stretch%in_doubt .or. size(at_zero) /= 1) return
+            if (size(at_zero) > 1 .and. .not. local%may_fall) stretch%in_doubt = .not. reach_zero_together()
+            if (stretch%in_doubt .or. size(at_zero) == 0) return
             if (local%may_fall) then
+                if (size(at_zero) > 1) return
                 ! Where forces fall errors may grow beyond their bounds: what is next to each other may be there at once
                 if (size(all_up_to(stretch%queue, next + share_off*abs(next))) > 1) return
             end if
             if (next <= here + near .or. next + (next - first) + near >= goal) return
-            k = at_zero(1)
             ! What is there but for rounding is at 0
             if (abs(next) <= near) next = 0.0_wp
             next = stretch%direction*next
             found = clear_event
         end associate
+
+    contains
+
+        !> Do all reach zero at the same factor, but for rounding, each at a node of its own
+        pure function reach_zero_together() result(they_do)
+            logical :: they_do
+            type(response_type) :: response
+            integer :: j
+
+            they_do = .true.
+            associate (stretch => local%stretch, nodes => local%beam%supports(at_zero)%node)
+                do j = 1, size(at_zero)
+                    response = response_in(local%beam, closed, at_zero(j), stretch)
+                    they_do = they_do .and. falls(response) .and. count(nodes == nodes(j)) == 1
+                    if (they_do) they_do = abs(zero_of(response) - next) <= near &
+                        .and. width_at(response, next) <= share_off*abs(next*response%v1)
+                end do
+            end associate
+        end function reach_zero_together
+
     end subroutine find_next
 
-    !> Pass a breakpoint, and those that coincide with it
-    subroutine pass_breakpoint(local, k, breaks, factor, closed, direction)
+    !> Pass breakpoints, and those that coincide with them
+    subroutine pass_breakpoints(local, numbers, breaks, factor, closed, direction)
         type(local_type), intent(inout) :: local
-        !> The breakpoint; does its support break there
-        integer, intent(in) :: k
+        !> The breakpoint, or several where no force falls; does its support break there
+        integer, intent(in) :: numbers(:)
         logical, intent(in) :: breaks
         real(wp), intent(in) :: factor
         !> The scheme
         logical, intent(inout) :: closed(:)
         !> Where the load goes, 1 or -1; 0 if that is in doubt, or either way as after a break
         integer, intent(out) :: direction
-        type(response_type) :: response
-        integer :: first, last, j
+        type(response_type) :: responses(size(numbers))
+        integer :: first, last, i, j
 
         direction = 0
+        local%changed = [integer ::]
         associate (stretch => local%stretch)
-            first = k
-            last = k
-            if (breaks) then
-                call break_law(local%beam%supports, k)
-                call renew_rates(local, k - local%beam%supports(k)%breakpoint + 1, k)
-            else
-                call find_unit(local%beam%supports, closed, k, first, last)
-            end if
-            local%changed = [(j, j=first, last)]
+            do i = 1, size(numbers)
+                first = numbers(i)
+                last = numbers(i)
+                if (breaks) then
+                    call break_law(local%beam%supports, last)
+                    call renew_rates(local, last - local%beam%supports(last)%breakpoint + 1, last)
+                else
+                    call find_unit(local%beam%supports, closed, numbers(i), first, last)
+                end if
+                local%changed = [local%changed, (j, j=first, last)]
+            end do
             call change_supports(local%beam, local%changed, stretch%direction*factor, closed, stretch)
             if (.not. stretch%current .or. breaks) return
-            response = response_in(local%beam, closed, k, stretch)
-            if (rises(response)) direction = nint(stretch%direction)
-            if (falls(response)) direction = -nint(stretch%direction)
+            do i = 1, size(numbers)
+                responses(i) = response_in(local%beam, closed, numbers(i), stretch)
+            end do
+            if (all(rises(responses))) direction = nint(stretch%direction)
+            if (size(numbers) == 1 .and. all(falls(responses))) direction = -nint(stretch%direction)
         end associate
-    end subroutine pass_breakpoint
+    end subroutine pass_breakpoints
 
     !> Go on in a direction, the region being solved: local%current tells whether all is clear
     subroutine take_direction(local, closed, factor, direction, breaks)
@@ -260,41 +285,46 @@ contains
         if (local%current) local%steps = local%steps + 1
     end subroutine take_direction
 
-    !> Let supports that keep a set unload, one after the other, until all others go on. Where no force falls there is one way, and
-    !> what is right for every support is it; two that turn back at once may be mirror images, and are left to quadruple precision
+    !> Let supports that keep a set unload until all others go on. Where no force falls there is one way, and what is right for
+    !> every support is it
     subroutine turn_back(local, closed, factor)
         type(local_type), intent(inout) :: local
         logical, intent(inout) :: closed(:)
         real(wp), intent(in) :: factor
         type(response_type) :: response
-        integer :: k, top, turn, first, j, changed(2)
+        integer, allocatable :: tops(:), changed(:)
+        integer :: k, turn, i, j, ends(2)
         real(wp) :: at, with
 
         associate (stretch => local%stretch, laws => local%beam%supports)
             do turn = 0, most_turns
-                top = 0
+                tops = [integer ::]
                 do k = 1, size(closed)
                     if (.not. unloads_from_here(local%beam, closed, k, stretch)) cycle
                     response = response_in(local%beam, closed, k, stretch)
                     ! What does not move stays on its piece: where nothing reaches a support, updates leave rates of 1e-80
                     if (rises(response) .or. abs(response%v1) < no_rate*abs(response%v0)) cycle
-                    if (.not. falls(response) .or. top > 0 .or. turn == most_turns) return
-                    top = k
+                    if (.not. falls(response) .or. turn == most_turns) return
+                    tops = [tops, k]
                 end do
-                stretch%turns_back = top > 0
-                if (top == 0) return
-                first = top - laws(top)%breakpoint + 1
-                associate (dead => stretch%dead, live => stretch%live, i => laws(top)%node)
-                    at = dead%answers(i)%deflection + factor*(live%answers(i)%deflection - local%settling(top))
-                    with = dead%reaction(top) + factor*live%reaction(top)
-                end associate
-                call unload(laws, closed, first, local%first_slope(first), at, with, changed)
-                call renew_rates(local, first, last_breakpoint(laws, first))
-                local%turned = [local%turned, top]
-                local%turned_at = [local%turned_at, at]
-                local%turned_with = [local%turned_with, with]
-                local%changed = [local%changed, (j, j=changed(1), changed(2))]
-                call change_supports(local%beam, [(j, j=changed(1), changed(2))], stretch%direction*factor, closed, stretch)
+                stretch%turns_back = size(tops) > 0
+                if (.not. stretch%turns_back) return
+                changed = [integer ::]
+                do i = 1, size(tops)
+                    associate (dead => stretch%dead, live => stretch%live, top => tops(i), node => laws(tops(i))%node, &
+                               first => tops(i) - laws(tops(i))%breakpoint + 1)
+                        at = dead%answers(node)%deflection + factor*(live%answers(node)%deflection - local%settling(top))
+                        with = dead%reaction(top) + factor*live%reaction(top)
+                        call unload(laws, closed, first, local%first_slope(first), at, with, ends)
+                        call renew_rates(local, first, last_breakpoint(laws, first))
+                        local%turned = [local%turned, top]
+                    end associate
+                    local%turned_at = [local%turned_at, at]
+                    local%turned_with = [local%turned_with, with]
+                    changed = [changed, (j, j=ends(1), ends(2))]
+                end do
+                local%changed = [local%changed, changed]
+                call change_supports(local%beam, changed, stretch%direction*factor, closed, stretch)
                 if (.not. stretch%current) return
             end do
         end associate

@@ -1,0 +1,43 @@
+"""Paths of many supports: under axial forces and on ground as elsewhere, and symmetric ones as others."""
+
+import gapbeam
+import pytest
+
+
+def pads(spans, beam, **analysis):
+    """Equal spans on pads of five kinds, from both ends alike, that yield and go on."""
+    kinds = [min(k, spans - k) % 5 for k in range(spans + 1)]
+    supports = [{"node": k, "side": "below",
+                 "law": {"type": "hardening", "stiffness": 2e3, "limit": 30.0 + 4.0 * kind, "slope": 300.0}, "unloading": "plastic"}
+                for k, kind in enumerate(kinds)]  # fmt: skip
+    supports[0], supports[-1] = {"node": 0}, {"node": spans}
+    return {"beam": {"spans": [6.0] * spans, "EI": 1e4} | beam, "supports": supports,
+            "loads": [{"type": "uniform", "q": 7.0}], "analysis": {"follow": "events"} | analysis}  # fmt: skip
+
+
+@pytest.mark.parametrize(("N", "k"), [(100.0, None), (-20.0, 2.0)], ids=["tension", "compression on ground"])
+def test_an_event_takes_two_solves(N, k):
+    """Of the whole beam, one for the dead and one for the live loads; and every pad is at its limit where it yields."""
+    scene = pads(40, {"N": N})
+    if k:
+        scene["foundation"] = [{"k": k}]
+    for support in scene["supports"]:
+        support.pop("unloading", None)
+    result = gapbeam.solve(scene)
+    assert len(result.events) > 20
+    assert result.path.solves < 4 * len(result.events) + 20
+    for event in result.events:
+        reaction = result.state(event.factor).reaction[event.support]
+        assert reaction == pytest.approx(scene["supports"][event.support]["law"]["limit"], rel=1e-11)
+
+
+def test_mirror_images_take_no_solve_of_the_whole_beam():
+    """Supports that reach their limits in pairs, and turn back in pairs, are as cheap as single ones."""
+    result = gapbeam.solve(pads(60, {}, history=[1.0, 0.3, 1.2]))
+    events = [(event.support, event.event, event.factor) for event in result.events]
+    assert {event for _, event, _ in events} == {"yields", "unloads"}
+    assert sorted((support, event) for support, event, _ in events) == sorted((60 - support, event) for support, event, _ in events)
+    assert result.path.solves < 20
+    state = result.steps[-1]
+    assert state.reaction == pytest.approx(state.reaction[::-1], rel=1e-12)
+    assert state.set[1:-1] == pytest.approx(state.set[1:-1][::-1], rel=1e-12)
