@@ -94,7 +94,8 @@ module gapbeam_path_tolerances
     real(wp), parameter :: before_all_slides = 2.0_wp**(-90)
     !> Share of the largest by which a state on springs along the beam may be off. Read by response/bedding_state
     real(wp), parameter :: bedding_audited = 1e-12_wp
-    !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path
+    !> Load intervals shorter than this, relative to the way, may be but a few; tuned. Read by continuation/path,
+    !> continuation/steady_path
     real(wp), parameter :: shortest_interval = 2.0_wp**(-30)
     !> Rounding errors beyond which a value on a path is not near zero; tuned. Read by continuation/path
     real(wp), parameter :: far_from_zero = 2.0_wp**16

@@ -21,7 +21,7 @@ module gapbeam_scheme_responses
     use gapbeam_law_margins_quad, only: find_margins
     use gapbeam_uniqueness, only: is_unique
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_state, only: ground_of
+    use gapbeam_loaded_ground, only: ground_of
     use gapbeam_combinations, only: combination_type, combine
     implicit none
     private

@@ -18,7 +18,7 @@ module gapbeam_polyline
     public :: node_support_type, piece_that_acts, piece_force, breakpoint_margin, is_watched
     public :: past_level, vertical_pieces
     public :: open_from, advance_one_segment, jump_to_plateau, coincide, last_breakpoint, join_pieces
-    public :: break_law, find_unit
+    public :: break_law, find_unit, extend_piece, extend_pieces
 
     !> A support at a node, or a breakpoint of its law
     type :: node_support_type
@@ -63,6 +63,49 @@ contains
             end if
         end associate
     end subroutine piece_that_acts
+
+    !> Put the piece of a law that acts in place of all of it, as a line both ways, if it does not rise vertically; one that drops
+    !> vertically holds what stands there
+    pure subroutine extend_piece(supports, closed)
+        !> Breakpoints of the law
+        type(node_support_type), intent(inout) :: supports(:)
+        logical, intent(in) :: closed(:)
+        real(wp) :: slope
+        logical :: acts
+        integer :: k, last
+
+        k = max(1, count(closed))
+        call piece_that_acts(supports, closed, k, acts, slope)
+        if (.not. acts .or. slope > huge(slope)) return
+        if (slope < -huge(slope)) slope = -slope
+        ! Through the middle of a piece with two ends: so one about the origin goes through that
+        last = k
+        if (closed(k) .and. supports(k)%more) last = k + 1
+        supports%contact = supports(k)%contact/2 + supports(last)%contact/2
+        supports%force = supports(k)%force/2 + supports(last)%force/2
+        supports%stiffness = slope
+        supports%before = slope
+        supports%passed = .true.
+    end subroutine extend_piece
+
+    !> The same of all laws; what acts one way holds both ways where it acts, and is not there where it does not
+    pure subroutine extend_pieces(supports, closed)
+        type(node_support_type), intent(inout) :: supports(:)
+        logical, intent(in) :: closed(:)
+        integer :: first, last
+
+        last = 0
+        do while (last < size(supports))
+            first = last + 1
+            last = last_breakpoint(supports, first)
+            if (supports(first)%breakpoint > 0) then
+                call extend_piece(supports(first:last), closed(first:last))
+            else
+                supports(first)%side = 0
+                if (.not. closed(first)) supports(first)%stiffness = 0.0_wp
+            end if
+        end do
+    end subroutine extend_pieces
 
     !> Force of a piece that is not vertical, positive up, and the rounding error of that
     pure subroutine piece_force(support, slope, deflection, deflection_size, force, rounding)

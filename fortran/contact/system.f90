@@ -169,7 +169,7 @@ contains
 
         work%method = method_mixed
         associate (n => size(beam%links))
-            call factor_foundation_chain(work%nodes(0:n), beam%ground, work%pivots, state, place)
+            call factor_foundation_chain(work%nodes(0:n), beam%ground, work%pivots, state, place, softens(work%nodes))
             if (state /= band_ok) return
             call solve_foundation_chain(work%nodes(0:n), beam%ground, beam%links%length, work%pivots, work%rhs(0:n), &
                                         work%eliminated, work%answers(0:n))

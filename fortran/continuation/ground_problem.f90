@@ -18,7 +18,8 @@ module gapbeam_ground_problem
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_smooth_laws, only: smooth_supports
     use gapbeam_solution, only: state_type
-    use gapbeam_state, only: ground_of, detail_of
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_state, only: detail_of
     use gapbeam_ground_states, only: ground_states_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_ground_events, only: held_type

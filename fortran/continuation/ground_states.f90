@@ -17,7 +17,7 @@ module gapbeam_ground_states
     use gapbeam_ground_start, only: ground_start_type, start_from, settle_nearby, take_zones
     use gapbeam_ground_refinement, only: refine_factor
     use gapbeam_refined_ground, only: refine_ground
-    use gapbeam_state, only: ground_of
+    use gapbeam_loaded_ground, only: ground_of
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type
     use gapbeam_smooth_laws, only: deflections_at_curves

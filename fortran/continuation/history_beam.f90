@@ -10,6 +10,7 @@ module gapbeam_history_beam
     use gapbeam_axial_force, only: what_stretches
     use gapbeam_law, only: both
     use gapbeam_laws, only: is_smooth
+    use gapbeam_piece, only: is_compressed
     use gapbeam_layers, only: layer_type, has_points
     use gapbeam_model_quad, only: beam_type
     use gapbeam_ground, only: ground_type
@@ -18,9 +19,9 @@ module gapbeam_history_beam
     use gapbeam_refined_ground, only: refine_ground
     use gapbeam_extended_precision, only: reserve_for
     use gapbeam_uniqueness, only: is_unique
-    use gapbeam_scene, only: gapbeam_broken
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_state, only: detail_of, ground_of
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_state, only: detail_of
     implicit none
     private
     public :: make_history_beam
@@ -65,36 +66,32 @@ contains
         allocate (node(0:ubound(grounded%node, 1)), source=grounded%node)
     end subroutine make_history_beam
 
-    !> Supports whose forces fall are refused in stretches: nothing there tells stable states from others
+    !> Smooth laws are refused in stretches, and under compression laws whose force falls
     subroutine check_supports(assembled, error)
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer :: k
 
-        associate (given => assembled%model%supports, laws => assembled%beam%supports)
+        associate (laws => assembled%beam%supports)
             do k = 1, size(laws)
-                associate (number => assembled%normal(k))
-                    if (given(number)%unloading == gapbeam_broken) then
-                        call say("unloading", "a support that breaks", "give plastic or elastic")
-                    else if (any(assembled%normal == number .and. laws%breakpoint > 0 &
-                                 .and. min(laws%stiffness, laws%before) < 0.0_wp)) then
-                        call say("law", "a law whose force falls", "give one that rises")
-                    else if (is_smooth(given(number)%law)) then
-                        call say("law", "a curve with a history, or with a support that keeps a set,", "give its points")
-                    end if
-                    if (allocated(error)) return
-                end associate
+                if (is_smooth(assembled%model%supports(assembled%normal(k))%law)) then
+                    call say("a curve with a history, or with a support that keeps a set, beside "// &
+                             trim(what_stretches(assembled%model)), "give its points")
+                else if (min(laws(k)%stiffness, laws(k)%before) < 0.0_wp .and. any(is_compressed(assembled%pieces))) then
+                    call say("a law whose force falls beside compression (N below 0)", "give one that rises, or first_order")
+                end if
+                if (allocated(error)) return
             end do
         end associate
 
     contains
 
         !> Refuse support k
-        subroutine say(key, what, remedy)
-            character(len=*), intent(in) :: key, what, remedy
+        subroutine say(what, remedy)
+            character(len=*), intent(in) :: what, remedy
 
-            call refuse(error, of_supports, assembled%normal(k), size(assembled%model%supports), bad_law, key, what//" beside "// &
-                        trim(what_stretches(assembled%model))//" is not available in this version; "//remedy)
+            call refuse(error, of_supports, assembled%normal(k), size(assembled%model%supports), bad_law, "law", &
+                        what//" is not available in this version; "//remedy)
         end subroutine say
 
     end subroutine check_supports

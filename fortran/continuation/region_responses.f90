@@ -2,7 +2,7 @@
 module gapbeam_region_responses
     use gapbeam_kinds, only: wp => qp
     use gapbeam_path_tolerances, only: near_breakpoint, no_rate
-    use gapbeam_band_quad, only: band_ok
+    use gapbeam_band_quad, only: band_ok, count_unstable_pivots
     use gapbeam_polyline_quad, only: piece_that_acts, vertical_pieces
     use gapbeam_law_margins_quad, only: is_watched_in
     use gapbeam_model_quad, only: beam_type, last_place
@@ -177,8 +177,15 @@ contains
         logical :: acts
 
         index = 0
-        if (any(responses%dead%nodes%stiffness < 0.0_wp)) call count_unstable(responses%dead%nodes(0:size(beam%links)), &
-                                                                              beam%links, index)
+        associate (nodes => responses%dead%nodes(0:size(beam%links)))
+            if (.not. any(responses%dead%nodes%stiffness < 0.0_wp)) then
+                continue
+            else if (allocated(beam%ground)) then
+                index = count_unstable_pivots(nodes, responses%dead%pivots)
+            else
+                call count_unstable(nodes, beam%links, index)
+            end if
+        end associate
         do k = 1, size(closed)
             if (beam%supports(k)%breakpoint == 0) cycle
             call piece_that_acts(beam%supports, closed, k, acts, slope)

@@ -69,11 +69,12 @@ contains
             integer, intent(in) :: stretch
             real(wp), intent(in) :: factor
             type(state_type), intent(out) :: state
-            type(field_type), intent(out) :: fields(:)
+            type(field_type), intent(inout) :: fields(:)
 
             call new_state(beam, state, error)
             if (.not. allocated(error)) call solve_on_path(beam, path, stretch, factor, state, error)
-            if (.not. allocated(error)) call find_starts(beam, state, fields, error)
+            if (allocated(error) .or. allocated(state%ground)) return
+            call find_starts(beam, state, fields, error)
         end subroutine find_state
 
     end subroutine find_released_energy

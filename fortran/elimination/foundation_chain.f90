@@ -26,7 +26,7 @@ module gapbeam_foundation_chain
 contains
 
     !> Factor the system of a contact state
-    pure subroutine factor_foundation_chain(nodes, links, pivots, state, place)
+    pure subroutine factor_foundation_chain(nodes, links, pivots, state, place, unstable)
         !> Nodes, shape (0:n), and the links between them, shape (n)
         type(node_type), intent(in) :: nodes(0:)
         type(stretch_link_type), intent(in) :: links(:)
@@ -37,6 +37,8 @@ contains
         integer, intent(out) :: state
         !> Node at which a state other than band_ok was found
         integer, intent(out) :: place
+        !> May the beam give way by itself, as on supports whose forces fall; default no
+        logical, intent(in), optional :: unstable
         real(wp) :: phi, beta, delta, divisor, next(3)
         logical :: floating, held
         integer :: i, n
@@ -61,6 +63,9 @@ contains
                 p%c = delta + node%stiffness
                 if (i == n) then
                     call factor_last(node, held, p, phi, beta, floating, state)
+                    if (present(unstable)) then
+                        if (unstable) return
+                    end if
                     if (state == band_ok .and. count_unstable_pivots(nodes, pivots) > 0) state = band_mechanism
                     return
                 end if

@@ -19,7 +19,7 @@ module gapbeam_train_grid
     use gapbeam_ground, only: ground_type
     use gapbeam_filled_ground, only: any_falls
     use gapbeam_uniqueness, only: is_unique
-    use gapbeam_state, only: ground_of
+    use gapbeam_loaded_ground, only: ground_of
     implicit none
     private
     public :: find_borders, find_parts, places_of_jumps, ends_of_ground

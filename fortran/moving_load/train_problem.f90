@@ -11,7 +11,7 @@ module gapbeam_train_problem
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_state, only: ground_of
+    use gapbeam_loaded_ground, only: ground_of
     use gapbeam_path_problem, only: point_type
     use gapbeam_train, only: train_type
     use gapbeam_train_on_beam, only: put_train, end_of_beam

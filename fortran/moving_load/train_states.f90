@@ -10,7 +10,8 @@ module gapbeam_train_states
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state, ground_of
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_state, only: solve_state
     use gapbeam_smooth_laws, only: past_curve, deflections_at_curves, reaction_at
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_branch

@@ -3,13 +3,18 @@
 !> Along a path the energy changes by the work of the loads only. Where all but smooth laws is linear between two states, the loads
 !> that grow do the mean of their work in full at both, times what the factor grows by, less the area between the smooth laws and
 !> their chords: for the supports with these hand over the difference (Betti).
+!>
+!> What the loads of a stretch do is what they make at its ends, held there, along the displacements and with the moments of its
+!> ends (Betti again), and what they do along those that they make themselves. That is a number for every load factor, which
+!> cancels where the factor comes back to what it was: it is left out.
 module gapbeam_path_energy
     use gapbeam_kinds, only: wp
-    use gapbeam_quadrature, only: panels_type, cut_into_panels, points_of
-    use gapbeam_piece, only: is_tapered
-    use gapbeam_taper, only: intervals_in, points_in, most_places => number_of_points
+    use gapbeam_piece, only: piece_load_type, no_load
+    use gapbeam_link, only: link_type, condense_link
     use gapbeam_element, only: sum_type, add, total, field_type
     use gapbeam_fields, only: values_at
+    use gapbeam_foundation, only: stretch_link_type, stretch_load_type, condense_loaded
+    use gapbeam_stretch_loads, only: load_on_part, on_stretch
     use gapbeam_laws, only: law_energy
     use gapbeam_assembled_model, only: assembled_type, growth_of
     use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at
@@ -20,11 +25,11 @@ module gapbeam_path_energy
 
 contains
 
-    !> Energy that is set free on the way from one state to another, in the user's units
-    pure function energy_between(assembled, one, starts_of_one, other, starts_of_other) result(energy)
-        !> The beam, not on the ground
+    !> Energy that is set free on the way from one state to another, in the user's units, but for a function of their load factors
+    function energy_between(assembled, one, starts_of_one, other, starts_of_other) result(energy)
+        !> The beam, on ground at most that holds it both ways by its modulus alone
         type(assembled_type), intent(in) :: assembled
-        !> The states, and their fields at the left ends of the pieces
+        !> The states, and their fields at the left ends of the pieces where these are not solved in stretches
         type(state_type), intent(in) :: one, other
         type(field_type), intent(in) :: starts_of_one(:), starts_of_other(:)
         real(wp) :: energy
@@ -36,57 +41,40 @@ contains
 
     !> Work that the live loads in full would do along the displacements of a state; those along the axis are left out. Of imposed
     !> curvatures what the moments do along them, of movements of supports what the reactions do
-    pure function work_of_live_loads(assembled, state, starts) result(work)
+    function work_of_live_loads(assembled, state, starts) result(work)
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         type(field_type), intent(in) :: starts(:)
         real(wp) :: work
         type(sum_type) :: parts
-        type(panels_type) :: panels
-        type(field_type) :: there
-        real(wp) :: points(most_places), weights(most_places), growth(size(assembled%normal))
-        integer :: i, j, k, number, intervals
+        !> Rotations at the left and right ends of all pieces
+        type(field_type) :: left(size(starts)), right(size(starts))
+        real(wp) :: growth(size(assembled%normal))
+        integer :: i
 
-        ! A load that is linear times a deflection of degree 5
-        call cut_into_panels([0.0_wp], [0.0_wp], panels)
-        do j = 1, size(assembled%pieces)
-            associate (live => assembled%live(j), length => assembled%pieces(j)%length)
-                if (max(abs(live%qa), abs(live%qb), abs(live%kappa), abs(live%rise)) > 0.0_wp) then
-                    intervals = 1
-                    if (is_tapered(assembled%pieces(j))) intervals = intervals_in(assembled%pieces(j))
-                    do k = 1, intervals
-                        if (is_tapered(assembled%pieces(j))) then
-                            number = most_places
-                            call points_in(assembled%pieces(j), k, points, weights)
-                        else
-                            call points_of(panels, 1, number, points, weights)
-                        end if
-                        do i = 1, number
-                            there = field_at(j, length*points(i))
-                            call add(parts, length*weights(i)*((live%qa + (live%qb - live%qa)*points(i))*there%deflection &
-                                                               - (live%kappa + live%rise*points(i))*there%moment))
-                        end do
-                    end do
-                end if
-                if (abs(live%kink_a) > 0.0_wp) call add(parts, -live%kink_a*starts(j)%moment)
-                if (abs(live%couple_a) > 0.0_wp) call add(parts, live%couple_a*starts(j)%rotation)
-                if (.not. max(abs(live%force), abs(live%couple), abs(live%couple_b), abs(live%kink_b)) > 0.0_wp) cycle
-                there = field_at(j, length)
-                call add(parts, live%force*there%deflection + (live%couple + live%couple_b)*there%rotation &
-                         - live%kink_b*there%moment)
+        if (allocated(state%ground)) then
+            call add_stretches()
+        else
+            left(:) = starts
+            call values_at(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, [(i, i=1, size(starts))], &
+                           assembled%pieces%length, right)
+            call add_pieces()
+        end if
+        do i = 1, size(assembled%pieces)
+            associate (live => assembled%live(i), a => left(i), b => right(i))
+                call add(parts, live%couple_a*a%rotation - live%kink_a*a%moment)
+                call add(parts, (live%couple + live%couple_b)*b%rotation - live%kink_b*b%moment + live%force*b%deflection)
             end associate
         end do
         do i = 0, ubound(state%moment_left, 1)
             associate (force => assembled%beam%force(2, i), couple => assembled%beam%couple(2, i), point => assembled%node_point(i))
                 call add(parts, force*state%deflection(i))
-                if (.not. abs(couple) > 0.0_wp) cycle
                 ! A couple at a hinge is refused, so the rotation has one value
                 if (point == 0) then
-                    there = starts(1)
+                    call add(parts, couple*left(1)%rotation)
                 else
-                    there = field_at(point, assembled%pieces(point)%length)
+                    call add(parts, couple*right(point)%rotation)
                 end if
-                call add(parts, couple*there%rotation)
             end associate
         end do
         if (allocated(assembled%growth)) then
@@ -99,15 +87,52 @@ contains
 
     contains
 
-        !> Fields at a distance from the left end of a piece
-        pure function field_at(piece, distance) result(field)
-            integer, intent(in) :: piece
-            real(wp), intent(in) :: distance
-            type(field_type) :: field, found(1)
+        !> Loads along the stretches of a beam on ground or under an axial force
+        subroutine add_stretches()
+            logical, parameter :: inside(2) = .false.
+            type(stretch_load_type) :: load
+            type(stretch_link_type) :: link
+            real(wp), dimension(1) :: turn_a, turn_b, shear_a, shear_b
 
-            call values_at(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, [piece], [distance], found)
-            field = found(1)
-        end function field_at
+            associate (s => state%ground)
+                do i = 1, size(s%piece)
+                    associate (j => s%piece(i), ends => s%ends(i))
+                        load = on_stretch(load_on_part(along(j), s%from(i), s%to(i), assembled%pieces(j)%length, inside))
+                        call condense_loaded(s%stretches(i), [load], link, turn_a, turn_b, shear_a, shear_b)
+                        call add(parts, shear_a(1)*ends%w_a + shear_b(1)*ends%w_b)
+                        call add(parts, turn_a(1)*ends%moment_a + turn_b(1)*ends%moment_b)
+                        if (.not. s%from(i) > 0.0_wp) left(j) = field_type(ends%w_a, s%rotation(1, i), ends%moment_a, 0.0_wp)
+                        right(j) = field_type(ends%w_b, s%rotation(2, i), ends%moment_b, 0.0_wp)
+                    end associate
+                end do
+            end associate
+        end subroutine add_stretches
+
+        !> Loads along the pieces of any other
+        subroutine add_pieces()
+            type(link_type) :: bar
+            real(wp) :: work_of_link(1)
+
+            do i = 1, size(assembled%pieces)
+                call condense_link(assembled%pieces(i:i), [no_load], [along(i)], work_of_link, bar)
+                call add(parts, bar%shear_a(2)*left(i)%deflection - bar%shear_b(2)*right(i)%deflection)
+                call add(parts, bar%turn_a(2)*left(i)%moment + bar%turn_b(2)*right(i)%moment)
+            end do
+        end subroutine add_pieces
+
+        !> What of the live loads is distributed along a piece
+        pure function along(piece) result(load)
+            integer, intent(in) :: piece
+            type(piece_load_type) :: load
+
+            load = no_load
+            associate (live => assembled%live(piece))
+                load%qa = live%qa
+                load%qb = live%qb
+                load%kappa = live%kappa
+                load%rise = live%rise
+            end associate
+        end function along
 
     end function work_of_live_loads
 

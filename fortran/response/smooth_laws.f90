@@ -3,7 +3,7 @@ module gapbeam_smooth_laws
     use gapbeam_kinds, only: wp
     use gapbeam_laws, only: is_smooth, begins_steep, law_force, law_slope
     use gapbeam_scene, only: support_type, gapbeam_both
-    use gapbeam_polyline, only: node_support_type, last_breakpoint, piece_that_acts
+    use gapbeam_polyline, only: node_support_type, last_breakpoint, extend_piece
     use gapbeam_units, only: stiffness_unit
     use gapbeam_assembled_model, only: assembled_type
     implicit none
@@ -155,21 +155,14 @@ contains
         logical, intent(in) :: closed(:)
         !> The beam's supports
         type(node_support_type), intent(inout) :: lines(:)
-        real(wp) :: slope
-        logical :: acts
-        integer :: first, last, k, j
+        integer :: j
 
         do j = 1, size(supports)
-            first = assembled%beam_support(supports(j))
-            last = last_breakpoint(lines, first)
-            k = max(first, first - 1 + count(closed(first:last)))
-            call piece_that_acts(lines, closed, k, acts, slope)
-            if (.not. acts .or. abs(slope) > huge(slope)) cycle
-            lines(first:last)%contact = lines(k)%contact
-            lines(first:last)%force = lines(k)%force
-            lines(first:last)%stiffness = slope
-            lines(first:last)%before = slope
-            lines(first:last)%passed = .true.
+            associate (first => assembled%beam_support(supports(j)))
+                associate (last => last_breakpoint(lines, first))
+                    call extend_piece(lines(first:last), closed(first:last))
+                end associate
+            end associate
         end do
     end subroutine put_pieces
 

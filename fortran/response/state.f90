@@ -5,22 +5,24 @@ module gapbeam_state
     use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_buckles, gapbeam_not_finite, gapbeam_not_converged
     use gapbeam_element, only: field_type
+    use gapbeam_polyline, only: extend_pieces
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
-    use gapbeam_contact_state, only: outcome_type
+    use gapbeam_contact_state, only: outcome_type, is_solved
     use gapbeam_static_indeterminacy, only: refuse_indeterminate
     use gapbeam_extended_precision, only: rule_given, decide_scheme, detail_type, reserve_for
     use gapbeam_search, only: rule_block
     use gapbeam_ground, only: ground_type
-    use gapbeam_moved_ground, only: move_ground
-    use gapbeam_axial_tension, only: tensions_of_loads, changes_of_tension, check_tensions
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_axial_tension, only: check_tensions
     use gapbeam_compressed, only: solve_stable
     use gapbeam_ground_start, only: ground_start_type
+    use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ledger, only: ledger_type
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
-    use gapbeam_assembled_model, only: assembled_type, growth_of, find_length_errors
+    use gapbeam_assembled_model, only: assembled_type, find_length_errors
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range, check_room, has_own_laws, laws_in
     use gapbeam_along_axis, only: solve_along_axis, name_fault
@@ -28,7 +30,7 @@ module gapbeam_state
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
-    public :: solve_state, ground_of, recover_state, certify_state, detail_of, name_range
+    public :: solve_state, recover_state, certify_state, detail_of, name_range
 
 contains
 
@@ -182,6 +184,7 @@ contains
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
+        type(ground_type) :: given
         type(outcome_type) :: outcome
         type(ledger_type) :: ledger
         logical, allocatable :: acting(:)
@@ -189,11 +192,11 @@ contains
         call copy_scheme(state, acting, error)
         if (allocated(error)) return
         allocate (state%ground)
-        call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), &
-                                    acting, state%ground, outcome, error, near)
-        if (.not. allocated(error) .and. outcome%status == gapbeam_solved) then
-            call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
-        end if
+        given = ground
+        call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
+                          state%ground, outcome, error, near)
+        if (rule == rule_given) call solve_as_given()
+        if (is_solved(outcome, error)) call refuse_indeterminate(given%beam, acting, state%ground%undecided, error)
         call name_range(assembled, error)
         if (allocated(error)) return
         state%solves = state%ground%solves
@@ -206,8 +209,38 @@ contains
         state%reaction(:) = state%ground%reaction
         call reserve_memory(for_fields, 0, 0, 2*size(state%ground%piece) + size(acting), error)
         if (allocated(error)) return
-        call audit_ground(ground, state%factor, acting, state%ground, ledger, state%ground%residuals)
+        call audit_ground(given, state%factor, acting, state%ground, ledger, state%ground%residuals)
         call name_fault(assembled, ledger, error)
+
+    contains
+
+        !> Take the scheme that is known where the search has ended in another one: at the end of a piece as well beyond it, and
+        !> where forces fall in another state
+        subroutine solve_as_given()
+            type(ground_solution_type), allocatable :: solution
+            type(outcome_type) :: another
+            type(error_type), allocatable :: trouble
+            logical :: closed(size(acting))
+
+            if (has_ended(error)) return
+            if (is_solved(outcome, error)) then
+                if (all((acting .eqv. state%closed) .or. state%ground%undecided)) return
+            end if
+            call extend_pieces(given%beam%supports, state%closed)
+            allocate (solution)
+            closed(:) = state%closed
+            call solve_stable(given, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
+            solution%solves = solution%solves + state%ground%solves
+            if (is_solved(another, trouble)) then
+                if (allocated(error)) deallocate (error)
+                acting(:) = state%closed
+                outcome = another
+                call move_alloc(solution, state%ground)
+            else
+                given = ground
+            end if
+        end subroutine solve_as_given
+
     end subroutine settle_on_ground
 
     !> The scheme of a state, to start from
@@ -238,76 +271,6 @@ contains
         state%indifferent = outcome%indifferent
         state%closed(:) = acting
     end subroutine take_outcome
-
-    !> The beam with the ground under it, where they are at a load factor
-    function ground_of(assembled, factor, state) result(ground)
-        type(assembled_type), intent(in) :: assembled
-        real(wp), intent(in) :: factor
-        !> In which deflections may lengthen the bars along the axis, and supports have laws of their own
-        type(state_type), intent(in), optional :: state
-        type(ground_type) :: ground
-        logical :: grows, stretches
-        integer :: i
-
-        ground%beam = assembled%beam
-        stretches = .false.
-        if (present(state)) then
-            stretches = allocated(state%stretched)
-            if (allocated(state%laws)) ground%beam%supports(:) = state%laws
-        end if
-        associate (n => size(assembled%pieces))
-            allocate (ground%pieces(n), ground%dead(n), ground%live(n), ground%layers(size(assembled%layers)), &
-                      ground%first(n + 1), ground%laws(size(assembled%law_pieces)))
-        end associate
-        ground%pieces(:) = assembled%pieces
-        ground%dead(:) = assembled%dead
-        ground%live(:) = assembled%live
-        ground%layers(:) = assembled%layers
-        ground%first(:) = assembled%layer_first
-        ground%laws(:) = assembled%law_pieces
-        if (size(assembled%mass_point) > 0) then
-            allocate (ground%mass(0:size(ground%pieces)), source=0.0_wp)
-            do i = 1, size(assembled%mass_point)
-                associate (at => assembled%mass_point(i))
-                    ground%mass(at) = ground%mass(at) + scale(assembled%model%masses(2, i), &
-                                                              assembled%units%deflection - assembled%units%force)
-                end associate
-            end do
-        end if
-        grows = allocated(assembled%growth) .or. allocated(assembled%layer_growth) .or. allocated(assembled%tension_growth) &
-            .or. assembled%model%axial_loads_bend
-        if (.not. grows) return
-        allocate (ground%moving)
-        associate (moving => ground%moving)
-            allocate (moving%supports(2, size(ground%beam%supports)), moving%layers(2, 2, size(ground%layers)), source=0.0_wp)
-            moving%supports(1, :) = ground%beam%supports%contact
-            moving%supports(2, :) = growth_of(assembled)
-            moving%layers(1, 1, :) = ground%layers%contact_a
-            moving%layers(1, 2, :) = ground%layers%contact_b
-            if (allocated(assembled%layer_growth)) moving%layers(2, :, :) = assembled%layer_growth
-            if (allocated(assembled%tension_growth) .or. assembled%model%axial_loads_bend) then
-                allocate (moving%tension(2, size(ground%pieces)))
-                moving%tension(1, :) = ground%pieces%tension
-                moving%tension(2, :) = 0.0_wp
-                if (allocated(assembled%tension_growth)) then
-                    moving%tension(1, :) = ground%pieces%tension - assembled%tension_growth
-                    moving%tension(2, :) = assembled%tension_growth
-                end if
-                if (assembled%model%axial_loads_bend) then
-                    if (stretches) then
-                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled, state%stretched)
-                    else
-                        moving%tension(:, :) = moving%tension + tensions_of_loads(assembled)
-                    end if
-                    if (allocated(assembled%axial%along_bar)) then
-                        moving%tension_change = changes_of_tension(assembled)
-                        moving%tension(:, :) = moving%tension - moving%tension_change/2
-                    end if
-                end if
-            end if
-        end associate
-        call move_ground(ground, factor)
-    end function ground_of
 
     !> Say what it was where the engine left the range of double precision
     subroutine name_range(assembled, error)

@@ -16,7 +16,7 @@ module gapbeam_state_modes
     use gapbeam_modes_quad, only: fine_shape_type => mode_shape_type, find_fine_shape => find_mode_shape
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_solution, only: state_type
-    use gapbeam_state, only: ground_of
+    use gapbeam_loaded_ground, only: ground_of
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
     use gapbeam_tolerances, only: no_displacement
     implicit none

@@ -23,14 +23,15 @@ from . import (
     mutants,
     roads,
     signs,
+    softening,
     trains,
     yielding,
 )  # fmt: skip
 from .table import Row, markdown
 
 MODULES = (
-    enumeration, events, signs, hinges, laws, yielding, curves, doubled, ground, falling, layers, trains, combinations, batches,
-    roads, axial_force, mutants, models, memory,
+    enumeration, events, signs, hinges, laws, yielding, softening, curves, doubled, ground, falling, layers, trains, combinations,
+    batches, roads, axial_force, mutants, models, memory,
 )  # fmt: skip
 FAMILIES = {module.FAMILY.name: module.FAMILY for module in MODULES}
 

@@ -19,6 +19,8 @@ PROMISE = (
 )
 FACTORS = 1e-12
 STATES = 1e-11
+SHORTEST = 1e-15
+"""Way of a segment below which doubles do not tell whether it is one."""
 KINDS = {"softening": 4, "symmetric": 1, "hardening": 2, "plastic": 2, "broken": 1}
 
 
@@ -30,11 +32,11 @@ def draw_scene(seed):
     return kind, symmetric_scene(number, "softening") if kind == "symmetric" else law_scene(number, kind)
 
 
-def judge(made, seed=0):
-    """Follow a scene and compare it with its exact path or history."""
+def judge(made, seed=0, problem=None):
+    """Follow a scene and compare it with its exact path or history; `problem` is the condensed scene, if that is known."""
     if "history" in made["analysis"]:
-        return judge_history(made)
-    path = follow(made)
+        return judge_history(made, problem)
+    path = follow(problem or made)
     verdict = Verdict(path.status)
     if path.status != "solved" or not path.segments:
         verdict.outcome = f"no exact path: {path.status}" if path.status != "solved" else "nothing to follow"
@@ -56,10 +58,11 @@ def path_faults(made, path):
     """How the engine's segments differ from the exact ones."""
     found = Followed(gapbeam.scene.reading.read_beam(made)[1], np.array([1.0]), "follow", 2000).history()
     rows = [(leg, direction, index, ways, *ends) for ends, (leg, direction, index, ways, *_) in
-            zip(found.along.tolist(), found.about.tolist(), strict=True)]  # fmt: skip
+            zip(found.along.tolist(), found.about.tolist(), strict=True)
+            if direction == 0 or abs(ends[1] - ends[0]) > SHORTEST]  # fmt: skip
     ways = {special.segment: len(special.ways) for special in path.specials if len(special.ways) > 1}
     exact = [(s.leg, s.rate, s.index, ways.get(k, 1), float(s.start.factor), float(s.end.factor))
-             for k, s in enumerate(path.segments) if s.rate == 0 or s.end.factor != s.start.factor]  # fmt: skip
+             for k, s in enumerate(path.segments) if s.rate == 0 or abs(s.end.factor - s.start.factor) > SHORTEST]  # fmt: skip
     if len(rows) == len(exact) + 1 and rows[-1][4:] == (0.0, 1.0):
         rows.pop()  # live loads that act on rigid supports only
     if found.ending:
@@ -82,7 +85,7 @@ def state_faults(step, state, which, where):
 
 
 def judge_history(made, problem=None):
-    """A history of load factors, at the end of every leg; `problem` is the condensed scene, if that is known."""
+    """A history of load factors, at the end of every leg."""
     exact = history(problem or made)
     verdict = Verdict(exact.status)
     if exact.status != "solved":

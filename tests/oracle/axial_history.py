@@ -23,6 +23,9 @@ from .axial_force import Mechanism, solve
 from .cells import Loose, Problem
 from .curves import ONE, ZERO, curve_of
 
+NOTHING = mp.mpf(10) ** -60
+"""Share of the largest deflection below which one is rounding, as behind a clamp."""
+
 
 def exact(value):
     """An mpf as a rational number."""
@@ -83,4 +86,6 @@ class CondensedBeam(Problem):
                 found = solve(part, active=[])
             except Mechanism:
                 raise Loose from None
-        return [exact(w) for w in found.deflection[len(self.linear) :]]
+        moved = found.deflection[len(self.linear) :]
+        most = max((abs(w) for w in found.deflection), default=0)
+        return [exact(w) if abs(w) > NOTHING * most else ZERO for w in moved]

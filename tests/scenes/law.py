@@ -147,12 +147,14 @@ def law_scene(rng, family, *, laws=None, alone=True):
     return made
 
 
-def in_stretches(seed):
-    """A scene as of `law_scene`, with plastic or elastic unloading, under an axial force or on two-sided ground.
+def in_stretches(seed, families=("plastic", "plastic", "plastic", "hardening")):
+    """A scene as of `law_scene`, under an axial force or on two-sided ground.
 
     Parameters
     ----------
     seed : int
+    families : tuple of str
+        Of which one is drawn; under compression none whose forces fall.
 
     Returns
     -------
@@ -160,11 +162,17 @@ def in_stretches(seed):
     made : dict
     """
     rng = random.Random(f"in stretches {seed}")
-    made = law_scene(rng, rng.choice(("plastic", "plastic", "plastic", "hardening")))
-    made["analysis"] = {"follow": "events", "history": list(HISTORY)}
+    family = rng.choice(families)
+    made = law_scene(rng, family)
+    if family != "softening":
+        made["analysis"] = {"follow": "events", "history": list(HISTORY)}
+    if family == "broken":
+        made["analysis"]["at_limit"] = "follow"
     beam, length = made["beam"], nodes_of(made)[-1]
     EI = min(beam["EI"]) if isinstance(beam["EI"], list) else beam["EI"]
     kind = rng.choice(("tension", "compression", "ground", "both"))
+    if kind == "compression" and family in ("softening", "broken"):
+        kind = "tension"
     if kind == "compression":
         held = [s for s in made["supports"] if "law" not in s and s.get("side", "both") == "both"]
         first = modes.buckling({**made, "supports": held, "beam": {**beam, "N": -1.0}})[0]

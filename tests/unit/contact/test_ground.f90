@@ -23,7 +23,8 @@ program test_ground
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state, ground_of
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_state, only: solve_state
     use gapbeam_ground_query, only: ground_values, ground_extremes
     use gapbeam_ground_pressure, only: ground_pressure, pressure_extremes
     use gapbeam_ground_distance, only: largest_ways

@@ -8,7 +8,8 @@ program test_ground_audit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble, only: assemble_model
     use gapbeam_solution, only: state_type, new_state
-    use gapbeam_state, only: solve_state, ground_of
+    use gapbeam_loaded_ground, only: ground_of
+    use gapbeam_state, only: solve_state
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_audit, only: audit_ground
