@@ -6,8 +6,9 @@ module gapbeam_train_problem
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_laws, only: is_smooth
     use gapbeam_ground, only: ground_type, grounded_type
-    use gapbeam_ground_start, only: settle_nearby
+    use gapbeam_ground_start, only: ground_start_type, settle_nearby
     use gapbeam_workspace, only: workspace_type
     use gapbeam_zone_margin, only: change_type, find_margin
     use gapbeam_assembled_model, only: assembled_type
@@ -45,6 +46,8 @@ module gapbeam_train_problem
         logical, allocatable :: acts(:)
         real(wp) :: first = 0.0_wp
         integer :: parts = 1
+        !> Is the law of any support a curve
+        logical :: on_curves = .false.
     contains
         procedure :: find
         procedure :: alike
@@ -69,6 +72,7 @@ contains
         problem%train = train
         problem%rule = rule
         problem%parameter = "position"
+        problem%on_curves = any(is_smooth(assembled%model%supports%law))
         problem%extent = end_of_beam(assembled)
         problem%neighbours = neighbours
         problem%neighbours_at_end = neighbours
@@ -188,7 +192,7 @@ contains
 
         margin = 0.0_wp
         place = -1.0_wp
-        if (allocated(problem%assembled%layers)) then
+        if (allocated(problem%assembled%layers) .and. .not. problem%on_curves) then
             call measure_on_ground(problem, change, at, near, point, margin, place, known, other)
             return
         end if
@@ -198,8 +202,37 @@ contains
             allocate (position_type :: point)
             return
         end if
-        if (point%stands) call measure_support(problem%boxes(number_of(point))%of, change%support, margin, known)
+        if (.not. point%stands) return
+        associate (kept => problem%boxes(number_of(point))%of)
+            if (change%support > 0) known = is_smooth(kept%placed%model%supports(kept%placed%normal(change%support))%law)
+            if (known .or. .not. allocated(kept%placed%layers)) then
+                call measure_support(kept, change%support, margin, known)
+            else
+                call measure_on_tangents(kept, problem%rule, change, problem%solves, margin, place, known)
+            end if
+        end associate
     end subroutine measure
+
+    !> The same of what is on no curve, on the ground, where tangents of the state take the place of curves
+    subroutine measure_on_tangents(kept, rule, change, solves, margin, place, known)
+        type(kept_type), intent(in) :: kept
+        integer, intent(in) :: rule
+        type(change_type), intent(in) :: change
+        integer, intent(inout) :: solves
+        real(wp), intent(inout) :: margin, place
+        logical, intent(out) :: known
+        type(ground_type) :: ground
+        type(ground_start_type) :: start
+        type(grounded_type) :: grounded
+        type(workspace_type) :: work
+        logical :: settled
+
+        ground = ground_of(kept%placed, 1.0_wp, kept%state)
+        start = kept%start
+        call settle_nearby(ground, 1.0_wp, rule, start, grounded, work, solves, settled, known)
+        if (known) call find_margin(ground, grounded, start%zones, 1.0_wp, work, start%closed, change, margin, place)
+        if (known .and. place >= 0.0_wp) place = scale(place, kept%placed%units%length)
+    end subroutine measure_on_tangents
 
     !> The same on the ground, in double precision
     subroutine measure_on_ground(problem, change, at, near, point, margin, place, known, other)

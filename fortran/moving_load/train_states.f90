@@ -11,7 +11,6 @@ module gapbeam_train_states
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_loaded_ground, only: ground_of
-    use gapbeam_state, only: solve_state
     use gapbeam_smooth_laws, only: past_curve, deflections_at_curves, reaction_at
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_pieces, only: acting_type, acting_piece, gapbeam_open, gapbeam_branch
@@ -69,7 +68,7 @@ contains
         !> A state nearby
         type(kept_type), intent(in), optional :: near
         type(ground_start_type) :: start
-        logical :: known
+        logical :: known, starts
 
         kept%position = position
         allocate (kept%acts, source=acts)
@@ -78,23 +77,24 @@ contains
         if (.not. allocated(error)) call new_state(kept%placed, kept%state, error)
         if (allocated(error)) return
         known = .false.
-        if (present(near)) known = same_units(near, kept%placed)
-        if (.not. allocated(assembled%layers)) then
-            known = known .and. allocated(near%state)
-            if (known) known = near%status == gapbeam_solved
-            if (known) then
-                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
-                                   deflections_at_curves(near%placed, near%state%deflection))
-            else
-                call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
+        starts = .false.
+        if (present(near)) then
+            known = same_units(near, kept%placed)
+            if (known .and. allocated(assembled%layers)) then
+                call put_near(near, kept%placed, ground_of(kept%placed, 1.0_wp), start, starts)
             end if
+            known = known .and. near%status == gapbeam_solved .and. (starts .or. .not. allocated(assembled%layers))
+        end if
+        if (known .and. starts) then
+            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
+                               deflections_at_curves(near%placed, near%state%deflection), start)
+        else if (known) then
+            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
+                               deflections_at_curves(near%placed, near%state%deflection))
+        else if (starts) then
+            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, start=start)
         else
-            if (known) call put_near(near, kept%placed, ground_of(kept%placed, 1.0_wp), start, known)
-            if (known) then
-                call solve_state(kept%placed, 1.0_wp, rule, kept%state, error, start)
-            else
-                call solve_state(kept%placed, 1.0_wp, rule, kept%state, error)
-            end if
+            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
         end if
         if (allocated(error)) then
             if (all(error%code /= [gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite])) return

@@ -10,7 +10,6 @@ module gapbeam_axial_force
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_axial, &
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
-    use gapbeam_laws, only: is_smooth
     use gapbeam_units, only: rotation_unit
     use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone, turns, has_ground_along
     use gapbeam_piece_stiffness, only: stiffness_of
@@ -62,7 +61,6 @@ contains
             if (.not. they_may) return
             they_may = .not. (any(s%direction == gapbeam_axial .and. (s%side /= gapbeam_both .or. with_law)) &
                               .or. any(s%friction > 0.0_wp) .or. any(has_ground_along(model%sections)) &
-                              .or. any(is_smooth(s%law)) .and. model%with_trains &
                               .or. any(loads%kind == gapbeam_axial_distributed) .and. .not. may_change(model))
             do i = 1, size(loads)
                 if (loads(i)%kind /= gapbeam_movement) cycle

@@ -38,7 +38,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         character(len=*), parameter :: in_version = " is not available in this version", &
             beside_curve = " beside a support whose law is a curve"//in_version//"; give the points of the curve"
-        character(len=:), allocatable :: which, where, in_trains
+        character(len=:), allocatable :: which, where
         logical, allocatable :: falls(:)
         logical :: curved, stiff
         integer :: k, stat
@@ -47,8 +47,6 @@ contains
         if (stat /= 0) call no_memory(error)
         if (allocated(error)) return
         curved = any(is_smooth(model%supports%law))
-        in_trains = " under trains"
-        if (what_stretches(model) == "trains") in_trains = ""
         stiff = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
         do k = 1, size(model%supports)
             associate (s => model%supports(k))
@@ -56,9 +54,7 @@ contains
                 where = which
                 if (turns(s)) which = "that holds a rotation"
                 if (turns(s)) where = "over a rotation"
-                if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. in_stretches(model) .and. model%with_trains) then
-                    call say("law", "a curve beside "//trim(what_stretches(model))//in_trains//in_version//"; give its points")
-                else if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. any(falls_there(model%ground_law))) then
+                if (s%direction == gapbeam_normal .and. is_smooth(s%law) .and. any(falls_there(model%ground_law))) then
                     call say("law", "a curve beside a foundation whose force falls"//in_version//"; give its points")
                 else if (.not. (s%friction >= 0.0_wp .and. s%friction <= huge(1.0_wp))) then
                     call say("friction", "expected a finite number, 0 or more, got "//trim(shown(s%friction)))

@@ -154,7 +154,6 @@ def test_cases_and_combinations():
 @pytest.mark.parametrize(
     ("more", "what"),
     [
-        ({"trains": [{"axles": [[0.0, 5.0]]}], "foundation": [{"k": 1.0}]}, "a curve beside a foundation under trains"),
         ({"foundation": [{"law": [[0.01, 5.0], [0.02, 1.0], [0.03, 1.0]]}]}, "a curve beside a foundation whose force falls"),
         ({"foundation": [{"k": 1.0}], "analysis": {"follow": "events", "history": [1.0, 0.0]}}, "a curve with a history"),
     ],

@@ -144,6 +144,15 @@ SCENES = {
         ],
         foundation=[],
     ),
+    "pads": rail(
+        beam={"spans": [4.0, 4.0, 4.0], "EI": 200.0},
+        supports=[
+            {"node": 0, "side": "below"}, {"node": 3, "side": "below"},
+            {"node": 1, "side": "below", "gap": 0.002, "law": {"type": "cubic", "k1": 100.0, "k3": 1e5}},
+            {"node": 2, "law": {"type": "hyperbolic", "stiffness": 400.0, "limit": 15.0}},
+        ],
+        foundation=[{"k": 8.0, "side": "below", "gap": 0.001, "from": 2.0, "to": 7.0}],
+    ),
 }  # fmt: skip
 
 
@@ -165,11 +174,12 @@ def test_the_smallest_between_two_states_of_the_grid():
     assert found < 0.00744342
 
 
-def test_a_law_that_is_nearly_a_line():
-    """Beside the polynomials in the position for a spring."""
+@pytest.mark.parametrize("pull", [{}, {"N": 30.0}], ids=["plain", "tension"])
+def test_a_law_that_is_nearly_a_line(pull):
+    """Beside the polynomials in the position for a spring; under tension beside what a spring makes of states."""
     def beam(support):
         support = {"node": 1, "side": "below", "gap": 0.01, **support}
-        return gapbeam.solve(rail(beam={"spans": [6.0, 6.0], "EI": 200.0}, foundation=[],
+        return gapbeam.solve(rail(beam={"spans": [6.0, 6.0], "EI": 200.0, **pull}, foundation=[],
                                   supports=[{"node": 0, "side": "below"}, support, {"node": 2, "side": "below"}]))  # fmt: skip
 
     line, curve = beam({"stiffness": 90.0}), beam({"law": {"type": "tanh", "stiffness": 90.0, "limit": 1e9}})
