@@ -10,7 +10,7 @@ module gapbeam_history_beam
     use gapbeam_axial_force, only: what_stretches
     use gapbeam_law, only: both
     use gapbeam_laws, only: is_smooth
-    use gapbeam_piece, only: is_compressed
+    use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_layers, only: layer_type, has_points
     use gapbeam_model_quad, only: beam_type
     use gapbeam_ground, only: ground_type
@@ -37,7 +37,7 @@ contains
         integer, allocatable, intent(out) :: node(:)
         !> A beam in stretches that change along the path, or under which supports break; or no memory
         type(error_type), allocatable, intent(out) :: error
-        type(ground_type) :: ground
+        type(ground_type) :: ground, held
         type(fine_ground_type) :: fine
         type(zones_type) :: zones
         type(grounded_type) :: grounded
@@ -53,7 +53,9 @@ contains
         if (.not. allocated(error)) call reserve_memory(for_ground, size(assembled%pieces), size(assembled%beam%supports), 0, error)
         if (allocated(error)) return
         ground = ground_of(assembled, 0.0_wp)
-        if (.not. is_unique(ground)) then
+        held = ground
+        call leave_out_falling(held%beam%supports)
+        if (.not. is_unique(held)) then
             call fatal_error(error, gapbeam_bad_input, "a history is followed only where the compressed beam (N below 0) is "// &
                              "stable with all supports that yield or act one way open; press less, or give it more supports "// &
                              "that hold it both ways")
@@ -66,35 +68,40 @@ contains
         allocate (node(0:ubound(grounded%node, 1)), source=grounded%node)
     end subroutine make_history_beam
 
-    !> Smooth laws are refused in stretches, and under compression laws whose force falls
+    !> Smooth laws are refused in stretches
     subroutine check_supports(assembled, error)
         type(assembled_type), intent(in) :: assembled
         type(error_type), allocatable, intent(out) :: error
         integer :: k
 
-        associate (laws => assembled%beam%supports)
-            do k = 1, size(laws)
-                if (is_smooth(assembled%model%supports(assembled%normal(k))%law)) then
-                    call say("a curve with a history, or with a support that keeps a set, beside "// &
-                             trim(what_stretches(assembled%model)), "give its points")
-                else if (min(laws(k)%stiffness, laws(k)%before) < 0.0_wp .and. any(is_compressed(assembled%pieces))) then
-                    call say("a law whose force falls beside compression (N below 0)", "give one that rises, or first_order")
-                end if
-                if (allocated(error)) return
-            end do
-        end associate
-
-    contains
-
-        !> Refuse support k
-        subroutine say(what, remedy)
-            character(len=*), intent(in) :: what, remedy
-
-            call refuse(error, of_supports, assembled%normal(k), size(assembled%model%supports), bad_law, "law", &
-                        what//" is not available in this version; "//remedy)
-        end subroutine say
-
+        do k = 1, size(assembled%normal)
+            associate (number => assembled%normal(k), given => assembled%model%supports)
+                if (.not. is_smooth(given(number)%law)) cycle
+                call refuse(error, of_supports, number, size(given), bad_law, "law", "a curve with a history, or with a "// &
+                            "support that keeps a set, beside "//trim(what_stretches(assembled%model))//" is not available "// &
+                            "in this version; give its points")
+                return
+            end associate
+        end do
     end subroutine check_supports
+
+    !> Supports whose force falls hold nothing for sure
+    pure subroutine leave_out_falling(supports)
+        type(node_support_type), intent(inout) :: supports(:)
+        integer :: first, last
+
+        last = 0
+        do while (last < size(supports))
+            first = last + 1
+            last = last_breakpoint(supports, first)
+            associate (law => supports(first:last))
+                if (.not. min(minval(law%stiffness), minval(law%before)) < 0.0_wp) cycle
+                law%stiffness = 0.0_wp
+                law%before = 0.0_wp
+                law%force = 0.0_wp
+            end associate
+        end do
+    end subroutine leave_out_falling
 
     !> Ground and axial forces that change along the path are refused
     subroutine check_stretches(assembled, error)

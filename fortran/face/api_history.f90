@@ -27,7 +27,7 @@ module gapbeam_api_history
 contains
 
     !> Put on the dead loads, settlements and lacks of fit together, then go through load factors in turn, by the exact path.
-    !> Foundations may hold both ways by k alone, and N may not grow; where it presses no support softens or breaks
+    !> Foundations may hold both ways by k alone, and N may not grow
     subroutine follow_history(beam, factors, at_limit, history, error)
         !> Prepared
         type(prepared_type), intent(in) :: beam

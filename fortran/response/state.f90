@@ -18,7 +18,7 @@ module gapbeam_state
     use gapbeam_axial_tension, only: check_tensions
     use gapbeam_compressed, only: solve_stable
     use gapbeam_ground_start, only: ground_start_type
-    use gapbeam_ground_solution, only: ground_solution_type
+    use gapbeam_ground_solver, only: ground_solution_type, solve_on_ground
     use gapbeam_ledger, only: ledger_type
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
@@ -229,7 +229,7 @@ contains
             call extend_pieces(given%beam%supports, state%closed)
             allocate (solution)
             closed(:) = state%closed
-            call solve_stable(given, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
+            call solve_on_ground(given, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
             solution%solves = solution%solves + state%ground%solves
             if (is_solved(another, trouble)) then
                 if (allocated(error)) deallocate (error)

@@ -154,7 +154,7 @@ def in_stretches(seed, families=("plastic", "plastic", "plastic", "hardening")):
     ----------
     seed : int
     families : tuple of str
-        Of which one is drawn; under compression none whose forces fall.
+        Of which one is drawn.
 
     Returns
     -------
@@ -171,8 +171,6 @@ def in_stretches(seed, families=("plastic", "plastic", "plastic", "hardening")):
     beam, length = made["beam"], nodes_of(made)[-1]
     EI = min(beam["EI"]) if isinstance(beam["EI"], list) else beam["EI"]
     kind = rng.choice(("tension", "compression", "ground", "both"))
-    if kind == "compression" and family in ("softening", "broken"):
-        kind = "tension"
     if kind == "compression":
         held = [s for s in made["supports"] if "law" not in s and s.get("side", "both") == "both"]
         first = modes.buckling({**made, "supports": held, "beam": {**beam, "N": -1.0}})[0]

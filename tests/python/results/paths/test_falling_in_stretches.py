@@ -1,11 +1,10 @@
-"""Supports that soften or break, under tension, on ground and with mass. Random ones are in `tests/attack/softening.py`."""
+"""Supports that soften or break, under axial forces, on ground and with mass. Random ones are in `tests/attack/softening.py`."""
 
 import math
 
 import gapbeam
 import numpy as np
 import pytest
-from gapbeam import EngineError
 from scenes.law import law_scene
 
 C = (0.5 - math.tanh(1.5) / 3.0) / 18.0
@@ -69,7 +68,11 @@ def test_a_softening_prop_slows_a_beam_down():
     assert -4e4 * b**3 / (math.tan(5.0 * b) - math.tanh(5.0 * b)) == pytest.approx(-300.0, rel=1e-11)
 
 
-def test_compression_beside_it_is_refused():
-    """Whether a state is stable is not known there."""
-    with pytest.raises(EngineError, match=r"supports\[1\].law: a law whose force falls beside compression \(N below 0\)"):
-        gapbeam.solve({**string(), "beam": {"spans": [1.0], "EI": 1.0, "N": -2.0}})
+def test_a_strut_on_a_prop_that_snaps():
+    """Under compression, u = 2 over the length: the deflection of the middle of a simple beam-column under a force of 1."""
+    c = (math.tan(1.0) - 1.0) / 16.0
+    scene = string(at_limit="follow") | {"beam": {"spans": [1.0], "EI": 1.0, "N": -4.0}}
+    result = gapbeam.solve(scene)
+    assert result.limits[0].factor == pytest.approx((1.0 + 0.01 / c) / 4.0, rel=1e-13)
+    assert [step.deflection[1] for step in result.steps] == pytest.approx([0.01, 0.012, c * 3.8], rel=1e-12)
+    assert [segment.index for segment in result.path.segments] == [0, 1, 0]
