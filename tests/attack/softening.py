@@ -8,8 +8,8 @@ from .family import Family, Verdict
 from .laws import judge as judge_on_laws
 
 PROMISE = (
-    "Under an axial force that stays, and on ground that holds both ways by k alone, paths of softening supports have the segments, "
-    "histories of brittle ones the states, of exact ones on compliances in 90 digits"
+    "Under an axial force that stays, and on ground that holds both ways by k alone, paths of softening supports have the "
+    "segments, histories of brittle ones the states, of exact ones on compliances in 90 digits"
 )
 
 
