@@ -7,7 +7,7 @@
 module gapbeam_local_step
     use gapbeam_kinds, only: wp, qp
     use gapbeam_band, only: band_ok, count_unstable_pivots
-    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit, last_breakpoint
+    use gapbeam_polyline, only: node_support_type, piece_that_acts, break_law, find_unit, last_breakpoint, vertical_pieces
     use gapbeam_unloading, only: unload
     use gapbeam_polyline_quad, only: fine_support_type => node_support_type
     use gapbeam_law_margins, only: is_watched_in
@@ -240,6 +240,14 @@ contains
                 local%changed = [local%changed, (j, j=first, last)]
             end do
             call change_supports(local%beam, local%changed, stretch%direction*factor, closed, stretch)
+            ! Two that hold a node leave no room between them, or share what is there as nothing tells
+            do i = 1, size(numbers)
+                associate (beam => local%beam, node => local%beam%supports(numbers(i))%node)
+                    associate (there => beam%order(beam%first(node):beam%first(node + 1) - 1))
+                        stretch%current = stretch%current .and. vertical_pieces(beam%supports, closed, there) <= 1
+                    end associate
+                end associate
+            end do
             if (.not. stretch%current .or. breaks) return
             do i = 1, size(numbers)
                 responses(i) = response_in(local%beam, closed, numbers(i), stretch)

@@ -27,7 +27,7 @@ module gapbeam_extended_precision
     use gapbeam_contact_state_quad, only: find_fine_contact_state => find_contact_state, fine_outcome_type => outcome_type
     use gapbeam_ill_scaled_signs, only: flip_ill_scaled
     use gapbeam_refined, only: detail_type, refine_loaded_beam
-    use gapbeam_undecided, only: find_undecided
+    use gapbeam_undecided, only: find_undecided, come_to_rest
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_beam
     implicit none
@@ -187,7 +187,7 @@ contains
         type(fine_beam_type) :: fine
         type(fine_workspace_type) :: fine_work
         logical, allocatable :: found(:)
-        logical :: same
+        logical :: same, rests
         integer :: state, place
 
         undecided(:) = .false.
@@ -210,6 +210,7 @@ contains
             return
         end if
         outcome = outcome_type()
+        call come_to_rest(fine, fine_work, rests)
         call find_undecided(fine, real(factor, qp), closed, fine_work, undecided)
         call take_rounded(fine_work, work)
     end subroutine refer_given
@@ -262,7 +263,7 @@ contains
         type(fine_outcome_type) :: found
         real(qp), allocatable :: reaction(:)
         integer :: try, solves
-        logical :: known
+        logical :: known, rests
 
         undecided(:) = .false.
         call reserve_for(for_refining, beam, detail, error)
@@ -285,7 +286,8 @@ contains
             outcome%motion = real(found%motion, wp)
             return
         end if
-        if (.not. found%indifferent) then
+        call come_to_rest(fine, fine_work, rests)
+        if (.not. (found%indifferent .or. rests)) then
             solves = fine_work%solves
             call flip_ill_scaled(fine, closed, fine_work, known)
             work%solves = work%solves + fine_work%solves - solves

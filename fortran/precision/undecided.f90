@@ -12,7 +12,7 @@ module gapbeam_undecided
     use gapbeam_sensitivity_quad, only: sensitivity_type, prepare_sensitivity, way_of_forces, movement_of_support
     implicit none
     private
-    public :: find_undecided
+    public :: find_undecided, come_to_rest
 
 contains
 
@@ -79,5 +79,29 @@ contains
         end subroutine compare
 
     end subroutine find_undecided
+
+    !> A rigid beam without loads on which nothing pushes has no forces: what is left is rounding of what springs, those too that
+    !> hold it in its search, make of the levels at which supports begin to act
+    pure subroutine come_to_rest(fine, work, rests)
+        type(beam_type), intent(in) :: fine
+        type(workspace_type), intent(inout) :: work
+        !> Is it such a beam
+        logical, intent(out) :: rests
+        real(qp) :: stiffest, farthest
+
+        rests = .false.
+        if (allocated(fine%turning) .or. any(fine%links%faa > 0.0_qp)) return
+        if (any(work%load_size > 0.0_qp) .or. any(work%turn_size > 0.0_qp)) return
+        associate (stiffness => fine%supports%stiffness, levels => abs(fine%supports%contact))
+            stiffest = max(softest(fine), maxval(stiffness, stiffness <= huge(stiffness)))
+            farthest = max(0.0_qp, maxval(levels, levels <= huge(levels)))
+        end associate
+        if (any(abs(work%reaction) > fine_width*epsilon(1.0_qp)*stiffest*farthest)) return
+        work%reaction(:) = 0.0_qp
+        work%shear(:) = 0.0_qp
+        work%answers%moment_left = 0.0_qp
+        work%answers%moment_right = 0.0_qp
+        rests = .true.
+    end subroutine come_to_rest
 
 end module gapbeam_undecided

@@ -105,6 +105,17 @@ def test_supports_that_meet_are_named():
     assert str(result).splitlines()[1].startswith("Limit of movements at load factor 0.4")
 
 
+@pytest.mark.parametrize("moved", [2, 3])
+def test_what_moves_comes_to_what_is_pressed_already(moved):
+    """Whichever of the two the scene names first."""
+    pair = [at(2, side="above", gap=0.002), at(2, side="below")]
+    loads = [force(9.0, -500.0, case="dead"), movement(moved, -0.0035)]
+    made = scene([6.0, 3.0], [at(0), at(1), *(pair if moved == 3 else pair[::-1])], loads, EI=1e4)
+    result = gapbeam.solve(made)
+    assert result.status == "limit-load"
+    assert result.limits[0].factor == pytest.approx(4.0 / 7.0, rel=1e-14)
+
+
 def test_combinations():
     """Factors of cases multiply movements, those of dead too."""
     loads = [uniform(3.0, case="live"), movement(1, 0.01, case="dead"), movement(2, -0.004, case="heat")]
