@@ -36,7 +36,7 @@ module gapbeam_ground_solver
     use gapbeam_ground_fields, only: largest_inside
     use gapbeam_rigid_solver, only: solve_on_rigid_ground
     use gapbeam_ground_start, only: ground_start_type
-    use gapbeam_ground_ties, only: stands_on_edge, may_move, least_force, come_to_rest
+    use gapbeam_ground_ties, only: stands_on_edge, may_move, presses_ground, least_force, come_to_rest
     use gapbeam_ground_limit, only: find_collapse
     implicit none
     private
@@ -170,8 +170,8 @@ contains
                 call move_alloc(motion, outcome%motion)
             end if
             outcome%motion(:) = merge(0.0_wp, outcome%motion, abs(outcome%motion) <= no_displacement)
-            ! No support would stop it sooner or later
-            if (.not. is_stopped_by(outcome%motion)) return
+            ! No support would stop it sooner or later, nor ground
+            if (.not. (is_stopped_by(outcome%motion) .or. presses_ground(fine, outcome%motion))) return
         end if
         call fatal_error(error, gapbeam_not_converged, "the zones in which the beam touches the ground could not be settled: "// &
                          "look for a load at the very end of the ground, or for ground that is far stiffer than the beam")

@@ -5,7 +5,7 @@ module gapbeam_ground_ties
     use gapbeam_piece_quad, only: piece_load_type, combine_loads, greatest_softness
     use gapbeam_ground_quad, only: ground_type, zones_type, grounded_type
     use gapbeam_nodes, only: is_hinge
-    use gapbeam_layers_quad, only: other_way
+    use gapbeam_layers_quad, only: other_way, has_limit
     use gapbeam_ground_laws_quad, only: line_of_breakpoint
     use gapbeam_zone_fields_quad, only: fields_at_ends
     use gapbeam_workspace_quad, only: workspace_type
@@ -17,7 +17,7 @@ module gapbeam_ground_ties
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private
-    public :: stands_on_edge, may_move, least_force, come_to_rest
+    public :: stands_on_edge, may_move, presses_ground, least_force, come_to_rest
 
 contains
 
@@ -216,6 +216,25 @@ contains
         solution%loads%qa = 0.0_wp
         solution%loads%qb = 0.0_wp
     end subroutine come_to_rest
+
+    !> Does a motion go into ground whose force has no limit
+    pure function presses_ground(ground, motion) result(presses)
+        type(ground_type), intent(in) :: ground
+        !> Downward displacements of the nodes of the beam without ground, shape (0:n)
+        real(wp), intent(in) :: motion(0:)
+        logical :: presses
+        integer :: j, k
+
+        presses = .false.
+        do j = 1, size(ground%pieces)
+            do k = ground%first(j), ground%first(j + 1) - 1
+                associate (layer => ground%layers(k), moves => motion(j - 1:j))
+                    if (has_limit(layer, ground%laws)) cycle
+                    presses = presses .or. any(layer%side*moves > 0.0_wp) .or. layer%side == 0 .and. any(abs(moves) > 0.0_wp)
+                end associate
+            end do
+        end do
+    end function presses_ground
 
     !> May the beam move although it is in equilibrium: off supports and ground that carry nothing, and against nothing else
     function may_move(ground, zones, grounded, closed, solution) result(free)

@@ -1,5 +1,6 @@
 """Beams on the ground: against a reference solution in 25 digits, and against themselves."""
 
+import contextlib
 import math
 import pickle
 from itertools import pairwise
@@ -214,6 +215,19 @@ def test_a_beam_without_load_in_a_clearance():
         followed = gapbeam.solve(scene | {"analysis": {"follow": "events"}})
         assert followed.status == "solved"
         assert followed.steps[-1].indifferent
+
+
+def test_ground_stops_a_beam_that_next_to_nothing_holds():
+    """Pressed at its left end, the beam turns until the ground above its right end stops it, on zones of 1e-4 and 1e-6."""
+    made = {"beam": {"spans": [3.0, 4.0], "EI": 1e4},
+            "supports": [{"node": 1, "side": "below", "gap": 0.002}, {"node": 0, "side": "above", "gap": 0.002}],
+            "foundation": [{"k": 1e4, "side": "below", "gap": 0.005}, {"k": 1e3, "side": "above", "gap": 0.005}],
+            "loads": [{"type": "force", "x": 0.0, "F": 24.0}]}  # fmt: skip
+    assert [round(zone.to - zone.from_, 6) for zone in gapbeam.solve(made).steps[-1].contact] == [1.15272, 1.433377]
+    for less in (1e-8, 1e-10):
+        made["loads"][0]["F"] = 24.0 * less
+        with contextlib.suppress(gapbeam.EngineError):  # that zones could not be settled; they cannot say that it falls
+            assert gapbeam.solve(made).status == "solved"
 
 
 def test_a_beam_about_to_tip_over_an_edge():
