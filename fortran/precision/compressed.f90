@@ -28,6 +28,7 @@ module gapbeam_compressed
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_ground_mechanism, only: solve_or_refute
     use gapbeam_falling_ground, only: solve_on_falling_ground
     implicit none
     private
@@ -60,7 +61,7 @@ contains
             return
         end if
         if (.not. any(is_compressed(ground%pieces))) then
-            call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+            call solve_or_refute(ground, detail, factor, rule, closed, solution, outcome, error, near)
             return
         end if
         if (any(ground%layers%rigid)) then

@@ -182,6 +182,21 @@ def test_a_part_without_load_beyond_a_hinge_turns_without_end():
     assert "moves" not in result.reason
 
 
+@pytest.mark.parametrize(("hinges", "load", "turn"), [
+    ([5.6, 6.1], {"type": "force", "x": 5.96, "F": 24.0}, [(0.0, 5.6), (6.1, 8.0)]),
+    ([1.0, 2.0, 2.7], {"type": "uniform", "q": 8.0, "to": 1.0}, [(1.0, 2.0), (2.0, 2.7), (2.7, 8.0)]),
+])  # fmt: skip
+def test_parts_without_load_on_both_sides_of_hinges_turn_without_end(hinges, load, turn):
+    """The loads do no work along their motions, so nothing may push there; ground would, for the hinges are pressed into it."""
+    made = {"beam": {"spans": [2.0, 2.0, 4.0], "EI": 1e4, "hinges": hinges}, "foundation": [{"k": 1e3, "side": "below"}],
+            "loads": [load]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.status == "no-equilibrium"
+    places = [x for x, displacement in result.motion if displacement < 0.0]
+    assert all(any(a <= x <= b for a, b in turn) for x in places)
+    assert {0.0, 8.0} & set(places) == {0.0, 8.0} & {x for pair in turn for x in pair}
+
+
 def test_what_holds_a_part_without_load_beyond_a_hinge():
     """Where the ground ends at the hinge it is free to turn; tension, or a stop above it, say where it stays."""
     free = gapbeam.solve(beyond_a_hinge(to=4.0))
