@@ -1,6 +1,7 @@
 !> Status codes and errors.
 !> Outcomes carry data and are no errors: a scene without equilibrium is valid.
 module gapbeam_error
+    use gapbeam_kinds, only: wp
     implicit none
     private
     public :: error_type, fatal_error, no_memory, out_of_range, has_ended, status_text, status_codes, status_texts, unknown_status
@@ -63,6 +64,8 @@ module gapbeam_error
         integer :: reason = 0
         character(len=16) :: key = " "
         integer :: partner = 0
+        !> Distance from the left end that the message tells in the engine's units, -1: none
+        real(wp) :: distance = -1.0_wp
     end type error_type
 
 contains

@@ -324,8 +324,8 @@ module gapbeam_tolerances
     real(wp), parameter :: rigid_places = 2.0_wp**(-26)
     !> The same in quadruple precision. Read by precision/rigid_solver
     real(qp), parameter :: fine_rigid_places = 2.0_qp**(-80)
-    !> Part of the largest displacement that is none, of a motion on the ground or a mode; tuned. Read by precision/ground_solver,
-    !> response/state_modes
+    !> Part of the largest displacement that is none, of a motion on the ground or a mode; tuned. Read by
+    !> precision/ground_mechanism, precision/ground_solver, response/state_modes
     real(wp), parameter :: no_displacement = 1e-6_wp
     !> Zones of less than this share of the beam have no length: rounding of the place. Read by precision/ground_ties
     real(qp), parameter :: min_tied_zone = 4*epsilon(1.0_wp)

@@ -21,7 +21,7 @@ module gapbeam_search
         last_non_monotone_solves, law_non_monotone_solves, most_law_steps, final_non_monotone_solves, rounding_changes, &
         most_guess_steps, few_guess_changes, steps_between_guesses, subdomain_rounds, few_wrong_supports
     use gapbeam_tolerances, only: last_width, rounding_product, most_in_subdomains
-    use gapbeam_words, only: whole
+    use gapbeam_words, only: shown, whole
     use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_band, only: band_ok, band_mechanism, band_needs_pivoting, band_stopped
@@ -378,18 +378,21 @@ contains
         integer, intent(in) :: state, place
         type(error_type), allocatable, intent(out) :: error
         character(len=:), allocatable :: text
+        real(kind(0.0d0)) :: x
 
-        text = trim(whole(place))//" of "//trim(whole(size(beam%links)))
+        x = real(sum(beam%links(:min(place, size(beam%links)))%length), kind(x))
+        text = "near x = "//trim(shown(x))
         if (state == band_stopped) then
             call end_if_stopped(beam%watch, error)
         else if (state == band_needs_pivoting) then
-            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam near node "//text// &
+            call fatal_error(error, gapbeam_indeterminate, "a rigid stretch of the beam "//text// &
                              " rests on more rigid supports than statics can tell apart: give the stretch"// &
                              " or one of its supports a finite stiffness")
         else
-            call fatal_error(error, gapbeam_not_converged, "near node "//text//" so little holds the beam that it cannot be "// &
+            call fatal_error(error, gapbeam_not_converged, text//" so little holds the beam that it cannot be "// &
                              "solved: give supports or ground there a stiffness from the start, or ask for more of the load")
         end if
+        error%distance = x
     end subroutine refuse_scheme
 
 end module gapbeam_search

@@ -16,7 +16,8 @@ module gapbeam_events
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state, close_all, forget
     use gapbeam_search, only: rule_block
-    use gapbeam_state, only: solve_state, detail_of, name_range
+    use gapbeam_along_axis, only: name_range
+    use gapbeam_state, only: solve_state, detail_of
     use gapbeam_memory, only: for_following
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_smooth_events, only: find_on_laws

@@ -7,7 +7,7 @@ module gapbeam_api_history
     use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_state, only: name_range
+    use gapbeam_along_axis, only: name_range
     use gapbeam_history_record, only: runs_of, gapbeam_limit_stop => at_limit_stop, gapbeam_limit_jump => at_limit_jump, &
         gapbeam_limit_follow => at_limit_follow, gapbeam_limit_point => limit_point, gapbeam_bifurcation => bifurcation, &
         gapbeam_mechanism => mechanism, gapbeam_path_ended => ended, gapbeam_arrived => no_limit, cut_off

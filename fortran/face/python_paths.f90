@@ -67,7 +67,7 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
     use gapbeam_history_record, only: runs_of
     use gapbeam_history_events, only: find_events
     use gapbeam_smooth_path, only: follow_on_laws
-    use gapbeam_state, only: name_range
+    use gapbeam_along_axis, only: name_range
     implicit none
     integer(8), intent(in) :: beam
     integer, intent(in) :: nf

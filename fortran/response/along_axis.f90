@@ -1,18 +1,19 @@
 !> The chain of bars and springs along the axis of a beam: its forces and displacements, audited.
 module gapbeam_along_axis
     use gapbeam_kinds, only: wp, qp
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
     use gapbeam_ledger, only: ledger_type, words_for
     use gapbeam_audit, only: audit_axial
     use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
     use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assemble_units, only: name_farthest
     use gapbeam_bedding_state, only: solve_bedding
     use gapbeam_solution, only: state_type
     implicit none
     private
-    public :: solve_along_axis, name_fault
+    public :: solve_along_axis, name_fault, name_range
 
 contains
 
@@ -29,6 +30,24 @@ contains
                          //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
                          //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
     end subroutine name_fault
+
+    !> Name what is beyond the range of numbers in an error of the engine, and places in the user's units
+    subroutine name_range(assembled, error)
+        type(assembled_type), intent(in) :: assembled
+        !> The engine's error, if there is one
+        type(error_type), allocatable, intent(inout) :: error
+        character(len=:), allocatable :: told
+        integer :: at
+
+        if (.not. allocated(error)) return
+        if (error%code == gapbeam_not_finite) call name_farthest(assembled, error)
+        if (error%distance < 0.0_wp .or. assembled%units%length == 0) return
+        told = trim(shown(error%distance))
+        at = index(error%message, told)
+        error%message = error%message(:at - 1)//trim(shown(scale(error%distance, assembled%units%length))) &
+            //error%message(at + len(told):)
+        error%distance = -1.0_wp
+    end subroutine name_range
 
     !> Solve the axial system, if there is one
     subroutine solve_along_axis(assembled, state, error)

@@ -3,7 +3,7 @@ module gapbeam_state
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
-        gapbeam_buckles, gapbeam_not_finite, gapbeam_not_converged
+        gapbeam_buckles, gapbeam_not_converged
     use gapbeam_element, only: field_type
     use gapbeam_polyline, only: extend_pieces
     use gapbeam_model, only: beam_type
@@ -23,14 +23,13 @@ module gapbeam_state
     use gapbeam_ground_audit, only: audit_ground
     use gapbeam_certificate, only: certificate_type, certify
     use gapbeam_assembled_model, only: assembled_type, find_length_errors
-    use gapbeam_assemble_units, only: name_farthest
     use gapbeam_solution, only: state_type, forget, check_range, check_room, has_own_laws, laws_in
-    use gapbeam_along_axis, only: solve_along_axis, name_fault
+    use gapbeam_along_axis, only: solve_along_axis, name_fault, name_range
     use gapbeam_stretching, only: stretching_type, lengthening, begin_stretching, bound_stretching, guess_stretching
     use gapbeam_memory, only: reserve_memory, for_solving, for_certifying, for_fields
     implicit none
     private
-    public :: solve_state, recover_state, certify_state, detail_of, name_range
+    public :: solve_state, recover_state, certify_state, detail_of
 
 contains
 
@@ -195,8 +194,12 @@ contains
         given = ground
         call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
                           state%ground, outcome, error, near)
-        if (rule == rule_given) call solve_as_given()
-        if (is_solved(outcome, error)) call refuse_indeterminate(given%beam, acting, state%ground%undecided, error)
+        if (rule == rule_given) then
+            call solve_as_given()
+        else if (is_solved(outcome, error)) then
+            ! As for a beam without ground: in a scheme that is known, what only touches pushes nothing
+            call refuse_indeterminate(given%beam, acting, state%ground%undecided, error)
+        end if
         call name_range(assembled, error)
         if (allocated(error)) return
         state%solves = state%ground%solves
@@ -243,11 +246,10 @@ contains
 
     end subroutine settle_on_ground
 
-    !> The scheme of a state, to start from
+    !> The scheme of a state, to start from; no memory is an error
     pure subroutine copy_scheme(state, acting, error)
         type(state_type), intent(in) :: state
         logical, allocatable, intent(out) :: acting(:)
-        !> No memory
         type(error_type), allocatable, intent(out) :: error
         integer :: stat
 
@@ -272,15 +274,6 @@ contains
         state%closed(:) = acting
     end subroutine take_outcome
 
-    !> Say what it was where the engine left the range of double precision
-    subroutine name_range(assembled, error)
-        type(assembled_type), intent(in) :: assembled
-        !> The engine's error, if there is one
-        type(error_type), allocatable, intent(inout) :: error
-
-        if (.not. allocated(error)) return
-        if (error%code == gapbeam_not_finite) call name_farthest(assembled, error)
-    end subroutine name_range
 
     !> What the links of a beam are made of
     function detail_of(assembled) result(detail)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...base.errors import Status
-from ...engine.beam import SOLVED, Beam
+from ...engine.beam import GIVEN, SOLVED, Beam
 from ...engine.paths import follow_ground
 from ...scene.ground_laws import any_falls
 from ..state.breakpoints import EVENTS
@@ -115,7 +115,8 @@ class GroundPath:
 
     def step(self, segment: Segment, factor: float) -> Step:
         """Give the state at a load factor on a segment, as `Path.step`."""
-        return Step(self._beam, factor, self._rule, self.closed(segment))
+        # On curves the search finds the tangents anew
+        return Step(self._beam, factor, self._rule if self._beam.curves else GIVEN, self.closed(segment))
 
     def at(self, factor: float) -> np.ndarray:
         """Give the scheme of the supports at a load factor, as `Path.at`."""

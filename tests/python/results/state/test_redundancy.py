@@ -130,6 +130,11 @@ def test_where_the_reactions_of_a_load_path_go_from_one_support_to_another():
     at_event, last = result.steps
     assert at_event.reaction == pytest.approx(np.array([-1 / 3, 4 / 3, 0]) * 40 / 9)
     assert last.reaction == pytest.approx([10 / 3, 0, 20 / 3])
+    made["foundation"] = [{"k": 100.0}]  # a state at an event is there to be read, too
+    result = gapbeam.solve(made)
+    assert [event.support for event in result.events] == [1, 2]
+    assert result.steps[0].state == ("bilateral", "closed", "open")
+    assert result.steps[0].reaction[1] > 0.0
 
 
 @pytest.mark.parametrize(("spans", "supports"), [
