@@ -1,4 +1,4 @@
-"""Springs that are next to nothing beside the beam: they hold nothing, and take no digit from what does."""
+"""What is next to nothing beside the beam holds nothing, and takes no digit from what does."""
 
 import gapbeam
 import pytest
@@ -24,6 +24,33 @@ def test_they_are_nothing(node, power, side):
         assert held.at(x).deflection == pytest.approx(free.at(x).deflection, rel=1e-13)
     assert held.steps[-1].reaction[:2] == pytest.approx(free.steps[-1].reaction, rel=1e-13)
     assert abs(held.steps[-1].reaction[2]) <= 20 * 10.0**power
+
+
+@pytest.mark.parametrize("power", [-20, -21, -23, -26, -35, -60, -70, -140, -300])
+@pytest.mark.parametrize("kind", ["rotation", "N", "compression", "ground", "two-sided ground"])
+def test_nor_do_restraints_ground_and_axial_forces(kind, power):
+    """A restraint of 1e-60 halved the deflection of a free end, and nothing said so; the others were refused by the audit."""
+    little, made = 10.0**power, crane()
+    if kind == "rotation":
+        made["supports"][0]["rotation"] = little
+    elif "ground" in kind:
+        made["foundation"] = [{"k": little, "side": "both" if "two" in kind else "below"}]
+    else:
+        made["beam"]["N"] = little if kind == "N" else -little
+    free, held = gapbeam.solve(crane()), gapbeam.solve(made)
+    for x in (0.0, 2.0, 5.0, 9.0):
+        assert held.at(x).deflection == pytest.approx(free.at(x).deflection, rel=1e-13)
+    assert held.steps[-1].reaction == pytest.approx(free.steps[-1].reaction, rel=1e-13)
+
+
+@pytest.mark.parametrize("spring", [1e-22, 1e-26, 1e-30, 1e-40])
+@pytest.mark.parametrize("restraint", [1e-20, 1e-24, 1e-30])
+def test_what_holds_a_beam_together_counts(restraint, spring):
+    """Springs were left out beside a restraint that is softer still: a deflection was 1e6 times too great."""
+    made = {"beam": {"spans": [10.0], "EI": 1e4},
+            "supports": [{"node": 0, "rotation": restraint}, {"node": 1, "stiffness": spring}],
+            "loads": [{"type": "force", "x": 10.0, "F": 1e-20}]}  # fmt: skip
+    assert gapbeam.solve(made).at(10.0).deflection == pytest.approx(1e-20 / (restraint / 100.0 + spring), rel=1e-14)
 
 
 def test_where_nothing_else_holds_they_count():
