@@ -14,6 +14,7 @@ module gapbeam_cases
     use gapbeam_assembled_model, only: assembled_type, way_unit, push_unit
     use gapbeam_assemble_supports, only: is_room
     use gapbeam_assemble_loads, only: find_loaded, put_load, assemble_loads
+    use gapbeam_slight_supports, only: leave_out_of_case
     use gapbeam_assemble_units, only: support_in_units
     use gapbeam_case_types, only: case_solutions_type
     implicit none
@@ -120,7 +121,7 @@ contains
     end function at_node
 
     !> Give the supports of a case other numbers
-    pure subroutine replace_supports(assembled, values, beam, status)
+    subroutine replace_supports(assembled, values, beam, status)
         !> The beam, none of whose supports has a law
         type(assembled_type), intent(in) :: assembled
         !> Settlement, gap and stiffness of every support of the scene, in its units, shape (3, nsupport)
@@ -142,6 +143,10 @@ contains
             end associate
         end do
         if (.not. leave_room(assembled, values)) status = gapbeam_bad_input
+        if (status /= gapbeam_solved) return
+        beam%kind(:) = assembled%beam%kind
+        beam%compliance(:) = assembled%beam%compliance
+        call leave_out_of_case(assembled, beam)
     end subroutine replace_supports
 
     !> Do rigid supports at one place leave room for each other in a case, as those of a scene must

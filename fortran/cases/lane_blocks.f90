@@ -4,6 +4,7 @@ module gapbeam_lane_blocks
     use gapbeam_kinds, only: wp
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
+    use gapbeam_slight_supports, only: share_in_doubt
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, leave_room
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, new_pack, link_bending
@@ -104,10 +105,27 @@ contains
                     fits(l) = .not. outside
                 end do
                 call make_pack_links(block)
+                do l = 1, lanes
+                    fits(l) = fits(l) .and. .not. has_slight(block%beam, pack, l)
+                end do
             end if
             call take_starts(assembled, block%beam%place, closed, case_of, pack)
         end associate
     end subroutine take_cases
+
+    !> May springs or restraints be next to nothing beside the spans of a case
+    pure function has_slight(beam, pack, l) result(has)
+        type(lane_beam_type), intent(in) :: beam
+        type(pack_type), intent(in) :: pack
+        !> The lane
+        integer, intent(in) :: l
+        logical :: has
+        real(wp) :: bent
+
+        bent = sum(pack%links(l, link_bending, :))/share_in_doubt
+        has = any(beam%compliance > bent) &
+            .or. any(pack%stiffness(l, :) > 0.0_wp .and. pack%stiffness(l, :)*bent*sum(beam%length)**2 < 1.0_wp)
+    end function has_slight
 
     !> Make the links of eight cases whose stiffnesses have been taken
     subroutine make_pack_links(block)

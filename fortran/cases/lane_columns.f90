@@ -13,8 +13,8 @@ contains
     !> The supports of eight cases, as replace_supports of gapbeam_cases makes them
     pure subroutine take_numbers(beam, units, values, numbers, turned, pack, lost)
         type(lane_beam_type), intent(in) :: beam
-        !> What deflections and stiffnesses are multiplied by, powers of two
-        real(wp), intent(in) :: units(2)
+        !> By units_of_supports
+        real(wp), intent(in) :: units(3)
         !> Settlement, gap and stiffness of every support of the scene, shape (3, nsupport, ncase); which case is for which lane
         real(wp), intent(in), contiguous :: values(:, :, :)
         integer, intent(in) :: numbers(lanes)
@@ -22,7 +22,7 @@ contains
         real(wp), intent(inout), contiguous :: turned(:, :)
         !> Its supports are replaced
         type(pack_type), intent(inout) :: pack
-        !> Has a number left the range of doubles
+        !> Has a number left the range of doubles, or may a support be next to nothing
         logical, intent(out) :: lost
         integer :: k
 
@@ -38,7 +38,7 @@ contains
 
     !> One support
     pure subroutine take_support(side, units, given, stiffness, rigid, contact, lost)
-        real(wp), intent(in) :: side, units(2), given(lanes, 3)
+        real(wp), intent(in) :: side, units(3), given(lanes, 3)
         real(wp), intent(out), dimension(lanes) :: stiffness, rigid, contact
         logical, intent(inout) :: lost
         real(wp) :: scaled, wrong, is_rigid, all_wrong
@@ -52,7 +52,7 @@ contains
             is_rigid = merge(1.0_wp, 0.0_wp, given(l, 3) > huge(1.0_wp))
             rigid(l) = is_rigid
             stiffness(l) = merge(0.0_wp, scaled, is_rigid > 0.5_wp)
-            wrong = merge(0.0_wp, 1.0_wp, scaled >= tiny(1.0_wp))
+            wrong = merge(0.0_wp, 1.0_wp, scaled >= units(3))
             wrong = merge(wrong, 1.0_wp, scaled <= huge(1.0_wp))
             wrong = merge(wrong, 0.0_wp, given(l, 3) > 0.0_wp)*(1.0_wp - is_rigid)
             wrong = merge(wrong, 1.0_wp, abs(contact(l)) <= huge(1.0_wp))

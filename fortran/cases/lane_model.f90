@@ -6,6 +6,7 @@ module gapbeam_lane_model
     use gapbeam_law, only: both, is_rigid
     use gapbeam_law_margins, only: may_change
     use gapbeam_units, only: stiffness_unit
+    use gapbeam_slight_supports, only: may_be_slight
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_cases, only: case_loads_type
     use gapbeam_lane_types, only: lanes, lane_beam_type, pack_type, link_numbers, link_faa, link_fab, link_fbb, link_sum_a, &
@@ -168,12 +169,14 @@ contains
         end do
     end subroutine take_supports
 
-    !> What levels and stiffnesses of supports are multiplied by in the engine's units
+    !> What levels and stiffnesses of supports are multiplied by in the engine's units, and of these stiffnesses that below which a
+    !> support may be next to nothing
     pure function units_of_supports(assembled) result(units)
         type(assembled_type), intent(in) :: assembled
-        real(wp) :: units(2)
+        real(wp) :: units(3)
 
-        units = scale(1.0_wp, [-assembled%units%deflection, -stiffness_unit(assembled%units)])
+        units(:2) = scale(1.0_wp, [-assembled%units%deflection, -stiffness_unit(assembled%units)])
+        units(3) = may_be_slight(assembled)
     end function units_of_supports
 
     !> Where the searches of cases start

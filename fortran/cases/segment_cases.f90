@@ -11,6 +11,7 @@ module gapbeam_segment_cases
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_assemble_units, only: support_in_units
+    use gapbeam_slight_supports, only: may_be_slight
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, give_case
     use gapbeam_lane_types, only: lanes
@@ -195,15 +196,16 @@ contains
     pure subroutine take_supports(assembled, room, lost, values)
         type(assembled_type), intent(in) :: assembled
         type(segment_room_type), intent(inout) :: room
-        !> Is a number out of range
+        !> Is a number out of range, or may a support be next to nothing
         logical, intent(out) :: lost
         !> As in case_numbers_type
         real(wp), intent(in), optional :: values(:, :)
-        real(wp) :: stiffness
+        real(wp) :: stiffness, least
         integer :: k
         logical :: lost_stiffness, lost_level
 
         lost = .false.
+        least = may_be_slight(assembled)
         room%stiffness(:) = 0.0_wp
         room%rigid(:) = 0.0_wp
         room%contact(:) = 0.0_wp
@@ -216,7 +218,7 @@ contains
                     associate (given => values(:, assembled%normal(k)))
                         call support_in_units(given(3), given(1) + s%side*given(2), assembled%units%deflection, &
                                               assembled%units%force, stiffness, room%contact(i), lost_stiffness, lost_level)
-                        lost = lost .or. lost_stiffness .or. lost_level
+                        lost = lost .or. lost_stiffness .or. lost_level .or. stiffness > 0.0_wp .and. stiffness < least
                     end associate
                 end if
                 if (stiffness > huge(1.0_wp)) then

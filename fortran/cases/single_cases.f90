@@ -7,6 +7,7 @@ module gapbeam_single_cases
     use gapbeam_workspace, only: workspace_type, new_workspace
     use gapbeam_units, only: moment_unit
     use gapbeam_assembled_model, only: assembled_type, push_unit
+    use gapbeam_slight_supports, only: leave_out_of_case
     use gapbeam_assemble_loads, only: assemble_loads
     use gapbeam_case_types, only: case_numbers_type, case_solutions_type
     use gapbeam_cases, only: case_loads_type, split_loads, solve_case, replace_supports
@@ -122,6 +123,7 @@ contains
             status = error%code
         else
             room%loaded = room%varied%beam
+            call leave_out_of_case(room%varied, room%loaded)
             call new_workspace(room%loaded, room%work)
         end if
     end subroutine change_spans

@@ -88,6 +88,8 @@ module gapbeam_assembled_model
         !> Pieces and their loads in the engine's units, shape (npiece)
         type(piece_type), allocatable :: pieces(:)
         type(piece_load_type), allocatable :: dead(:), live(:)
+        !> Kinds of the nodes with restraints that are next to nothing, shape (0:n); not allocated where there have been none
+        integer, allocatable :: kind_with_all(:)
         !> Ground under the pieces in the engine's units: the layers of piece j are layer_first(j) to layer_first(j + 1) - 1, and of
         !> their laws every piece; none allocated without foundations. With them every point is a node, so every piece a link
         type(layer_type), allocatable :: layers(:)

@@ -1,6 +1,7 @@
 """What is next to nothing beside the beam holds nothing, and takes no digit from what does."""
 
 import gapbeam
+import numpy as np
 import pytest
 
 
@@ -64,3 +65,28 @@ def test_where_nothing_else_holds_they_count():
     assert step.deflection == pytest.approx([3.0, 2.0], rel=1e-14)
     pivot = scene | {"supports": [{"node": 0}, {"node": 1, "stiffness": 1.0}]}
     assert gapbeam.solve(pivot).steps[-1].deflection == pytest.approx([0.0, 2.0], rel=1e-14)
+
+
+@pytest.mark.parametrize("count", [1, 3, 20])
+@pytest.mark.parametrize("power", [-20, -35, -60, -70, -140, -300])
+@pytest.mark.parametrize("node", [0, 2])
+def test_cases_with_stiffnesses_of_their_own(node, power, count):
+    """Prepared cases had deflections off by 1e-8 at 1e-60, and by 1e232 times at 1e-300."""
+    alone = gapbeam.solve(crane({"node": node, "stiffness": 10.0**power}))
+    prepared = gapbeam.prepare(crane({"node": node, "stiffness": 1.0}))
+    cases = prepared.solve(stiffness=np.tile([300.0, np.inf, 10.0**power], (count, 1)))
+    assert not cases.status.any()
+    place = {0: 0, 2: 1}[node]
+    assert cases.deflection[:, place] == pytest.approx(np.full(count, alone.steps[-1].deflection[2]), rel=1e-13)
+
+
+def test_cases_with_spans_of_their_own():
+    """Beside a beam that is all but rigid a restraint and a spring are nothing, and in the next case they are again."""
+    made = crane({"node": 0, "stiffness": 1e-3})
+    made["supports"][0] = {"node": 3}
+    prepared = gapbeam.prepare(made)
+    stiffness = np.array([1e3, 1e70, 1e4, 1e250, 1e3, 1e3])
+    cases = prepared.solve(EI=np.tile(stiffness[:, None], (1, 4)))
+    for k, EI in enumerate(stiffness):
+        alone = gapbeam.solve({**made, "beam": {**made["beam"], "EI": float(EI)}})
+        assert cases.deflection[k, 0] == pytest.approx(alone.at(0.0).deflection, rel=1e-13)
