@@ -51,11 +51,11 @@ class OnOneBeam(SceneCases):
         self._prepared = {**with_values(job.scene, job.paths, values), "combinations": []}
         self._solver = prepared_solver(self._prepared)
         self._cases = np.array([load["case"] for load in self._prepared["loads"]], dtype=object)
-        self._base = base_values(self._solver.beam.columns)
+        self._base = base_values(self._solver.columns)
 
     def _take(self, values: np.ndarray) -> tuple[np.ndarray, Varied, np.ndarray]:
         """Factor of every load, what else varies, and whether the numbers of a case can be taken; of others some that can."""
-        count, columns = values.shape[1], self._solver.beam.columns
+        count, columns = values.shape[1], self._solver.columns
         factors, fine = np.ones((count, len(self._cases))), np.ones(count, dtype=bool)
         supports = spans = moduli = None
         given: list[tuple[np.ndarray, np.ndarray, float]] = []

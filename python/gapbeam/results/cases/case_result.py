@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from ...base.errors import EngineError, SceneError
 from ...engine.beam import Beam
 from ...engine.combinations import Varied
+from ...scene.columns import columns
 from ...scene.combinations import times
 from ...scene.reading import beam_of
 from ...scene.structs import Scene
@@ -36,7 +37,7 @@ def result_of_case(scene: Scene, beam: Beam, rule: str, factors: np.ndarray, var
         Numbers of this one case.
     """
     if not varied.is_nothing:
-        scene = replace_numbers(scene, beam.columns, varied)
+        scene = replace_numbers(scene, columns(scene), varied)
     if beam.depends_on_path or beam.is_on_axial_ground:  # dead loads are put on first; with factors all are live
         once = replace(scene.analysis, follow="steps", steps=1, at_limit="stop", history=[1.0])
         scene = replace(scene, analysis=once, loads=[times(load, by) for load, by in zip(scene.loads, factors, strict=True)])

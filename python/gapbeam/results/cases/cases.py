@@ -10,7 +10,7 @@ import os
 import warnings
 from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -19,9 +19,12 @@ from numpy.typing import ArrayLike
 from ...base.errors import SceneError
 from ...base.hints import nearest
 from ...base.records import Pickled
+from ...engine.arrays import Columns
+from ...engine.beam import Beam
 from ...engine.cases import OneCase
 from ...engine.combinations import Varied
-from ...scene.movements import take_movements
+from ...scene.columns import columns
+from ...scene.movements import replace_settlements, take_movements
 from ...scene.names import cases_of, find
 from ...scene.reading import prepared_beam, read_beam
 from ...scene.structs import Scene
@@ -184,7 +187,7 @@ class Prepared(Pickled):
         self, extra_settlement: Mapping[str | int, ArrayLike] | None, given: dict[str, Given], factors: np.ndarray
     ) -> Varied:
         """Numbers that differ from those of the scene, movements of supports among their settlements."""
-        varied = vary(self.scene, self._solver.beam.columns, given, len(factors))
+        varied = vary(self.scene, self._solver.columns, given, len(factors))
         if not isinstance(extra_settlement, Mapping | None):
             raise ValueError("extra_settlement: expected a mapping, as {1: 0.01} by number or name of a support; got "
                              f"{shown(extra_settlement)}; an array for all supports, instead of the scene's, is settlement = [...]")
@@ -195,7 +198,7 @@ class Prepared(Pickled):
     @cached_property
     def _support_arrays(self) -> SupportArrays:
         """What supports may have in the short way."""
-        return SupportArrays(self._solver.beam.columns)
+        return SupportArrays(self._solver.columns)
 
     def _movements(self, extra_settlement: Mapping[str | int, ArrayLike] | None, count: int) -> np.ndarray:
         """Further movements of all supports, cases by supports."""
@@ -330,11 +333,26 @@ def prepared_solver(source: Scene | Mapping[str, Any] | str | os.PathLike, rule:
     if scene.trains:
         raise SceneError("trains", "cases are prepared for loads that stay where they are; leave trains out, or use gapbeam.solve, "
                          "which moves them")  # fmt: skip
-    without, movements = take_movements(scene)
+    taken, (without, movements) = beam.columns, take_movements(scene)
     if movements is not None:
-        unmoved = prepared_beam(without)
+        unmoved, taken = _unmoved(scene, without)
         if unmoved.depends_on_path:  # supports move as the loads grow, but with dead ones from the start
             without, movements = take_movements(scene, only_dead=True)
-            unmoved = beam if movements is None else prepared_beam(without)
+            unmoved, taken = (beam, beam.columns) if movements is None else _unmoved(scene, without)
         scene, beam = without, unmoved
-    return solver_of(scene, beam, choose_rule(scene, rule), movements)
+    return solver_of(scene, beam, choose_rule(scene, rule), movements, taken)
+
+
+def _unmoved(scene: Scene, without: Scene) -> tuple[Beam, Columns]:
+    """Make the beam of a scene whose supports no load moves, and the numbers that cases begin with."""
+    try:
+        beam = prepared_beam(without)
+    except SceneError:
+        dead = take_movements(scene, only_dead=True)[1]
+        if dead is None or any(one.k == inf for one in scene.foundation):  # whether rigid ground leaves room is not asked in cases
+            raise
+        # They part supports that leave no room without them: the beam has them, and every case its own instead
+        moves = np.zeros((1, len(scene.supports)))
+        dead.add_to(moves, np.ones((1, len(scene.loads))))
+        return prepared_beam(replace_settlements(without, moves[0])), columns(without)
+    return beam, beam.columns

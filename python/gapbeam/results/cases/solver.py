@@ -10,6 +10,7 @@ import numpy as np
 
 from ...base.errors import Status
 from ...base.records import Pickled, read_only
+from ...engine.arrays import Columns
 from ...engine.beam import Beam
 from ...engine.calls import FEW_NODES
 from ...engine.cases import OneCase, solve_cases, split_loads
@@ -40,6 +41,8 @@ class CaseSolver(Pickled):
         How contact states are found.
     movements : Movements, optional
         What the loads move; the scene and its beam do not know of it.
+    columns : Columns, optional
+        Numbers that cases begin with, if they are not those of the beam.
 
     Attributes
     ----------
@@ -51,8 +54,9 @@ class CaseSolver(Pickled):
         The short call for one case, where there is one.
     """
 
-    def __init__(self, scene: Scene, beam: Beam, rule: str, movements: Movements | None = None):
+    def __init__(self, scene: Scene, beam: Beam, rule: str, movements: Movements | None = None, columns: Columns | None = None):
         self.scene, self.beam, self.rule, self.movements = hold(scene), beam, rule, movements
+        self.columns = beam.columns if columns is None else columns
         self.supports = read_only(np.flatnonzero(beam.bends))
         self.start = read_only(starting_scheme(beam))
         # Columns of the supports of the engine; None if these are the same, one by one
@@ -106,7 +110,7 @@ class CaseSolver(Pickled):
         """
         supports = varied.supports
         if supports is None:
-            supports = np.broadcast_to(base_values(self.beam.columns), (len(moves), moves.shape[1] + 1, 3))
+            supports = np.broadcast_to(base_values(self.columns), (len(moves), moves.shape[1] + 1, 3))
         supports = supports.copy()
         supports[:, :-1, 0] += moves
         return replace(varied, supports=supports)
@@ -272,13 +276,15 @@ class SolvedAlone(WithLaws):
         return found is not None and found.is_refused
 
 
-def solver_of(scene: Scene, beam: Beam, rule: str, movements: Movements | None = None) -> CaseSolver:
+def solver_of(
+    scene: Scene, beam: Beam, rule: str, movements: Movements | None = None, columns: Columns | None = None
+) -> CaseSolver:
     """Choose how the cases of a beam are solved.
 
     Parameters
     ----------
-    scene, beam, rule, movements
+    scene, beam, rule, movements, columns
         As for `CaseSolver`.
     """
     kind = SolvedAlone if beam.is_solved_alone else WithLaws if beam.has_laws else CaseSolver
-    return kind(scene, beam, rule, movements)
+    return kind(scene, beam, rule, movements, columns)

@@ -1,13 +1,14 @@
 """Prepared cases whose loads move supports."""
 
 import math
+import pickle
 import random
 
 import gapbeam
 import numpy as np
 import pytest
 from gapbeam.base.errors import Status
-from scenes import at, random_scene, scene, uniform
+from scenes import at, force, random_scene, scene, uniform
 
 
 def movement(support, value, **keys):
@@ -90,3 +91,22 @@ def test_what_cannot_stand_unmoved_is_refused_by_its_place():
     }  # fmt: skip
     with pytest.raises(gapbeam.SceneError, match=r"supports\[1\]: this one holds the beam at a deflection of 0"):
         gapbeam.prepare(scene)
+
+
+def test_a_dead_movement_that_parts_two_rigid_supports():
+    """Without it they leave no room: the beam has it, cases have their own part of it."""
+    pair = [at(1, side="below", gap=-0.002), at(1, side="above", gap=-0.002)]
+    loads = [force(5.0, 30.0), movement(2, 0.01, case="dead")]
+    made = scene([6.0, 6.0], [at(0), at(2), *pair], loads, EI=1e4)
+    prepared = gapbeam.prepare(made)
+    right = gapbeam.solve(made).steps[-1].reaction
+    assert prepared.solve().reaction == pytest.approx(right, rel=1e-13)
+    cases = prepared.solve([[1.0, 1.0], [1.0, 0.0], [1.0, 1.5]])
+    assert cases.status.tolist() == [0, Status.BAD_INPUT, 0]
+    loads[1]["value"] = 0.015
+    assert cases.reaction[2] == pytest.approx(gapbeam.solve(made).steps[-1].reaction, rel=1e-13)
+    loads[1]["value"] = 0.01
+    made["supports"][2]["settlement"] = 0.001
+    right = gapbeam.solve(made).steps[-1].reaction
+    assert prepared.solve(settlement={2: [0.001]}).reaction[0] == pytest.approx(right, rel=1e-13)
+    assert pickle.loads(pickle.dumps(prepared)).result().steps[-1].reaction == pytest.approx(prepared.solve().reaction, rel=1e-13)
