@@ -143,44 +143,52 @@ contains
         logical, intent(out) :: found
         !> As for find
         type(error_type), allocatable, intent(out) :: error
-        class(point_type), allocatable :: between
+        class(point_type), allocatable :: between, first
         real(wp) :: size, reach
-        logical :: others
+        logical :: others, undecided
 
         found = .false.
+        call copy_point(below, first)
         size = problem%size_at(crossing%at)
         reach = nearest*size
         do while (crossing%at - reach > below%at)
             call problem%find(crossing%at - reach, between, error, crossing%near)
             if (allocated(error)) return
-            if (.not. allocated(between%trouble)) then
+            undecided = .not. allocated(between%trouble)
+            if (undecided) then
                 others = .not. problem%alike(between, above)
                 if (.not. problem%alike(below, between)) then
                     ! There is another change before, or states do not tell so near to it
+                    undecided = .false.
                     call move_alloc(between, above)
                     if (others) return
                 else if (others) then
                     call move_alloc(between, below)
                     exit
                 end if
-                ! What is like both is undecided: farther away it is not
             end if
             reach = wider*reach
-            if (reach > farthest*size) return
+            ! What is like both is undecided: farther away it is not
+            if (reach > farthest*size .and. .not. undecided) return
         end do
         reach = nearest*size
         do while (crossing%at + reach < above%at)
             call problem%find(crossing%at + reach, between, error, crossing%near)
             if (allocated(error)) return
-            if (.not. allocated(between%trouble)) then
-                if (.not. problem%alike(below, between)) then
+            undecided = .not. allocated(between%trouble)
+            if (undecided) then
+                ! In the lower one what is about to change may be undecided, and so like everything
+                others = .not. problem%alike(below, between)
+                if (.not. others) others = .not. problem%alike(first, between)
+                if (others) then
                     call move_alloc(between, above)
                     exit
                 end if
-                if (.not. problem%alike(between, above)) call move_alloc(between, below)
+                undecided = problem%alike(between, above)
+                if (.not. undecided) call move_alloc(between, below)
             end if
             reach = wider*reach
-            if (reach > farthest*size) return
+            if (reach > farthest*size .and. .not. undecided) return
         end do
         found = above%stands
     end subroutine confirm

@@ -62,13 +62,12 @@ contains
     subroutine pass_changes(problem, now, earlier, next, sure, misled, ended, error)
         !> As for walk_along
         class(path_problem_type), intent(inout) :: problem
-        class(point_type), allocatable, intent(inout) :: now, earlier, sure
-        class(point_type), intent(in) :: next
+        class(point_type), allocatable, intent(inout) :: now, earlier, next, sure
         !> Was a point that was only looked at not so
         logical, intent(out) :: misled
         logical, intent(inout) :: ended
         type(error_type), allocatable, intent(out) :: error
-        class(point_type), allocatable :: below, above
+        class(point_type), allocatable :: below, above, again
         real(wp), allocatable :: at(:), place(:)
         integer :: number
         logical :: goes_on
@@ -76,6 +75,15 @@ contains
         misled = .false.
         do number = 1, most_changes
             if (problem%alike(now, next)) return
+            if (number > 1 .and. .not. next%at < problem%last) then
+                ! What touches at the end is taken as it was next to that, which a change has changed
+                call problem%find(next%at, again, error, now)
+                if (allocated(error)) return
+                if (problem%alike(now, again)) then
+                    call move_alloc(again, next)
+                    return
+                end if
+            end if
             call copy_point(now, below)
             call copy_point(next, above)
             if (below%stands .and. .not. above%stands) then

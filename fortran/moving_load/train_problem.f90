@@ -367,7 +367,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: way, next
         integer :: number, tries
-        logical :: is_below
+        logical :: is_below, is_above
 
         way = 2*neighbours*problem%extent
         next = crossing%at
@@ -376,9 +376,11 @@ contains
             if (allocated(error)) return
             if (problem%boxes(number)%of%status /= gapbeam_solved) exit
             is_below = alike_states(problem%boxes(crossing%below)%of, problem%boxes(number)%of)
+            is_above = alike_states(problem%boxes(crossing%above)%of, problem%boxes(number)%of)
+            ! Next to it others change, which the states around it do not show
+            if (.not. (is_below .or. is_above)) exit
             ! What is like both does not tell, so the position as computed does
-            if (is_below) is_below = next <= crossing%at .or. &
-                .not. alike_states(problem%boxes(crossing%above)%of, problem%boxes(number)%of)
+            if (is_below) is_below = next <= crossing%at .or. .not. is_above
             call take_undecided(problem%boxes(number)%of, problem%boxes(merge(crossing%below, crossing%above, is_below))%of)
             if (is_below) crossing%below = number
             if (.not. is_below) crossing%above = number
