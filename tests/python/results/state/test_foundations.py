@@ -211,6 +211,16 @@ def test_what_holds_a_part_without_load_beyond_a_hinge():
     assert stopped.at(6.0).deflection == -0.01
 
 
+def test_a_load_that_a_support_takes_beside_ground_that_is_not_touched():
+    """Nothing else carries: the rounding of that in a rigid beam was refused by the audit."""
+    made = {"beam": {"spans": [3.324], "EI": math.inf, "hinges": [0.3986]}, "supports": [{"node": 0}, {"node": 1}],
+            "foundation": [{"k": 100.0, "side": "above", "gap": 0.002, "from": 2.6, "to": 3.3}],
+            "loads": [{"type": "force", "node": 0, "F": -26.068410645078863}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.steps[-1].indifferent
+    assert result.steps[-1].reaction == pytest.approx([-26.068410645078863, 0.0], abs=1e-30)
+
+
 def test_a_beam_without_load_in_a_clearance():
     """It lies on ground that has moved, or touches an edge of it, and is free to move; rounding said that it stood on the edge."""
     lying = {"beam": {"spans": [12.0], "EI": float("inf")},
