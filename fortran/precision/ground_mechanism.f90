@@ -9,6 +9,7 @@ module gapbeam_ground_mechanism
     use gapbeam_tolerances, only: no_displacement
     use gapbeam_error, only: error_type, has_ended, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged
     use gapbeam_nodes, only: hinge
+    use gapbeam_link, only: piece_load_type
     use gapbeam_layers, only: has_limit
     use gapbeam_ground_laws, only: line_of_breakpoint
     use gapbeam_ground, only: ground_type
@@ -32,7 +33,8 @@ module gapbeam_ground_mechanism
 
 contains
 
-    !> Solve at a load factor; where that does not settle, find out whether a part turns without end
+    !> Solve at a load factor, but where a part turns without end. That is asked first where a part has no load, else where zones
+    !> could not be settled
     subroutine solve_or_refute(ground, detail, factor, rule, closed, solution, outcome, error, near)
         !> As for solve_on_ground
         type(ground_type), intent(in) :: ground
@@ -44,34 +46,99 @@ contains
         type(outcome_type), intent(out) :: outcome
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
+        type(error_type), allocatable :: another
+        logical :: start(size(closed)), fit, first, refuted
+
+        start(:) = closed
+        fit = is_fit(ground)
+        first = fit .and. has_part_without_load(ground)
+        if (first) then
+            call refute(ground, detail, factor, rule, start, outcome, refuted, error)
+            if (refuted .or. allocated(error)) return
+        end if
+        call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
+        if (first .or. .not. (fit .and. allocated(error))) return
+        if (error%code /= gapbeam_not_converged) return
+        call refute(ground, detail, factor, rule, start, outcome, refuted, another)
+        if (refuted) deallocate (error)
+        if (allocated(another)) call move_alloc(another, error)
+    end subroutine solve_or_refute
+
+    !> Is there a part that turns without end: solved without the ground that carries nothing
+    subroutine refute(ground, detail, factor, rule, start, outcome, refuted, error)
+        !> As for solve_on_ground
+        type(ground_type), intent(in) :: ground
+        type(detail_type), intent(in) :: detail
+        real(wp), intent(in) :: factor
+        integer, intent(in) :: rule
+        !> Where the search for supports starts
+        logical, intent(in) :: start(:)
+        !> No equilibrium, with the motion, if it is refuted
+        type(outcome_type), intent(inout) :: outcome
+        logical, intent(out) :: refuted
+        !> Ended by memory or from outside
+        type(error_type), allocatable, intent(out) :: error
         type(ground_solution_type) :: without
         type(outcome_type) :: found
-        type(error_type), allocatable :: another
         real(wp), allocatable :: motion(:)
-        logical, allocatable :: start(:)
-        logical :: idle(size(ground%layers)), refuted
+        logical :: idle(size(ground%layers)), closed(size(start))
 
-        start = closed
-        call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
-        if (.not. allocated(error)) return
-        if (error%code /= gapbeam_not_converged .or. .not. is_fit(ground)) return
+        refuted = .false.
         call find_idle_ground(ground, detail, factor, motion, idle)
         if (.not. any(idle)) return
-        call solve_on_ground(without_layers(ground, idle), detail, factor, rule, start, without, found, another)
-        if (allocated(another)) then
-            if (has_ended(another)) call move_alloc(another, error)
+        closed(:) = start
+        call solve_on_ground(without_layers(ground, idle), detail, factor, rule, closed, without, found, error)
+        if (has_ended(error)) return
+        if (allocated(error)) then
+            deallocate (error)
             return
         end if
         refuted = found%status == gapbeam_no_equilibrium
-        if (.not. refuted .and. found%status == gapbeam_solved) then
-            refuted = turns_into(ground, idle, motion, without%deflection(0:size(ground%pieces)))
-            found = outcome_type(status=gapbeam_no_equilibrium)
-            if (refuted) call move_alloc(motion, found%motion)
-        end if
+        if (found%status == gapbeam_solved) refuted = turns_into(ground, idle, motion, without%deflection(0:size(ground%pieces)))
         if (.not. refuted) return
-        deallocate (error)
-        outcome = found
-    end subroutine solve_or_refute
+        outcome = outcome_type(status=gapbeam_no_equilibrium)
+        call move_alloc(motion, outcome%motion)
+    end subroutine refute
+
+    !> Is there a part between hinges on which nothing acts, but at these
+    pure function has_part_without_load(ground) result(has)
+        type(ground_type), intent(in) :: ground
+        logical :: has
+        logical :: loaded
+        integer :: j
+
+        has = .false.
+        loaded = acts_at(0)
+        do j = 1, size(ground%pieces)
+            loaded = loaded .or. acts_on(ground%dead(j)) .or. acts_on(ground%live(j))
+            if (ground%beam%kind(j) == hinge .or. j == size(ground%pieces)) then
+                if (j == size(ground%pieces)) loaded = loaded .or. acts_at(j)
+                has = has .or. .not. loaded
+                loaded = .false.
+            else
+                loaded = loaded .or. acts_at(j)
+            end if
+        end do
+
+    contains
+
+        !> Are there a force or a couple at a node
+        pure function acts_at(node)
+            integer, intent(in) :: node
+            logical :: acts_at
+
+            acts_at = any(abs(ground%beam%force(:, node)) > 0.0_wp) .or. any(abs(ground%beam%couple(:, node)) > 0.0_wp)
+        end function acts_at
+
+        !> Is there any load on a piece
+        pure function acts_on(load)
+            type(piece_load_type), intent(in) :: load
+            logical :: acts_on
+
+            acts_on = any(abs([load%qa, load%qb, load%force, load%couple, load%couple_a, load%couple_b]) > 0.0_wp)
+        end function acts_on
+
+    end function has_part_without_load
 
     !> Does ground by forces without limit, and nothing else but simple supports, hold a beam with hinges
     pure function is_fit(ground) result(fit)
