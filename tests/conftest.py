@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: threads for small matrices wait for each other, at full load
+
 import pytest
 from hypothesis import HealthCheck, settings
 from languages.clibrary import Library
