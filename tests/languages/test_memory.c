@@ -53,7 +53,7 @@ static int set_limit(size_t limit)
     return 0;
 }
 #else
-enum { STEPS = 120 };
+enum { STEPS = 60 };
 
 static int set_limit(size_t limit)
 {

@@ -73,9 +73,9 @@ contains
         if (u(5) < 0.3_wp) line = 0.0_wp
     end subroutine draw_all
 
-    !> Every change of sign between 4000 samples has its zero, and no other is there; doubles and quadruple precision agree
+    !> Every change of sign between 1000 samples has its zero, and no other is there; doubles and quadruple precision agree
     subroutine against_samples()
-        integer, parameter :: samples = 4000
+        integer, parameter :: samples = 1000
         type(stretch_type) :: stretch
         type(stretch_load_type) :: load
         type(stretch_ends_type) :: ends
