@@ -22,7 +22,7 @@ ONCE_WRONG = (
 
 @pytest.mark.parametrize("kind", degenerate.KINDS)
 def test_agreement(kind):
-    seeds = range(1000, 1000 + 20 * max(degenerate.KINDS[kind], 3))
+    seeds = range(1000, 1000 + 10 * max(degenerate.KINDS[kind], 3))
     verdicts = {seed: enumeration.judge(degenerate.draw(seed, kind)[1], seed) for seed in seeds}
     assert {seed: verdict.wrong for seed, verdict in verdicts.items() if verdict.wrong} == {}
 

@@ -483,7 +483,7 @@ STUDIES = f"import runpy; main = lambda: runpy.run_path({str(TOP / 'tests' / 'st
 @pytest.mark.parametrize("study", ["extremes", "accuracy", "contact", "kernel", "schemes"])
 def test_studies_are_interrupted(tmp_path, monkeypatch, study):
     monkeypatch.chdir(tmp_path)
-    code, words = COMMAND.format(when="time.time() > begin + 2", name="SIGINT"), ["study", study]
+    code, words = COMMAND.format(when="time.time() > begin + 1", name="SIGINT"), ["study", study]
     if study != "accuracy":
         code, words = code.replace("from gapbeam.cli import main", STUDIES), [study]
     run = subprocess.run([sys.executable, "-c", code, *words, "--markdown", "a.md"], capture_output=True, text=True)

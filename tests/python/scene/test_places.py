@@ -20,7 +20,7 @@ def at_nodes(spans):
     return [at(i) for i in range(spans + 1)]
 
 
-@pytest.mark.parametrize(("spans", "aside"), [(10, 1e-10), (10_000, 1e-8), (1_000_000, 1e-6)])
+@pytest.mark.parametrize(("spans", "aside"), [(10, 1e-10), (10_000, 1e-8), (100_000, 1e-7)])
 def test_a_force_far_from_the_left_end(library, spans, aside):
     x = 6.0 * (spans // 2) + 3.0
     made = scene([6.0] * spans, at_nodes(spans), [force(x, 5.0)], EI=1e4)

@@ -151,7 +151,7 @@ def off_of_sliders(result, made, pieces):
     )
 
 
-@pytest.mark.parametrize("seed", [*range(40), 10282, 10407, 10953])  # parts that vanish together, or by rounding between changes
+@pytest.mark.parametrize("seed", [*range(20), 10282, 10407, 10953])  # parts that vanish together, or by rounding between changes
 def test_random_histories(seed):
     """Every state stands its audit; the ends of the histories are those of sliders in a row, the nearer the more there are."""
     made = random_pipe(random.Random(seed))

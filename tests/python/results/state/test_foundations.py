@@ -13,7 +13,7 @@ from oracle.foundation import solve as reference
 from scenes.foundation import random_scene
 from scenes.ground import touching
 
-SEEDS = 150
+SEEDS = 80
 TIE = 1e-9
 """Nearer to another state than this zones need not be unique."""
 

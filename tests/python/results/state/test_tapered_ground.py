@@ -28,10 +28,9 @@ STRIP = {
 FIELDS = ("deflection", "rotation", "moment", "shear")
 
 
-@pytest.mark.parametrize("first", [0, 8])
-def test_random_tapers_agree_with_the_reference(first):
+def test_random_tapers_agree_with_the_reference():
     solved = 0
-    for seed in range(first, first + 8):
+    for seed in range(8):
         made = with_tapers(random.Random(seed), random_scene(seed))
         result = gapbeam.solve(made)
         with mp.workdps(40):

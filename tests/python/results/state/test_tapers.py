@@ -138,7 +138,7 @@ def random_scene(rng):
 SIGN = {"both": 0, "below": 1, "above": -1}
 
 
-@pytest.mark.parametrize("seed", [*range(5), *range(6, 13)])
+@pytest.mark.parametrize("seed", [*range(5), 6, 7])
 def test_random_beams(seed):
     """Reactions, their signs, and fields at places of no other meaning, beside double integration for the scheme that was found."""
     scene, (end, exact, given, hinges) = random_scene(random.Random(seed))
