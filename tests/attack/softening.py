@@ -9,7 +9,7 @@ from .laws import judge as judge_on_laws
 
 PROMISE = (
     "Under an axial force that stays, and on ground that holds both ways by k alone, paths of softening supports have the "
-    "segments, histories of brittle ones the states, of exact ones on compliances in 90 digits"
+    "segments of exact ones on compliances in 90 digits. Histories of brittle ones have their states"
 )
 
 
