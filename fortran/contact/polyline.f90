@@ -64,27 +64,29 @@ contains
         end associate
     end subroutine piece_that_acts
 
-    !> Put the piece of a law that acts in place of all of it, as a line both ways, if it does not rise vertically; one that drops
-    !> vertically holds what stands there
-    pure subroutine extend_piece(supports, closed)
+    !> Put the piece of a law that acts in place of all of it, as a line both ways; a vertical one holds what stands there
+    pure subroutine extend_piece(supports, closed, anyhow)
         !> Breakpoints of the law
         type(node_support_type), intent(inout) :: supports(:)
         logical, intent(in) :: closed(:)
+        !> Also where that piece rises vertically, and where none acts, so that there is no support
+        logical, intent(in) :: anyhow
         real(wp) :: slope
         logical :: acts
         integer :: k, last
 
         k = max(1, count(closed))
         call piece_that_acts(supports, closed, k, acts, slope)
-        if (.not. acts .or. slope > huge(slope)) return
-        if (slope < -huge(slope)) slope = -slope
+        if (.not. acts) slope = 0.0_wp
+        if (.not. anyhow .and. (.not. acts .or. slope > huge(slope))) return
         ! Through the middle of a piece with two ends: so one about the origin goes through that
         last = k
         if (closed(k) .and. supports(k)%more) last = k + 1
         supports%contact = supports(k)%contact/2 + supports(last)%contact/2
-        supports%force = supports(k)%force/2 + supports(last)%force/2
+        supports%force = merge(supports(k)%force/2 + supports(last)%force/2, 0.0_wp, acts)
         supports%stiffness = slope
-        supports%before = slope
+        if (slope < -huge(slope)) supports%stiffness = -slope
+        supports%before = supports%stiffness
         supports%passed = .true.
     end subroutine extend_piece
 
@@ -99,7 +101,7 @@ contains
             first = last + 1
             last = last_breakpoint(supports, first)
             if (supports(first)%breakpoint > 0) then
-                call extend_piece(supports(first:last), closed(first:last))
+                call extend_piece(supports(first:last), closed(first:last), .true.)
             else
                 supports(first)%side = 0
                 if (.not. closed(first)) supports(first)%stiffness = 0.0_wp

@@ -160,7 +160,7 @@ contains
         do j = 1, size(supports)
             associate (first => assembled%beam_support(supports(j)))
                 associate (last => last_breakpoint(lines, first))
-                    call extend_piece(lines(first:last), closed(first:last))
+                    call extend_piece(lines(first:last), closed(first:last), .false.)
                 end associate
             end associate
         end do
