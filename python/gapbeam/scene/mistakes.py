@@ -89,7 +89,7 @@ class _Repair:
     def has_caused(self, error: SceneError) -> bool:
         """Whether an error is only about what was taken away here."""
         path, problem = path_of(error.place, self._data), error.problem
-        hangs_on_others = len(path) == 2 or any(words in problem for words in ("is missing", "has a gap"))
+        hangs_on_others = len(path) == 2 or any(words in problem for words in ("is missing", "has a gap", "with a law unloads"))
         if path in self._done or (hangs_on_others and path[:2] in {done[:2] for done in self._done}):
             return True
         if any(name in problem for name in self._changed()):

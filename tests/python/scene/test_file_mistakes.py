@@ -260,14 +260,18 @@ def test_a_hinge_behind_one_with_slack_keeps_its_number(change, key):
     assert caught.value.place == f"hinges[1].{key}"
 
 
-def test_a_gap_both_ways_is_no_mistake_where_the_law_is_one(tmp_path):
-    """Without its law, which is wrong, a support has no gap both ways."""
+@pytest.mark.parametrize(
+    ("keys", "law", "wrong"),
+    [
+        ("gap = 0.004", '{type = "cubik", k1 = 200.0, k3 = 4e6}', 'got "cubik"'),
+        ('side = "below"\nunloading = "broken"', "[[0.01, 7.0], [0.005, 0.0], [0.5, 0.0]]", "go back"),
+    ],
+)
+def test_what_a_law_is_for_is_no_mistake_where_the_law_is_one(tmp_path, keys, law, wrong):
+    """Without its law, which is wrong, a support has no gap both ways, and unloads along nothing."""
     path = tmp_path / "stops.toml"
-    path.write_text(
-        '[beam]\nspans = [3.0]\nEI = 900.0\n[[supports]]\nnode = 0\n[[supports]]\nnode = 1\ngap = 0.004\n'
-        'law = {type = "cubik", k1 = 200.0, k3 = 4e6}\n'
-    )
+    path.write_text(f"[beam]\nspans = [3.0]\nEI = 900.0\n[[supports]]\nnode = 0\n[[supports]]\nnode = 1\n{keys}\nlaw = {law}\n")
     with pytest.raises(gapbeam.SceneError) as error:
         gapbeam.solve(str(path))
     assert str(error.value).count("supports") == 1
-    assert 'got "cubik"' in str(error.value)
+    assert wrong in str(error.value)
