@@ -203,7 +203,7 @@ contains
         end if
         walk%branch%rounded_places = rounded_places
         ! On the polylines of smooth laws, equal ones soften all but together: which goes first is told by all digits only
-        if (any(is_smooth(walk%assembled%model%supports%law))) walk%branch%local%usable = .false.
+        if (walk%branch%local%may_fall .and. any(is_smooth(walk%assembled%model%supports%law))) walk%branch%local%usable = .false.
         if (allocated(walk%assembled%beam%turning)) walk%branch%local%usable = .false.
         call refuse_shared(walk, outcome, error)
         if (.not. allocated(error) .and. outcome /= goes_on) call note_limit(mechanism, walk%leg, real(from, wp), history)

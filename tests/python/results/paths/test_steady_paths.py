@@ -41,3 +41,20 @@ def test_mirror_images_take_no_solve_of_the_whole_beam():
     state = result.steps[-1]
     assert state.reaction == pytest.approx(state.reaction[::-1], rel=1e-12)
     assert state.set[1:-1] == pytest.approx(state.set[1:-1][::-1], rel=1e-12)
+
+
+def test_mirror_images_beside_curves():
+    """Both of a pair close at one load factor, on the curves: each is at its gap there."""
+    stop = {"side": "below", "gap": 0.0076, "law": {"type": "power", "d0": 0.01, "limit": 28.6, "n": 2}}
+    curve = {"side": "below", "law": {"type": "hyperbolic", "stiffness": 28760.0, "limit": 56.0}}
+    pad = {"side": "below", "law": {"type": "hardening", "stiffness": 694.0, "limit": 39.7, "slope": 208.0}}
+    kinds = [{}, stop, curve, pad, {"side": "below", "stiffness": 1320.0}, pad, curve, stop, {}]
+    forces = [(0.15, 17.3), (53.47, 17.3), (10.95, 16.1), (42.67, 16.1)]
+    scene = {"beam": {"spans": [7.98, 7.45, 5.63, 5.75, 5.75, 5.63, 7.45, 7.98], "EI": 1785.0},
+             "supports": [{"node": k, **kind} for k, kind in enumerate(kinds)],
+             "loads": [{"type": "force", "x": x, "F": F} for x, F in forces],
+             "analysis": {"follow": "events", "history": [1.0, 0.1]}}  # fmt: skip
+    result = gapbeam.solve(scene)
+    left, right = (event for event in result.events if event.event == "closes" and event.support in (1, 7) and event.factor < 1.0)
+    assert left.factor == pytest.approx(right.factor, rel=1e-14)
+    assert result.state(left.factor, leg=0).deflection[[1, 7]] == pytest.approx([0.0076, 0.0076], rel=1e-11)
