@@ -181,7 +181,7 @@ contains
 
         call size_of_loads(ground, factor, force, way, modulus)
         force = max(force, real(maxval(sum(abs(carried), 1)), qp), maxval([0.0_qp, abs(work%reaction)]), &
-                    sum(ground%pieces%length)*modulus*way)
+                    maxval([0.0_qp, abs(ground%beam%supports%force)]), sum(ground%pieces%length)*modulus*way)
         least = real(no_tied_force*force, wp)
     end function least_force
 
@@ -193,6 +193,7 @@ contains
         !> With the force that is none
         type(ground_solution_type), intent(inout) :: solution
         type(piece_load_type) :: load
+        real(qp) :: farthest
         integer :: j
 
         if (any(abs(solution%resultant) > solution%no_force) .or. any(abs(solution%reaction) > solution%no_force)) return
@@ -215,6 +216,14 @@ contains
         solution%ends%moment_b = 0.0_wp
         solution%loads%qa = 0.0_wp
         solution%loads%qb = 0.0_wp
+        ! Nor is what rounding leaves of the places of its supports a deflection
+        farthest = maxval(abs(ground%beam%supports%contact))
+        if (any(abs(solution%deflection) > fine_rounding*farthest)) return
+        solution%deflection(:) = 0.0_wp
+        solution%rotation(:, :) = 0.0_wp
+        solution%slope(:) = 0.0_wp
+        solution%ends%w_a = 0.0_wp
+        solution%ends%w_b = 0.0_wp
     end subroutine come_to_rest
 
     !> Does a motion go into ground whose force has no limit

@@ -76,3 +76,16 @@ def test_a_strut_on_a_prop_that_snaps():
     assert result.limits[0].factor == pytest.approx((1.0 + 0.01 / c) / 4.0, rel=1e-13)
     assert [step.deflection[1] for step in result.steps] == pytest.approx([0.01, 0.012, c * 3.8], rel=1e-12)
     assert [segment.index for segment in result.path.segments] == [0, 1, 0]
+
+
+def test_back_at_no_load_nothing_is_left():
+    """Rounding of what a law gives about its origin is no force, and no deflection."""
+    law = [[28.4 / 8528.4, 28.4], [1.5 * 28.4 / 8528.4, 34.08], [0.01, 17.0], [0.1, 22.0]]
+    scene = {"beam": {"spans": [2.57, 3.11, 7.64, 6.19, 7.78], "EI": 605.1, "mass": 1.0},
+             "supports": [{"node": 0}, {"node": 1, "stiffness": 2002.1}, {"node": 2}, {"node": 3, "side": "above"},
+                          {"node": 4, "side": "below", "stiffness": 633.6}, {"node": 5, "side": "both", "law": law}],
+             "loads": [{"type": "uniform", "q": 48.7}],
+             "analysis": {"follow": "events", "history": [1.0, 0.0], "at_limit": "follow", "frequencies": 1}}  # fmt: skip
+    state = gapbeam.solve(scene).steps[-1]
+    assert not state.reaction.any()
+    assert not state.deflection.any()
