@@ -219,6 +219,7 @@ contains
         ! Nor is what rounding leaves of the places of its supports a deflection
         farthest = maxval(abs(ground%beam%supports%contact))
         if (any(abs(solution%deflection) > fine_rounding*farthest)) return
+        if (any(abs(solution%rotation)*sum(ground%pieces%length) > fine_rounding*farthest)) return
         solution%deflection(:) = 0.0_wp
         solution%rotation(:, :) = 0.0_wp
         solution%slope(:) = 0.0_wp
