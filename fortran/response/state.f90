@@ -5,7 +5,7 @@ module gapbeam_state
     use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_buckles, gapbeam_not_converged
     use gapbeam_element, only: field_type
-    use gapbeam_polyline, only: extend_pieces
+    use gapbeam_polyline, only: node_support_type, extend_pieces
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_recover, only: recover_beam
@@ -178,12 +178,12 @@ contains
     !> The same on the ground
     subroutine settle_on_ground(assembled, ground, rule, state, error, near)
         type(assembled_type), intent(in) :: assembled
-        type(ground_type), intent(in) :: ground
+        !> With lines in place of the laws of supports out, where that is how it was solved
+        type(ground_type), intent(inout) :: ground
         integer, intent(in) :: rule
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type), intent(in), optional :: near
-        type(ground_type) :: given
         type(outcome_type) :: outcome
         type(ledger_type) :: ledger
         logical, allocatable :: acting(:)
@@ -191,14 +191,13 @@ contains
         call copy_scheme(state, acting, error)
         if (allocated(error)) return
         allocate (state%ground)
-        given = ground
         call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
                           state%ground, outcome, error, near)
         if (rule == rule_given) then
             call solve_as_given()
         else if (is_solved(outcome, error)) then
             ! As for a beam without ground: in a scheme that is known, what only touches pushes nothing
-            call refuse_indeterminate(given%beam, acting, state%ground%undecided, error)
+            call refuse_indeterminate(ground%beam, acting, state%ground%undecided, error)
         end if
         call name_range(assembled, error)
         if (allocated(error)) return
@@ -212,7 +211,7 @@ contains
         state%reaction(:) = state%ground%reaction
         call reserve_memory(for_fields, 0, 0, 2*size(state%ground%piece) + size(acting), error)
         if (allocated(error)) return
-        call audit_ground(given, state%factor, acting, state%ground, ledger, state%ground%residuals)
+        call audit_ground(ground, state%factor, acting, state%ground, ledger, state%ground%residuals)
         call name_fault(assembled, ledger, error)
 
     contains
@@ -223,24 +222,32 @@ contains
             type(ground_solution_type), allocatable :: solution
             type(outcome_type) :: another
             type(error_type), allocatable :: trouble
+            type(node_support_type), allocatable :: laws(:)
             logical :: closed(size(acting))
 
             if (has_ended(error)) return
             if (is_solved(outcome, error)) then
                 if (all((acting .eqv. state%closed) .or. state%ground%undecided)) return
             end if
-            call extend_pieces(given%beam%supports, state%closed)
+            laws = ground%beam%supports
+            call extend_pieces(ground%beam%supports, state%closed)
             allocate (solution)
             closed(:) = state%closed
-            call solve_on_ground(given, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
-            solution%solves = solution%solves + state%ground%solves
+            if (any(ground%beam%supports%stiffness < 0.0_wp)) then
+                ! Whether the beam is stable tells the path: axial forces that grow from nothing would lead elsewhere
+                call solve_on_ground(ground, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
+            else
+                call solve_stable(ground, detail_of(assembled), state%factor, rule_block, closed, solution, another, trouble)
+            end if
             if (is_solved(another, trouble)) then
                 if (allocated(error)) deallocate (error)
                 acting(:) = state%closed
                 outcome = another
+                solution%solves = solution%solves + state%ground%solves
+                solution%unique = solution%unique .and. state%ground%unique
                 call move_alloc(solution, state%ground)
             else
-                given = ground
+                call move_alloc(laws, ground%beam%supports)
             end if
         end subroutine solve_as_given
 
