@@ -67,8 +67,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
         !> A state nearby
         type(kept_type), intent(in), optional :: near
-        type(ground_start_type) :: start
-        logical :: known, starts
+        type(ground_start_type), allocatable :: start
+        real(wp), allocatable :: on_curves(:)
 
         kept%position = position
         allocate (kept%acts, source=acts)
@@ -76,26 +76,9 @@ contains
         call put_train(assembled, train, position, acts, kept%placed, error)
         if (.not. allocated(error)) call new_state(kept%placed, kept%state, error)
         if (allocated(error)) return
-        known = .false.
-        starts = .false.
-        if (present(near)) then
-            known = same_units(near, kept%placed)
-            if (known .and. allocated(assembled%layers)) then
-                call put_near(near, kept%placed, ground_of(kept%placed, 1.0_wp), start, starts)
-            end if
-            known = known .and. near%status == gapbeam_solved .and. (starts .or. .not. allocated(assembled%layers))
-        end if
-        if (known .and. starts) then
-            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
-                               deflections_at_curves(near%placed, near%state%deflection), start)
-        else if (known) then
-            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, &
-                               deflections_at_curves(near%placed, near%state%deflection))
-        else if (starts) then
-            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, start=start)
-        else
-            call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error)
-        end if
+        if (present(near)) call begin_near(near, kept%placed, start, on_curves)
+        ! What is not allocated is not present
+        call solve_on_laws(kept%placed, 1.0_wp, rule, kept%state, error, on_curves, start)
         if (allocated(error)) then
             if (all(error%code /= [gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite])) return
             kept%status = error%code
@@ -114,6 +97,26 @@ contains
         call start_from(kept%state%ground, kept%state%closed, kept%start)
         call find_zones(kept%placed, kept%state%ground, kept%zones, error)
     end subroutine solve_at
+
+    !> Where a solve at another position may begin: zones, and deflections at smooth laws; not allocated where these are not known
+    subroutine begin_near(near, placed, start, on_curves)
+        !> A state nearby
+        type(kept_type), intent(in) :: near
+        !> The beam at that position
+        type(assembled_type), intent(in) :: placed
+        type(ground_start_type), allocatable, intent(out) :: start
+        real(wp), allocatable, intent(out) :: on_curves(:)
+        logical :: known
+
+        if (.not. same_units(near, placed)) return
+        if (allocated(placed%layers)) then
+            allocate (start)
+            call put_near(near, placed, ground_of(placed, 1.0_wp), start, known)
+            if (.not. known) deallocate (start)
+            if (.not. known) return
+        end if
+        if (near%status == gapbeam_solved) on_curves = deflections_at_curves(near%placed, near%state%deflection)
+    end subroutine begin_near
 
     !> Is a beam in the units of a state
     pure function same_units(kept, placed) result(same)
