@@ -22,9 +22,10 @@ module gapbeam_steady_path
     private
     public :: pass_steady
 
-    !> A place on the path, and what was recorded up to it
+    !> A place on the path: its load factor and scheme, and how much is recorded up to it
     type :: mark_type
-        type(held_type) :: held
+        real(wp) :: at = 0.0_wp
+        logical, allocatable :: closed(:)
         integer :: events = 0, segments = 0
     end type mark_type
 
@@ -38,33 +39,38 @@ contains
         !> The call is to end, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(branch_type) :: branch
+        type(held_type) :: held
         type(mark_type) :: begin, come_to
         logical :: follows
 
         select type (now)
         type is (held_type)
             if (now%loose) return
-            call mark(problem, now, begin)
+            held = now
         end select
-        call start(problem, begin%held, branch, follows, error)
+        call start(problem, held, branch, follows, error)
         if (.not. follows) return
+        call mark(problem, held%at, held%closed, begin)
         come_to = begin
-        call go_along(problem, branch, begin, come_to, error)
+        call go_along(problem, branch, held, come_to, error)
         problem%solves = problem%solves + branch%responses%solves
-        if (.not. allocated(error) .and. come_to%held%at > begin%held%at) call check(problem, come_to, now, follows, error)
+        follows = .false.
+        if (.not. allocated(error) .and. come_to%at > begin%at) call check(problem, come_to, held, now, follows, error)
         if (allocated(error)) return
-        if (.not. come_to%held%at > begin%held%at .or. .not. follows) come_to = begin
+        if (.not. follows) come_to = begin
         problem%path%number = come_to%events
         problem%path%segments = come_to%segments
     end subroutine pass_steady
 
     !> Mark a place, and how much is recorded there
-    pure subroutine mark(problem, held, place)
+    pure subroutine mark(problem, at, closed, place)
         class(ground_problem_type), intent(in) :: problem
-        type(held_type), intent(in) :: held
-        type(mark_type), intent(out) :: place
+        real(wp), intent(in) :: at
+        logical, intent(in) :: closed(:)
+        type(mark_type), intent(inout) :: place
 
-        place%held = held
+        place%at = at
+        place%closed = closed
         place%events = problem%path%number
         place%segments = problem%path%segments
     end subroutine mark
@@ -112,19 +118,18 @@ contains
     end function is_clear
 
     !> From breakpoint to breakpoint, with all that changes
-    subroutine go_along(problem, branch, begin, come_to, error)
+    subroutine go_along(problem, branch, held, come_to, error)
         class(ground_problem_type), intent(inout) :: problem
         type(branch_type), intent(inout) :: branch
-        type(mark_type), intent(in) :: begin
+        !> Where it begins in, with the scheme of the last stretch out
+        type(held_type), intent(inout) :: held
         !> The end of the path, or a place on its last stretch that is not short
         type(mark_type), intent(inout) :: come_to
         type(error_type), allocatable, intent(out) :: error
-        type(held_type) :: before
         type(segment_type) :: segment
         logical, allocatable :: closed(:)
         integer :: outcome
 
-        before = begin%held
         do
             closed = branch%way%closed
             call step_branch(branch, real(problem%last, qp), rise, segment, outcome, error)
@@ -137,9 +142,10 @@ contains
             associate (from => real(segment%from, wp), to => min(real(segment%to, wp), problem%last))
                 if (to > from) call take(from)
                 if (allocated(error)) return
-                if (outcome == arrived .or. to - from > shortest_interval*problem%last) then
-                    call mark(problem, before, come_to)
-                    come_to%held%at = merge(to, from + (to - from)/2, outcome == arrived)
+                if (outcome == arrived) then
+                    call mark(problem, to, held%closed, come_to)
+                else if (to - from > shortest_interval*problem%last) then
+                    call mark(problem, from + (to - from)/2, held%closed, come_to)
                 end if
             end associate
             if (.not. is_clear(branch, outcome)) return
@@ -153,20 +159,22 @@ contains
             type(held_type) :: after
             integer :: changes
 
-            changes = count(closed .neqv. before%closed)
+            changes = count(closed .neqv. held%closed)
             if (changes == 0) return
-            after = before
+            after = held
             after%closed = closed
-            call problem%take_changes(before, after, spread(from, 1, changes), spread(-1.0_wp, 1, changes), error)
-            before = after
+            call problem%take_changes(held, after, spread(from, 1, changes), spread(-1.0_wp, 1, changes), error)
+            held%closed = closed
         end subroutine take
 
     end subroutine go_along
 
     !> Is the state at a place what the path says
-    subroutine check(problem, place, now, it_is, error)
+    subroutine check(problem, place, held, now, it_is, error)
         class(ground_problem_type), intent(inout) :: problem
-        type(mark_type), intent(inout) :: place
+        type(mark_type), intent(in) :: place
+        !> Where the path began, near which it is looked for
+        type(held_type), intent(inout) :: held
         !> That state, if it is
         class(point_type), allocatable, intent(inout) :: now
         logical, intent(out) :: it_is
@@ -175,13 +183,14 @@ contains
         class(point_type), allocatable :: point
 
         it_is = .false.
-        place%held%start%closed = place%held%closed
-        call problem%find(place%held%at, point, error, place%held)
+        held%closed = place%closed
+        held%start%closed = place%closed
+        call problem%find(place%at, point, error, held)
         if (allocated(error)) return
         select type (point)
         type is (held_type)
             it_is = .not. (allocated(point%trouble) .or. point%loose)
-            if (it_is) it_is = same_contact(place%held, point)
+            if (it_is) it_is = same_contact(held, point)
         end select
         if (it_is) call move_alloc(point, now)
     end subroutine check
