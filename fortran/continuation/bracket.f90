@@ -145,7 +145,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: between, first
         real(wp) :: size, reach
-        logical :: others, undecided
+        logical :: others, like_both
 
         found = .false.
         call copy_point(below, first)
@@ -154,29 +154,30 @@ contains
         do while (crossing%at - reach > below%at)
             call problem%find(crossing%at - reach, between, error, crossing%near)
             if (allocated(error)) return
-            undecided = .not. allocated(between%trouble)
-            if (undecided) then
+            like_both = .false.
+            if (.not. allocated(between%trouble)) then
                 others = .not. problem%alike(between, above)
                 if (.not. problem%alike(below, between)) then
                     ! There is another change before, or states do not tell so near to it
-                    undecided = .false.
                     call move_alloc(between, above)
                     if (others) return
                 else if (others) then
                     call move_alloc(between, below)
                     exit
+                else
+                    like_both = .true.
                 end if
             end if
             reach = wider*reach
             ! What is like both is undecided: farther away it is not
-            if (reach > farthest*size .and. .not. undecided) return
+            if (reach > farthest*size .and. .not. like_both) return
         end do
         reach = nearest*size
         do while (crossing%at + reach < above%at)
             call problem%find(crossing%at + reach, between, error, crossing%near)
             if (allocated(error)) return
-            undecided = .not. allocated(between%trouble)
-            if (undecided) then
+            like_both = .false.
+            if (.not. allocated(between%trouble)) then
                 ! In the lower one what is about to change may be undecided, and so like everything
                 others = .not. problem%alike(below, between)
                 if (.not. others) others = .not. problem%alike(first, between)
@@ -184,11 +185,11 @@ contains
                     call move_alloc(between, above)
                     exit
                 end if
-                undecided = problem%alike(between, above)
-                if (.not. undecided) call move_alloc(between, below)
+                like_both = problem%alike(between, above)
+                if (.not. like_both) call move_alloc(between, below)
             end if
             reach = wider*reach
-            if (reach > farthest*size .and. .not. undecided) return
+            if (reach > farthest*size .and. .not. like_both) return
         end do
         found = above%stands
     end subroutine confirm

@@ -35,7 +35,7 @@ contains
         type(beam_type), intent(out) :: beam
         !> Its node for every node of the beam as it was given, shape (0:n); not allocated where these are the same
         integer, allocatable, intent(out) :: node(:)
-        !> A beam in stretches that change along the path, or under which supports break; or no memory
+        !> A beam in stretches that change along the path, or with smooth laws; or no memory
         type(error_type), allocatable, intent(out) :: error
         type(ground_type) :: ground, held
         type(fine_ground_type) :: fine
