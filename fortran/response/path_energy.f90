@@ -9,7 +9,7 @@
 !> cancels where the factor comes back to what it was: it is left out.
 module gapbeam_path_energy
     use gapbeam_kinds, only: wp
-    use gapbeam_piece, only: piece_load_type, no_load
+    use gapbeam_piece, only: no_load
     use gapbeam_link, only: link_type, condense_link
     use gapbeam_element, only: sum_type, add, total, field_type
     use gapbeam_fields, only: values_at
@@ -50,6 +50,8 @@ contains
         !> Rotations at the left and right ends of all pieces
         type(field_type) :: left(size(starts)), right(size(starts))
         real(wp) :: growth(size(assembled%normal))
+        !> What is at the ends of pieces is looked at by itself
+        logical, parameter :: inside(2) = .false.
         integer :: i
 
         if (allocated(state%ground)) then
@@ -89,7 +91,6 @@ contains
 
         !> Loads along the stretches of a beam on ground or under an axial force
         subroutine add_stretches()
-            logical, parameter :: inside(2) = .false.
             type(stretch_load_type) :: load
             type(stretch_link_type) :: link
             real(wp), dimension(1) :: turn_a, turn_b, shear_a, shear_b
@@ -97,7 +98,7 @@ contains
             associate (s => state%ground)
                 do i = 1, size(s%piece)
                     associate (j => s%piece(i), ends => s%ends(i))
-                        load = on_stretch(load_on_part(along(j), s%from(i), s%to(i), assembled%pieces(j)%length, inside))
+                        load = on_stretch(load_on_part(assembled%live(j), s%from(i), s%to(i), assembled%pieces(j)%length, inside))
                         call condense_loaded(s%stretches(i), [load], link, turn_a, turn_b, shear_a, shear_b)
                         call add(parts, shear_a(1)*ends%w_a + shear_b(1)*ends%w_b)
                         call add(parts, turn_a(1)*ends%moment_a + turn_b(1)*ends%moment_b)
@@ -114,25 +115,14 @@ contains
             real(wp) :: work_of_link(1)
 
             do i = 1, size(assembled%pieces)
-                call condense_link(assembled%pieces(i:i), [no_load], [along(i)], work_of_link, bar)
+                associate (length => assembled%pieces(i)%length)
+                    call condense_link(assembled%pieces(i:i), [no_load], [load_on_part(assembled%live(i), 0.0_wp, length, length, &
+                                                                                       inside)], work_of_link, bar)
+                end associate
                 call add(parts, bar%shear_a(2)*left(i)%deflection - bar%shear_b(2)*right(i)%deflection)
                 call add(parts, bar%turn_a(2)*left(i)%moment + bar%turn_b(2)*right(i)%moment)
             end do
         end subroutine add_pieces
-
-        !> What of the live loads is distributed along a piece
-        pure function along(piece) result(load)
-            integer, intent(in) :: piece
-            type(piece_load_type) :: load
-
-            load = no_load
-            associate (live => assembled%live(piece))
-                load%qa = live%qa
-                load%qb = live%qb
-                load%kappa = live%kappa
-                load%rise = live%rise
-            end associate
-        end function along
 
     end function work_of_live_loads
 
