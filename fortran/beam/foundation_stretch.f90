@@ -54,10 +54,11 @@ contains
         type(stretch_type), intent(in) :: a, b
         logical :: alike
 
-        alike = abs(a%length - b%length) <= same_length*a%length .and. all(a%power == b%power) &
-            .and. .not. any(abs([a%flexibility, a%shear_flexibility, a%modulus_a, a%modulus_b, a%tension, a%tension_change, &
-                                 a%taper] - [b%flexibility, b%shear_flexibility, b%modulus_a, b%modulus_b, b%tension, &
-                                             b%tension_change, b%taper]) > 0.0_wp)
+        alike = abs(a%length - b%length) <= same_length*a%length .and. all(a%power == b%power)
+        if (alike) alike = all(is_equal([a%flexibility, a%shear_flexibility, a%modulus_a, a%modulus_b, a%tension, &
+                                            a%tension_change, a%taper], &
+                                           [b%flexibility, b%shear_flexibility, b%modulus_a, b%modulus_b, b%tension, &
+                                            b%tension_change, b%taper]))
     end function are_alike
 
     !> Are two loads the same
@@ -65,9 +66,17 @@ contains
         type(stretch_load_type), intent(in) :: a, b
         logical :: same
 
-        same = .not. any(abs([a%qa, a%qb, a%qc, a%kappa, a%rise, a%kink_a, a%kink_b, a%couple_a, a%couple_b] &
-                             - [b%qa, b%qb, b%qc, b%kappa, b%rise, b%kink_a, b%kink_b, b%couple_a, b%couple_b]) > 0.0_wp)
+        same = all(is_equal([a%qa, a%qb, a%qc, a%kappa, a%rise, a%kink_a, a%kink_b, a%couple_a, a%couple_b], &
+                               [b%qa, b%qb, b%qc, b%kappa, b%rise, b%kink_a, b%kink_b, b%couple_a, b%couple_b]))
     end function same_load
+
+    !> Is a number the same as another: comparing costs a fraction of what a difference does in quadruple precision
+    elemental function is_equal(a, b) result(same)
+        real(wp), intent(in) :: a, b
+        logical :: same
+
+        same = a <= b .and. a >= b
+    end function is_equal
 
     !> What of a piece lies between two places, without ground
     pure function stretch_between(piece, from, to) result(stretch)

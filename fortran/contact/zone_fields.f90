@@ -4,7 +4,7 @@ module gapbeam_zone_fields
     use gapbeam_tolerances, only: straight_field
     use gapbeam_foundation_stretch, only: without_slip
     use gapbeam_foundation_taylor, only: shear_of
-    use gapbeam_foundation, only: stretch_load_type, stretch_ends_type
+    use gapbeam_foundation, only: stretch_ends_type
     use gapbeam_curved, only: curved_type
     use gapbeam_layers, only: is_curve, has_curves
     use gapbeam_ground_laws, only: take_curves
@@ -26,7 +26,6 @@ contains
         integer, intent(in) :: i
         real(wp), intent(out) :: rotation(2), shear(2)
         real(wp) :: transverse(2)
-        type(stretch_load_type) :: load
 
         associate (a => work%answers(i - 1), b => work%answers(i), g => grounded%beam%ground(i), link => grounded%beam%links(i))
             rotation(1) = -g%pa*a%deflection + g%p1*b%deflection + g%faa*a%moment_right + g%fab*b%moment_left &
@@ -38,8 +37,9 @@ contains
             transverse(2) = g%pb*b%moment_left - g%p1*a%moment_right + g%gbb*b%deflection + g%gab*a%deflection &
                 + (link%shear_b(1) + factor*link%shear_b(2))
         end associate
-        load = combined_load(grounded%dead(i), grounded%live(i), factor)
-        rotation = rotation + [load%kink_a, -load%kink_b]
+        associate (dead => grounded%dead(i), live => grounded%live(i))
+            rotation = rotation + [dead%kink_a + factor*live%kink_a, -(dead%kink_b + factor*live%kink_b)]
+        end associate
         shear = shear_of(grounded%stretches(i), [0.0_wp, 1.0_wp], rotation, transverse)
     end subroutine fields_at_ends
 
@@ -52,9 +52,9 @@ contains
         integer, intent(in) :: i
         type(stretch_ends_type) :: ends
 
-        associate (a => work%answers(i - 1), b => work%answers(i), &
-                   load => combined_load(grounded%dead(i), grounded%live(i), factor))
-            ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right + load%couple_a, b%moment_left - load%couple_b)
+        associate (a => work%answers(i - 1), b => work%answers(i), dead => grounded%dead(i), live => grounded%live(i))
+            ends = stretch_ends_type(a%deflection, b%deflection, a%moment_right + (dead%couple_a + factor*live%couple_a), &
+                                     b%moment_left - (dead%couple_b + factor*live%couple_b))
         end associate
     end function ends_of
 

@@ -14,6 +14,7 @@ module gapbeam_zones
     use gapbeam_foundation_stretch, only: softness_in
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads
     use gapbeam_contact_state, only: find_contact_state, outcome_type
+    use gapbeam_layers, only: has_curves
     use gapbeam_ground_laws, only: distance_to_breakpoint
     use gapbeam_ground, only: ground_type, zones_type, grounded_type, place_stretches
     use gapbeam_zone_fields, only: fields_at_ends, take_fields, way_of_fields
@@ -111,7 +112,7 @@ contains
             call move_ends(ground, grounded, zones, factor, work, found, others)
             ! Zones that no tangent leads to are for settle_zones
             if (others) return
-            call take_fields(grounded, zones, factor, work, found%start)
+            if (any(has_curves(ground%layers))) call take_fields(grounded, zones, factor, work, found%start)
             moved = max(way_of_ends(zones, found), way_of_fields(ground, grounded, zones, found))
             zones = found
             settled = moved <= tolerance

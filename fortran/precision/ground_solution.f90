@@ -290,6 +290,7 @@ contains
         integer :: k, n
 
         forces(:) = 0.0_qp
+        if (.not. any(zones%acts(:, i) > 0)) return
         from = zones%from(i)
         modulus = [stretch%modulus_a, stretch%modulus_b]
         by_springs = (transverse_of(stretch, 1.0_qp, field(2, 1), field(2, 2)) &

@@ -32,29 +32,42 @@ contains
         type(grounded_type), intent(in) :: grounded
         type(workspace_type), intent(in) :: work
         logical, intent(out) :: stands
-        real(qp) :: length, force, way, modulus, rounding
+        real(qp) :: length, rounding
+        real(wp) :: force, way, modulus
         integer :: i
 
         length = sum(ground%pieces%length)
-        call size_of_loads(ground, factor, force, way, modulus)
+        stands = .false.
+        if (.not. any(is_short(zones%to - zones%from) .and. any(zones%acts > 0, 1))) return
+        call size_of_loads(ground, real(factor, wp), force, way, modulus)
         associate (supports => grounded%beam%supports)
             do i = 1, size(supports)
                 if (supports(i)%node > size(zones%piece) .or. .not. abs(work%reaction(i)) > 0.0_qp) cycle
-                way = max(way, abs(work%answers(supports(i)%node)%deflection))
+                way = max(way, real(abs(work%answers(supports(i)%node)%deflection), wp))
             end do
         end associate
         ! Without loads forces are rounding of what movements of the ground would make, and depths that of deflections
-        force = max(least_tied_share*force, fine_rounding*length*modulus*way)
-        rounding = fine_rounding*max(way, maxval(abs(work%answers%deflection)))
-        stands = .false.
+        force = real(max(least_tied_share*force, fine_rounding*length*modulus*way), wp)
+        rounding = fine_rounding*max(real(way, qp), maxval(abs(work%answers%deflection)))
         do i = 1, size(zones%piece)
             associate (along => zones%to(i) - zones%from(i))
-                if (along > min_tied_zone*length .or. .not. any(zones%acts(:, i) > 0)) cycle
+                if (.not. (is_short(along) .and. any(zones%acts(:, i) > 0))) cycle
                 stands = force_on(grounded, factor, work, i, length) > force .or. &
                     depth_in(ground, grounded, zones, work, i, min_tied_zone*length) > rounding + most_tied_slope*way*along/length
             end associate
             if (stands) return
         end do
+
+    contains
+
+        !> Is a stretch so short that it counts as none
+        elemental function is_short(along)
+            real(qp), intent(in) :: along
+            logical :: is_short
+
+            is_short = along <= min_tied_zone*length
+        end function is_short
+
     end subroutine stands_on_edge
 
     !> Force, or couple by the length of the beam, of the ground on a stretch: what shear and moment gain
@@ -128,42 +141,52 @@ contains
     !> may move it
     pure subroutine size_of_loads(ground, factor, force, way, modulus)
         type(ground_type), intent(in) :: ground
-        real(qp), intent(in) :: factor
-        real(qp), intent(out) :: force, way
+        real(wp), intent(in) :: factor
+        real(wp), intent(out) :: force, way
         !> Greatest modulus of the ground
-        real(qp), intent(out) :: modulus
-        real(qp) :: length, kappa, bent, soft(2, size(ground%pieces))
-        type(piece_load_type) :: load
+        real(wp), intent(out) :: modulus
+        real(wp) :: length, kappa, bent, soft(2), softest(2), curved
         integer :: j
 
-        length = sum(ground%pieces%length)
-        force = sum(abs(ground%beam%force(1, :) + factor*ground%beam%force(2, :))) &
-            + sum(abs(ground%beam%couple(1, :) + factor*ground%beam%couple(2, :)))/length
-        kappa = 0.0_qp
-        bent = 0.0_qp
+        length = real(sum(ground%pieces%length), wp)
+        force = sum(combined(ground%beam%force(1, :), ground%beam%force(2, :))) &
+            + sum(combined(ground%beam%couple(1, :), ground%beam%couple(2, :)))/length
+        kappa = 0.0_wp
+        bent = 0.0_wp
+        softest(:) = 0.0_wp
         do j = 1, size(ground%pieces)
             associate (dead => ground%dead(j), live => ground%live(j))
-                force = force + ground%pieces(j)%length*max(abs(dead%qa + factor*live%qa), abs(dead%qb + factor*live%qb))
-                load = combine_loads(dead, live, factor)
-                kappa = max(kappa, abs(load%kappa) + abs(load%rise) + max(abs(load%kink_a), abs(load%kink_b))/length)
-                force = force + (abs(load%couple_a) + abs(load%couple_b))/length
-                soft(:, j) = greatest_softness(ground%pieces(j))
-                if (soft(1, j) > 0.0_qp) bent = max(bent, (abs(load%kappa) + abs(load%rise))/(soft(1, j)*length))
+                force = force + real(ground%pieces(j)%length, wp)*max(combined(dead%qa, live%qa), combined(dead%qb, live%qb)) &
+                    + (combined(dead%couple_a, live%couple_a) + combined(dead%couple_b, live%couple_b))/length
+                curved = combined(dead%kappa, live%kappa) + combined(dead%rise, live%rise)
+                kappa = max(kappa, curved + max(combined(dead%kink_a, live%kink_a), combined(dead%kink_b, live%kink_b))/length)
+                soft(:) = real(greatest_softness(ground%pieces(j)), wp)
+                if (soft(1) > 0.0_wp) bent = max(bent, curved/(soft(1)*length))
+                softest = max(softest, soft)
             end associate
         end do
         ! The first parameter of a law that is not by points is its stiffness
-        modulus = maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope_a, ground%laws%slope_b, &
-                          ground%layers%parameter_a(1), &
-                          ground%layers%parameter_b(1)])
-        way = kappa*length**2 + maxval(abs([ground%layers%contact_a, ground%layers%contact_b])) &
-            + force*length*(maxval(soft(1, :))*length**2 + maxval(soft(2, :))) &
-            + force/(length*modulus)
+        modulus = real(maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope_a, ground%laws%slope_b, &
+                               ground%layers%parameter_a(1), ground%layers%parameter_b(1)]), wp)
+        way = kappa*length**2 + real(maxval(abs([ground%layers%contact_a, ground%layers%contact_b])), wp) &
+            + force*length*(softest(1)*length**2 + softest(2)) + force/(length*modulus)
         do j = 1, size(ground%beam%supports)
             associate (s => ground%beam%supports(j))
-                if (s%node <= size(ground%pieces) .and. abs(s%contact) <= huge(way)) way = max(way, abs(s%contact))
+                if (s%node <= size(ground%pieces) .and. abs(s%contact) <= huge(1.0_wp)) way = max(way, real(abs(s%contact), wp))
             end associate
         end do
         force = force + bent
+
+    contains
+
+        !> Size of what dead and live load come to
+        elemental function combined(dead, live)
+            real(qp), intent(in) :: dead, live
+            real(wp) :: combined
+
+            combined = abs(real(dead, wp) + factor*real(live, wp))
+        end function combined
+
     end subroutine size_of_loads
 
     !> Up to which a force of the ground is none. The gain of the shear does not tell: on a beam that lies evenly it is 0, since the
@@ -177,12 +200,12 @@ contains
         real(wp), intent(in) :: carried(:, :)
         type(workspace_type), intent(in) :: work
         real(wp) :: least
-        real(qp) :: force, way, modulus
+        real(wp) :: force, way, modulus
 
-        call size_of_loads(ground, factor, force, way, modulus)
-        force = max(force, real(maxval(sum(abs(carried), 1)), qp), maxval([0.0_qp, abs(work%reaction)]), &
-                    maxval([0.0_qp, abs(ground%beam%supports%force)]), sum(ground%pieces%length)*modulus*way)
-        least = real(no_tied_force*force, wp)
+        call size_of_loads(ground, real(factor, wp), force, way, modulus)
+        least = no_tied_force*max(force, maxval(sum(abs(carried), 1)), real(maxval([0.0_qp, abs(work%reaction)]), wp), &
+                                  real(maxval([0.0_qp, abs(ground%beam%supports%force)]), wp), &
+                                  real(sum(ground%pieces%length), wp)*modulus*way)
     end function least_force
 
     !> A beam without loads on which nothing pushes has no forces: what is left of them is rounding, of which none is left beside it
