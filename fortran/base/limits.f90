@@ -14,6 +14,7 @@ module gapbeam_limits
     public :: most_corrections, most_moves, most_refinements, most_mesh_rounds, most_node_rounds, most_line_steps, most_law_steps
     public :: most_nodes_asked, least_mesh_parts, most_first_parts, most_mesh_parts, mesh_cuts, most_zone_rounds
     public :: most_polishing, parts_of_stretch, most_root_steps, most_examined, most_flips, most_tie_solves, last_try
+    public :: most_solves_under_more
     public :: last_if_tied, most_edge_nodes, most_stiffer, most_motion_steps, most_at_once, short_beam_links, most_looks
     public :: looks_without_progress, most_idle_segments, most_train_changes, most_of_each, most_halves, bound_trials
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
@@ -190,6 +191,9 @@ module gapbeam_limits
     integer, parameter :: last_try = 5
     !> Not from all of them where no mesh can tell. Read by precision/ground_solver
     integer, parameter :: last_if_tied = 4
+    !> Linear solves after which no more load is tried where the given one could not be settled; some hundreds do. Read by
+    !> precision/less_load
+    integer, parameter :: most_solves_under_more = 8192
     !> Nodes of a mesh that are pressed where the beam stands on edges; tuned. Read by precision/ground_solver
     integer, parameter :: most_edge_nodes = 4
     !> How often a mesh is refined at once where ground has become stiffer; tuned. Read by precision/ground_solver

@@ -194,7 +194,7 @@ module gapbeam_tolerances
     real(wp), parameter :: no_speed = max(512*epsilon(1.0_wp), 4*real(epsilon(1.0_dp), wp))
     !> So many times that much is clearly more; tuned. Read by contact/unbounded_motions
     real(wp), parameter :: clearly_more = 1024.0_wp
-    !> Forces of the weak springs, relative to the loads, that come from rounding of the loads alone. Read by contact/contact_state
+    !> Forces of the weak springs, relative to loads and shears, that come from rounding of these. Read by contact/contact_state
     real(wp), parameter :: least_spring_force = 8*real(epsilon(1.0_dp), wp)
     !> A reference position that moves by less than this share of its deflections is at rest: rounding of a beam that is nearly
     !> free. Read by contact/contact_state

@@ -207,7 +207,8 @@ contains
                 moved = maxval(abs(displaced(:ubound(work%reference, 1)) - work%reference))
                 at_rest = moved <= max(at_rest_share*maxval(abs(displaced)), &
                                        epsilon(1.0_wp)*maxval(work%shear_size)/proximal_weight) &
-                    .or. (moved <= least_spring_force*maxval(work%load_size)/proximal_weight .and. moved > moved_before/2)
+                    .or. (moved <= least_spring_force*max(maxval(work%load_size), maxval(work%shear_size))/proximal_weight &
+                          .and. moved > moved_before/2)
                 moved_before = moved
                 if (at_rest) then
                     outcome%indifferent = .true.

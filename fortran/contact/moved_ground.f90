@@ -62,7 +62,7 @@ contains
         end associate
     end function under_share
 
-    !> The beam under a share of its dead loads and at a load factor
+    !> The beam under a share of its dead loads, or some times as many, and at a load factor
     pure function under_loads(ground, dead, factor) result(changed)
         type(ground_type), intent(in) :: ground
         real(wp), intent(in) :: dead, factor
@@ -70,7 +70,7 @@ contains
 
         changed = ground
         call move_ground(changed, factor)
-        if (dead >= 1.0_wp) return
+        if (.not. abs(dead - 1) > 0.0_wp) return
         changed%dead(:) = combine_loads(no_load, ground%dead, dead)
         changed%beam%force(1, :) = dead*ground%beam%force(1, :)
         changed%beam%couple(1, :) = dead*ground%beam%couple(1, :)

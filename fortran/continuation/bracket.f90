@@ -19,8 +19,8 @@ module gapbeam_bracket
     !> Distance of parameters at which it is enough to know that states between them cannot be settled
     real(wp), parameter :: near = 2.0_wp**(-44)
     !> Next to an event a state may not be settled, since a zone has next to no length there: parameters on both sides of it that
-    !> are as near as this are neighbours
-    real(wp), parameter :: next_to = 2.0_wp**(-32)
+    !> are as near as the first are neighbours, and as near as the second if it takes that. It is where the lower one ends
+    real(wp), parameter :: next_to = 2.0_wp**(-32), less_near = 2.0_wp**(-22)
 
 contains
 
@@ -41,7 +41,7 @@ contains
         type(change_type), allocatable :: changes(:)
         type(crossing_type) :: crossing
         integer :: guesses, i
-        logical :: found
+        logical :: found, ends
 
         found = .false.
         misled = .false.
@@ -60,7 +60,8 @@ contains
             if (allocated(error)) return
             if (found .or. .not. above%stands) exit
         end do
-        if (.not. found) call bisect(problem, below, above, error)
+        ends = .false.
+        if (.not. found) call bisect(problem, below, above, ends, error)
         if (allocated(error)) return
         call make_sure(problem, below, misled, error)
         if (allocated(error) .or. misled .or. .not. (below%stands .and. above%stands)) return
@@ -68,7 +69,7 @@ contains
         if (allocated(error) .or. misled) return
         call problem%list_changes(below, above, changes)
         allocate (at(size(changes)), place(size(changes)))
-        at(:) = above%at
+        at(:) = merge(below%at, above%at, ends)
         place(:) = -1.0_wp
         if (.not. found) return
         at(:) = crossing%at
@@ -176,6 +177,11 @@ contains
         do while (crossing%at + reach < above%at)
             call problem%find(crossing%at + reach, between, error, crossing%near)
             if (allocated(error)) return
+            if (allocated(between%trouble) .and. above%stands) then
+                call come_down(problem, crossing%at, reach, below, above, error)
+                if (allocated(error)) return
+                if (above%at - crossing%at <= less_near*size) exit
+            end if
             like_both = .false.
             if (.not. allocated(between%trouble)) then
                 ! In the lower one what is about to change may be undecided, and so like everything
@@ -194,16 +200,46 @@ contains
         found = above%stands
     end subroutine confirm
 
+    !> Where states just above a parameter cannot be settled, they may be from others farther above it: nearer and nearer to it
+    subroutine come_down(problem, to, reach, below, above, error)
+        class(path_problem_type), intent(inout) :: problem
+        !> That parameter, and how near to it is near enough
+        real(wp), intent(in) :: to, reach
+        !> A point below it
+        class(point_type), intent(in) :: below
+        !> One above it that is not like that in, the nearest one out
+        class(point_type), allocatable, intent(inout) :: above
+        !> As for find
+        type(error_type), allocatable, intent(out) :: error
+        class(point_type), allocatable :: nearer
+        real(wp) :: next
+
+        next = to + max(reach, (above%at - to)/4)
+        do while (next < above%at)
+            call problem%find(next, nearer, error, above)
+            if (allocated(error)) return
+            if (.not. nearer%stands .or. problem%alike(below, nearer)) return
+            call move_alloc(nearer, above)
+            next = to + max(reach, (above%at - to)/4)
+        end do
+    end subroutine come_down
+
     !> Neighbours around the first change between two points
-    subroutine bisect(problem, below, above, error)
+    subroutine bisect(problem, below, above, ends, error)
         class(path_problem_type), intent(inout) :: problem
         !> As for bracket_change
         class(point_type), allocatable, intent(inout) :: below, above
+        !> Is the change where states like the lower one end, and those just above cannot be settled
+        logical, intent(out) :: ends
         !> As for find
         type(error_type), allocatable, intent(out) :: error
         class(point_type), allocatable :: between, standing
         real(wp) :: middle, width, size
+        !> May what cannot be settled from the lower point be settled from one above it
+        logical :: comes_down
 
+        ends = .false.
+        comes_down = .true.
         do
             if (above%stands) call copy_point(above, standing)
             width = above%at - below%at
@@ -217,6 +253,12 @@ contains
             end if
             call problem%find(middle, between, error, below)
             if (allocated(error)) return
+            if (allocated(between%trouble) .and. allocated(standing) .and. comes_down) then
+                comes_down = standing%at - below%at > next_to*size
+                if (comes_down) call problem%find(middle, between, error, standing)
+                if (allocated(error)) return
+                comes_down = comes_down .and. .not. allocated(between%trouble)
+            end if
             if (problem%alike(below, between)) then
                 call move_alloc(between, below)
             else
@@ -224,7 +266,8 @@ contains
             end if
         end do
         if (above%stands .or. .not. allocated(above%trouble) .or. .not. allocated(standing)) return
-        if (standing%at - below%at <= next_to*problem%size_at(standing%at)) call move_alloc(standing, above)
+        ends = standing%at - below%at <= less_near*problem%size_at(standing%at)
+        if (ends) call move_alloc(standing, above)
     end subroutine bisect
 
 end module gapbeam_bracket

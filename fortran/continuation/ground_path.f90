@@ -15,9 +15,9 @@ module gapbeam_ground_path
     private
     public :: follow_on_ground
 
-    !> Where the load at load_begin is nothing beside gaps and settlements, what acts from the beginning is what acts at one of the
-    !> next shares of the way
-    real(wp), parameter :: begins(*) = [load_begin, 2.0_wp**(-34), 2.0_wp**(-28), 2.0_wp**(-22)]
+    !> Where the load at load_begin is nothing beside gaps and settlements, or the beam hardly touches what it lies on (found from
+    !> more load), what acts from the beginning is what acts at one of the next shares of the way
+    real(wp), parameter :: begins(*) = [load_begin, 2.0_wp**(-31), 2.0_wp**(-22)]
 
 contains
 
@@ -61,7 +61,7 @@ contains
         do k = 1, size(begins)
             call problem%find(problem%last*begins(k), start, error)
             if (allocated(error)) return
-            if (.not. allocated(start%trouble)) exit
+            if (.not. (allocated(start%trouble) .or. problem%state%ground%from_more_load)) exit
         end do
         if (.not. start%stands) then
             if (allocated(start%trouble)) error = start%trouble

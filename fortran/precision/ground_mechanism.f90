@@ -27,6 +27,7 @@ module gapbeam_ground_mechanism
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_ground_solver, only: solve_on_ground
+    use gapbeam_less_load, only: solve_from_more_load
     implicit none
     private
     public :: solve_or_refute
@@ -57,11 +58,19 @@ contains
             if (refuted .or. allocated(error)) return
         end if
         call solve_on_ground(ground, detail, factor, rule, closed, solution, outcome, error, near)
-        if (first .or. .not. (fit .and. allocated(error))) return
+        if (.not. allocated(error)) return
         if (error%code /= gapbeam_not_converged) return
-        call refute(ground, detail, factor, rule, start, outcome, refuted, another)
-        if (refuted) deallocate (error)
-        if (allocated(another)) call move_alloc(another, error)
+        if (fit .and. .not. first) then
+            call refute(ground, detail, factor, rule, start, outcome, refuted, another)
+            if (refuted) deallocate (error)
+            if (allocated(another)) call move_alloc(another, error)
+            if (.not. allocated(error)) return
+            if (has_ended(error)) return
+        end if
+        ! Beside a state that is known there is nothing farther away to come from
+        if (present(near) .or. any(ground%layers%rigid)) return
+        closed(:) = start
+        call solve_from_more_load(ground, detail, factor, rule, closed, solution, outcome, error)
     end subroutine solve_or_refute
 
     !> Is there a part that turns without end: solved without the ground that carries nothing

@@ -55,8 +55,9 @@ module gapbeam_ground_solution
         logical, allocatable :: undecided(:)
         !> Load factor of its live loads, to which supports and ground have moved; up to which forces of layers are none
         real(wp) :: factor = 0.0_wp, no_force = 0.0_wp
-        !> Linear solves; rounds of zones in double precision
+        !> Linear solves; was it found from the one under more load (gapbeam_less_load)
         integer :: solves = 0
+        logical :: from_more_load = .false.
         !> Is it known to be the only one; where there is none under compression, the share of the axial forces that the beam bears,
         !> where the force of ground falls that of the load factor
         logical :: unique = .true.
