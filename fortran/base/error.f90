@@ -4,7 +4,8 @@ module gapbeam_error
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: error_type, fatal_error, no_memory, out_of_range, has_ended, status_text, status_codes, status_texts, unknown_status
+    public :: error_type, fatal_error, no_memory, failed, out_of_range, has_ended
+    public :: status_text, status_codes, status_texts, unknown_status
     public :: gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles
     public :: gapbeam_bad_input, gapbeam_indeterminate, gapbeam_not_converged, gapbeam_not_finite
     public :: gapbeam_no_memory, gapbeam_not_prepared, gapbeam_other_version, gapbeam_stopped
@@ -91,6 +92,17 @@ contains
 
         call fatal_error(error, gapbeam_no_memory, trim(status_text(gapbeam_no_memory)))
     end subroutine no_memory
+
+    !> Is there an error by now: one from before, or that memory is at an end, which is set here
+    function failed(stat, error)
+        !> What `allocate` says
+        integer, intent(in) :: stat
+        type(error_type), allocatable, intent(inout) :: error
+        logical :: failed
+
+        if (stat /= 0) call no_memory(error)
+        failed = allocated(error)
+    end function failed
 
     !> Set the error that says that numbers left the range of double precision, and what helps
     pure subroutine out_of_range(error)

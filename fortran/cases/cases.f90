@@ -2,7 +2,7 @@
 !> A case is a sum of what each load does alone, times a factor.
 module gapbeam_cases
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
+    use gapbeam_error, only: error_type, failed, gapbeam_solved, gapbeam_not_finite, gapbeam_bad_input
     use gapbeam_link, only: link_type, piece_load_type, condense_loads, no_load
     use gapbeam_model, only: beam_type, drop_loads
     use gapbeam_workspace, only: workspace_type, set_loads
@@ -58,8 +58,7 @@ contains
             return
         end if
         allocate (on_pieces(size(assembled%pieces)), work(size(assembled%pieces)), link_of(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         on_pieces(:) = no_load
         do i = 1, size(assembled%beam%links)
             link_of(assembled%node_point(i - 1) + 1:assembled%node_point(i)) = i
@@ -72,8 +71,7 @@ contains
             if (node >= 0) at_nodes = at_nodes + 1
         end do
         allocate (loads%of_links(shares), loads%of_nodes(at_nodes), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         shares = 0
         at_nodes = 0
         do k = 1, size(assembled%model%loads)

@@ -2,7 +2,7 @@
 !> Every load is taken times a factor, dead ones as dead ones; each begins from the same start, so none depends on those before.
 module gapbeam_combinations
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: model_type
     use gapbeam_assembled_model, only: assembled_type, copy_given
     use gapbeam_assemble, only: assemble_model
@@ -62,8 +62,7 @@ contains
         else if (.not. allocated(combined%assembled)) then
             allocate (combined%assembled, source=base, stat=stat)
         end if
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (assembled => combined%assembled, loads => base%model%loads)
             assembled%model%loads%value = factors*loads%value
             assembled%model%loads%value_to = factors*loads%value_to

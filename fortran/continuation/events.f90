@@ -5,7 +5,7 @@ module gapbeam_events
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: changes_at_a_time
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, has_ended, gapbeam_solved, gapbeam_no_equilibrium, &
         gapbeam_not_converged
     use gapbeam_laws, only: is_smooth
     use gapbeam_contact_state, only: outcome_type
@@ -65,8 +65,7 @@ contains
 
         number = 0
         allocate (events(2*size(state%closed) + 8), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call close_all(assembled, state%closed)
         call solve_state(assembled, 0.0_wp, rule, state, error)
         if (allocated(error) .or. state%status /= gapbeam_solved) return

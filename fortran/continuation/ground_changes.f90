@@ -2,7 +2,7 @@
 module gapbeam_ground_changes
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_both, gapbeam_below, gapbeam_above
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
@@ -60,8 +60,7 @@ contains
         most = 0
         if (size(runs) > 0) most = sum(max(runs%acts, 0))
         allocate (found(most), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         number = 0
         last = 0
         do while (last < size(runs))
@@ -78,8 +77,7 @@ contains
             end do
         end do
         allocate (zones(number), source=found(:number), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
     end subroutine find_zones
 
     !> Join runs of next to no length to their neighbours, as if what is before went on; places that only touch are none

@@ -1,7 +1,7 @@
 !> Load path of a beam on the ground, event by event and segment by segment.
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed, no_memory
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_pieces, only: acts_in, what_happens, no_change, gapbeam_merges, gapbeam_splits
@@ -176,8 +176,7 @@ contains
 
         if (path%segments == size(path%segment)) then
             allocate (longer(2*path%segments), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             do k = 1, path%segments
                 longer(k)%from = path%segment(k)%from
                 call move_alloc(path%segment(k)%closed, longer(k)%closed)

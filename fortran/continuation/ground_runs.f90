@@ -2,7 +2,7 @@
 module gapbeam_ground_runs
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
     use gapbeam_layers, only: layer_type, branches_of_law, other_way
     use gapbeam_assembled_model, only: assembled_type, point_x
@@ -77,8 +77,7 @@ contains
         associate (keys => 2*size(assembled%model%foundations))
             if (stat == 0) allocate (found(total), key(total), last_run(keys), last_stretch(keys), last_touch(keys), stat=stat)
         end associate
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         supported(:) = .false.
         do k = 1, size(assembled%beam%supports)
             associate (s => assembled%beam%supports(k))
@@ -113,8 +112,7 @@ contains
             end associate
         end do
         allocate (runs(n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call sort(found(:n), key(:n), last_run, runs)
 
     contains

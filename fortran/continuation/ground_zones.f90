@@ -1,7 +1,7 @@
 !> Zones of contact and free spans of a beam on the ground, in the user's units.
 module gapbeam_ground_zones
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_foundations
     use gapbeam_scene, only: gapbeam_both
@@ -53,8 +53,7 @@ contains
         call ground_runs(assembled, solution, runs, error)
         if (allocated(error)) return
         allocate (zones(count(runs%acts > 0 .or. runs%touches)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         n = 0
         do i = 1, size(runs)
             associate (run => runs(i))
@@ -108,8 +107,7 @@ contains
                 .and. assembled%model%foundations(runs%foundation)%side /= gapbeam_both
             allocate (spans(count(free)), stat=stat)
         end if
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         n = 0
         do i = 1, size(runs)
             if (.not. free(i)) cycle

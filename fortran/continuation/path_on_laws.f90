@@ -4,7 +4,7 @@
 !> stretches is told here, and where they end on the laws is found along arcs about them (gapbeam_smooth_arc).
 module gapbeam_path_on_laws
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, gapbeam_solved, no_memory
+    use gapbeam_error, only: error_type, gapbeam_solved, failed
     use gapbeam_path_tolerances, only: nothing_on_arc, wide_of_polyline
     use gapbeam_laws, only: is_smooth, law_scale
     use gapbeam_polyline, only: node_support_type
@@ -55,8 +55,7 @@ contains
         associate (h => view%history, n => view%history%number)
             allocate (h%on_laws, stat=stat)
             if (stat == 0) allocate (h%on_laws%joins(n), h%on_laws%rough(2, n), h%on_laws%ends(2, n), h%on_laws%lands(n), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             associate (s => h%stretches, known => h%on_laws)
                 do k = 1, n
                     known%rough(:, k) = [s(k)%from, s(k)%to]

@@ -1,7 +1,7 @@
 !> Energy that is set free where the load cannot go on and the beam lands further along its path.
 module gapbeam_released_energy
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_element, only: field_type
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
@@ -36,8 +36,7 @@ contains
 
         energy = 0.0_wp
         allocate (starts(size(assembled%pieces)), starts_of_other(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         beam => assembled
         allocate (runs, source=runs_of(path))
         associate (limit => path%limits(number))

@@ -7,7 +7,7 @@
 !> (gapbeam_arc_states, gapbeam_arc_roots). Deflections, forces and factors are in the user's units.
 module gapbeam_smooth_arc
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, has_ended, gapbeam_solved, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, failed, has_ended, gapbeam_solved, gapbeam_not_converged
     use gapbeam_laws, only: law_force, law_slope, law_scale
     use gapbeam_polyline, only: node_support_type
     use gapbeam_extended_precision, only: rule_extended
@@ -93,8 +93,7 @@ contains
         m = size(laws)
         allocate (arc%closed(m), arc%laws(m), arc%numbers(n), arc%ends(n + 1, 2), arc%weights(n + 1), arc%along(n + 1), &
                   arc%springs(n), arc%flexibility(n, n), arc%under_load(n), arc%known(16), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         arc%assembled => assembled
         arc%closed(:) = closed
         arc%laws(:) = laws

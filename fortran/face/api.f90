@@ -6,7 +6,7 @@
 module gapbeam_api
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_error, only: error_type, failed, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_scene, only: model_type, load_type, gapbeam_movement, gapbeam_temperature
     use gapbeam_assembled_model, only: assembled_type, copy_model, copy_given
     use gapbeam_units, only: bound_outside, quantity_unit
@@ -49,11 +49,7 @@ contains
         call hold_environment(environment)
         allocate (beam%lowered, stat=stat)
         if (stat == 0) call copy_model(model, beam%lowered%model, stat)
-        if (stat /= 0) then
-            call no_memory(error)
-        else
-            call assemble_model(beam%lowered, error)
-        end if
+        if (.not. failed(stat, error)) call assemble_model(beam%lowered, error)
         if (allocated(error) .and. allocated(beam%lowered)) deallocate (beam%lowered)
     end subroutine prepare_model
 
@@ -83,16 +79,12 @@ contains
                 deallocate (other%model%loads)
                 allocate (other%model%loads(size(loads)), stat=stat)
             end if
-            if (stat == 0) then
-                other%model%loads(:) = loads
-                call assemble_model(other, error)
-            else
-                call no_memory(error)
-            end if
-            if (.not. allocated(error)) then
-                other%beam%watch = beam%lowered%beam%watch
-                call move_alloc(other, beam%lowered)
-            end if
+            if (failed(stat, error)) return
+            other%model%loads(:) = loads
+            call assemble_model(other, error)
+            if (allocated(error)) return
+            other%beam%watch = beam%lowered%beam%watch
+            call move_alloc(other, beam%lowered)
         end if
     end subroutine replace_loads
 
@@ -106,8 +98,7 @@ contains
         integer :: stat
 
         allocate (before(size(loads)), source=lowered%model%loads, stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         lowered%model%loads(:) = loads
         call assemble_loads(lowered, error)
         if (.not. allocated(error)) return
@@ -212,12 +203,9 @@ contains
         if (.not. allocated(error)) call follow_events(beam%lowered, factor, options%rule, result%state, list, number, error)
         if (.not. allocated(error)) then
             allocate (events(number), stat=stat)
-            if (stat == 0) then
-                events(:) = list(1:number)
-                call summarise(result)
-            else
-                call no_memory(error)
-            end if
+            if (failed(stat, error)) return
+            events(:) = list(1:number)
+            call summarise(result)
         end if
     end subroutine follow_load
 

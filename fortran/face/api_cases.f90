@@ -3,7 +3,7 @@ module gapbeam_api_cases
     use gapbeam_kinds, only: wp, not_a_number
     use gapbeam_limits, only: case_batch
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_no_memory, &
         gapbeam_not_prepared, gapbeam_stopped
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_words, only: shown, whole
@@ -44,8 +44,7 @@ contains
             allocate (cases%start(m), cases%closed(m, case_batch), cases%solves(case_batch), cases%w(n, case_batch), &
                       cases%ml(n, case_batch), cases%mr(n, case_batch), cases%reaction(m, case_batch), &
                       cases%values(3, size(lowered%model%supports), case_batch), cases%loads, stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call hold_environment(environment)
             call split_loads(lowered, cases%loads, error)
             call start_closed(lowered, cases%start)

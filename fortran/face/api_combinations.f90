@@ -2,7 +2,7 @@
 module gapbeam_api_combinations
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_words, only: shown, whole
     use gapbeam_check, only: check_loads
     use gapbeam_scene, only: load_type
@@ -42,8 +42,7 @@ contains
             if (present(settlements)) call require_size(size(model%supports), [size(settlements)], error)
             if (allocated(error)) return
             allocate (moves(size(model%supports)), loads(size(model%loads)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             moves(:) = 0.0_wp
             if (present(settlements)) moves(:) = settlements
             call require_finite(factors, "factors", error)

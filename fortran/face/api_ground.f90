@@ -5,7 +5,7 @@
 module gapbeam_api_ground
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_query, only: find_pieces
     use gapbeam_ground_zones, only: contact_type, free_span_type, find_contact, find_free_spans
@@ -55,14 +55,11 @@ contains
         end if
         if (.not. allocated(error)) then
             allocate (events(path%number), stat=stat)
-            if (stat == 0) then
-                events(:) = path%events(:path%number)
-                if (result%state%status /= gapbeam_solved) result%state%factor = path%last
-                result%state%solves = path%solves
-                call summarise(result)
-            else
-                call no_memory(error)
-            end if
+            if (failed(stat, error)) return
+            events(:) = path%events(:path%number)
+            if (result%state%status /= gapbeam_solved) result%state%factor = path%last
+            result%state%solves = path%solves
+            call summarise(result)
         end if
 
     contains

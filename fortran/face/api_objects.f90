@@ -2,7 +2,7 @@
 !> and trains; and what its procedures refuse before anything is done with them
 module gapbeam_api_objects
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_buckles, &
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_search, only: rule_block, rule_single
@@ -285,11 +285,7 @@ contains
             deallocate (result%state)
         end if
         allocate (result%state, stat=stat)
-        if (stat == 0) then
-            call new_state(beam%lowered, result%state, error)
-        else
-            call no_memory(error)
-        end if
+        if (.not. failed(stat, error)) call new_state(beam%lowered, result%state, error)
         if (allocated(error) .and. allocated(result%state)) deallocate (result%state)
     end subroutine make_state
 

@@ -1,7 +1,7 @@
 !> Trains as callers give them, for Fortran: checked, and as the engine takes them; and positions that are not solved.
 module gapbeam_api_train_loads
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown, whole
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, point_x
@@ -86,8 +86,7 @@ contains
         associate (n => size(given%force))
             allocate (train%offset(n), train%force(n), train%uniform(merge(1, 0, abs(given%q) > 0.0_wp)), stat=stat)
         end associate
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         longest = maxval(given%distance)
         train%offset(:) = merge(given%distance, -given%distance, given%to_the_left)
         train%force(:) = given%force
@@ -120,8 +119,7 @@ contains
             last = k
         end do
         allocate (gaps(number), source=found(:number), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         if (backwards) gaps(:) = found(number:1:-1)
     end subroutine find_gaps
 

@@ -14,7 +14,7 @@ module gapbeam_api_trains
     use gapbeam_assembled_model, only: is_alone
     use gapbeam_piece, only: is_tapered
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: whole
     use gapbeam_query, only: find_pieces
     use gapbeam_train, only: new_track
@@ -237,8 +237,7 @@ contains
         m = size(quantities)
         n = size(x)
         allocate (found(2, m, n, 2), found_at(2, m, n, 2), curves(2, bending_count, n), curves_at(2, bending_count, n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call hold_environment(environment)
         if (allocated(passing%runs)) then
             ! On the ground, or with smooth laws

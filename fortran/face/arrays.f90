@@ -1,7 +1,7 @@
 !> Models and loads from plain arrays, one column an entry, as Fortran 77 and Python hand them over
 module gapbeam_arrays
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: span_type, section_type, support_type, law_point_type, foundation_type, ground_point_type, &
         ground_law_point_type, load_type, model_type
     implicit none
@@ -37,8 +37,7 @@ contains
                   model%hinge_stiffness(size(hinge, 2)), model%sections(size(sect, 2)), &
                   model%supports(size(sup, 2)), model%law(size(ilaw)), model%foundations(0), model%ground(0), &
                   model%ground_law(0), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, size(model%spans)
             model%spans(i) = span_type(length=span(1, i), EI=span(2, i), GA=span(3, i), EA=span(4, i))
             if (size(span, 1) > 4) model%spans(i)%N = span(5, i)
@@ -102,8 +101,7 @@ contains
 
         deallocate (model%foundations, model%ground, model%ground_law)
         allocate (model%foundations(size(side)), model%ground(size(iprof)), model%ground_law(size(ilaw)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, size(model%foundations)
             associate (f => model%foundations(i))
                 f = foundation_type(side=side(i), from=found(1, i), to=found(2, i), k=found(3, i), k_to=found(4, i), &
@@ -136,8 +134,7 @@ contains
         integer :: i, stat
 
         allocate (loads(size(aload, 2)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, size(loads)
             loads(i) = load_type(kind=iload(1, i), case=iload(2, i), node=iload(3, i), x=aload(1, i), to=aload(2, i), &
                                  value=aload(3, i), value_to=aload(4, i))

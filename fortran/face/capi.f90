@@ -1,7 +1,7 @@
 !> States of beams in the C interface, solved and asked: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared, &
         gapbeam_other_version
     use gapbeam_scene, only: model_type
     use gapbeam_events, only: event_type
@@ -145,8 +145,7 @@ contains
 
         m = count_supports(beam)
         allocate (values(m, 4), conditions(m), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call get_supports(beam, result, values(:, 1), values(:, 2), values(:, 3), values(:, 4), conditions, error)
         if (allocated(error)) return
         if (present(reaction)) reaction(1:m) = values(:, 1)
@@ -248,11 +247,7 @@ contains
         call get_both(beam, state, prepared, solved, error)
         if (.not. allocated(error)) then
             allocate (doubtful(count_supports(prepared%beam)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call get_certificate(prepared%beam, solved%result, found, doubtful, error)
-            end if
+            if (.not. failed(stat, error)) call get_certificate(prepared%beam, solved%result, found, doubtful, error)
         end if
         call report(error, status)
         if (allocated(error)) return

@@ -1,7 +1,7 @@
 !> Many cases in the C interface: marshalling only. include/gapbeam.h says what the functions do.
 module gapbeam_capi_cases
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr, c_f_pointer, c_associated
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: options_type, count_supports, count_nodes
     use gapbeam_api_cases, only: solve_cases, get_nodes
     use gapbeam_handles, only: handle_type, cases_tag, find_handle, free_handle, address_of
@@ -102,11 +102,7 @@ contains
         call get_beam(beam, prepared, error)
         if (.not. allocated(error)) then
             allocate (places(count_nodes(prepared%beam)), nodes(count_supports(prepared%beam)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call get_nodes(prepared%beam, places, error, nodes)
-            end if
+            if (.not. failed(stat, error)) call get_nodes(prepared%beam, places, error, nodes)
         end if
         call report(error, status)
         if (allocated(error)) return

@@ -2,7 +2,7 @@
 module gapbeam_capi_model
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_signed_char, c_intptr_t, c_ptr, c_null_ptr, c_associated, &
         c_f_pointer, c_loc, c_sizeof
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input, gapbeam_other_version
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input, gapbeam_other_version
     use gapbeam_laws, only: parameters_of_law
     use gapbeam_scene, only: model_type, section_type, load_type, gapbeam_temperature
     use gapbeam_assembled_model, only: is_movement, is_of_support
@@ -132,8 +132,7 @@ contains
         end if
         if (allocated(error)) return
         allocate (model%spans(c%spans), model%hinges(c%hinges), model%supports(c%supports), model%law(points), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (s => model%spans)
             call copy_reals(c%length, s%length)
             call copy_reals(c%EI, s%EI)
@@ -207,8 +206,7 @@ contains
         stat = merge(1, 0, c%profile_points > huge(c%table_points) - c%table_points)
         if (stat == 0) allocate (model%foundations(c%foundations), model%ground(c%profile_points + c%table_points), &
                                  model%ground_law(c%ground_law_points), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (f => model%foundations)
             call copy_reals(c%foundation_from, f%from)
             call copy_reals(c%foundation_to, f%to)
@@ -257,8 +255,7 @@ contains
         call check_array("sections", c%sections, .true., "", error)
         if (allocated(error)) return
         allocate (sections(c%sections), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (s => sections)
             call copy_reals(c%section_from, s%from)
             call copy_reals(c%section_to, s%to)
@@ -291,8 +288,7 @@ contains
                          "load_kind, load_value, and load_x or load_node are needed", error)
         if (allocated(error)) return
         allocate (loads(c%loads), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call copy_integers(c%load_kind, loads%kind)
         call copy_integers(c%load_case, loads%case)
         call copy_reals(c%load_x, loads%x)

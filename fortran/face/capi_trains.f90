@@ -1,7 +1,7 @@
 !> Trains in the C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi_trains
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_api, only: count_supports
     use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, copy_extremes
     use gapbeam_handles, only: handle_type, passing_tag, find_handle, free_handle, address_of
@@ -112,11 +112,7 @@ contains
         call get_train(beam, passing, prepared, handle, error)
         if (.not. allocated(error)) then
             allocate (of_supports(2, 4, count_supports(prepared%beam)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
-            end if
+            if (.not. failed(stat, error)) call get_train_extremes(prepared%beam, handle%passing, of_fields, of_supports, error)
         end if
         call report(error, status)
         if (allocated(error)) return

@@ -4,7 +4,7 @@
 !> place that it belongs to (Mueller-Breslau: it is a deflected shape).
 module gapbeam_influence_parts
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_polynomial, only: roots_between, value_of => value, highest_degree
     use gapbeam_quantities, only: bending_count, of_deflection, of_rotation, of_moment, of_shear
     use gapbeam_assembled_model, only: assembled_type
@@ -58,8 +58,7 @@ contains
         n = size(track%link)
         x = track%x(piece - 1) + distance
         allocate (ends(0:n + 1), places(size(share)*(n + 1)), value(bending_count + 2, size(share)*(n + 1)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         ends(:n) = track%x
         if (x > track%x(piece - 1) .and. x < track%x(piece)) then
             ends(piece) = x

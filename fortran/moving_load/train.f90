@@ -6,7 +6,7 @@
 !> interval.
 module gapbeam_train
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_element, only: field_type
     use gapbeam_link, only: piece_load_type, recover_link
     use gapbeam_model, only: beam_type, drop_loads
@@ -63,8 +63,7 @@ contains
         n = size(assembled%pieces)
         allocate (track%x(0:n), track%link(n), track%before(n), track%length(n), track%turn_a(0:3, n), track%turn_b(0:3, n), &
                   track%with_load(size(assembled%beam%links)), track%is_loaded(size(assembled%beam%links)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         track%beam = assembled%beam
         track%is_loaded(:) = .false.
         track%length_unit = assembled%units%length

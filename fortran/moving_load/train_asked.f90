@@ -1,7 +1,7 @@
 !> Values of a state under a train that have extremes over all positions: of fields, of supports, of foundations.
 module gapbeam_train_asked
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_quantities, only: quantity_count
     use gapbeam_query, only: extremes_of_fields
     use gapbeam_support_values, only: support_values
@@ -77,8 +77,7 @@ contains
             associate (n => size(kept%placed%model%supports))
                 allocate (rows(n, rows_of_support), condition(n), stat=stat)
             end associate
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call support_values(kept%placed, kept%state, rows(:, 1), rows(:, 2), rows(:, 3), rows(:, 4), condition)
             value = rows(asked%number, asked%row)
         case (of_resultant)

@@ -13,7 +13,7 @@ module gapbeam_train_bounds
     use gapbeam_limits, only: most_halves
     use gapbeam_path_tolerances, only: train_slack, longest_way, far_below
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, failed, gapbeam_solved
     use gapbeam_nodes, only: hinge
     use gapbeam_quantities, only: bending_count
     use gapbeam_assembled_model, only: assembled_type
@@ -77,8 +77,7 @@ contains
         if (stat == 0) allocate (bounds%at_most(2, bending_count, traversal%number), &
                                  bounds%of_supports(traversal%number), parts(256), start(n), begin(n), touched(n), &
                                  first_at_link(n), slopes(n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         bounds%at_most(:, :, :) = -huge(1.0_wp)
         bounds%of_supports(:) = .false.
         count = 0
@@ -96,8 +95,7 @@ contains
             end if
             if (bounds%view%new_scheme) call watch_scheme(assembled, traversal%closed(:, k), bounds%view%columns, bounds%supports)
             call bound_supports(track, k, bounds%view%columns, bounds%supports, stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call find_touched(k)
             do i = 1, n
                 call go_on(i, k)
@@ -272,8 +270,7 @@ contains
                 call drop_parts()
                 if (2*count > size(parts)) then
                     allocate (longer(2*size(parts)), stat=stat)
-                    if (stat /= 0) call no_memory(error)
-                    if (allocated(error)) return
+                    if (failed(stat, error)) return
                     longer(:count) = parts(:count)
                     call move_alloc(longer, parts)
                 end if

@@ -3,7 +3,7 @@ module gapbeam_train_curves
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: train_slack, train_equal, train_rounding, most_lost
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, failed, gapbeam_solved
     use gapbeam_bernstein, only: part_of, find_greatest
     use gapbeam_element, only: fields_at
     use gapbeam_link, only: piece_load_type
@@ -59,8 +59,7 @@ contains
         call new_screen(assembled, track, train, screen, stat)
         if (stat == 0) call new_places(track, piece, distance, screen%view%columns%to_length, places, stat)
         if (stat == 0) allocate (wanted(size(piece)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         ! First what is reached at the ends of stretches, so that then there is little left to look into
         near = least_distance(track, train)
         told = .true.

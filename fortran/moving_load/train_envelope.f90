@@ -8,7 +8,7 @@ module gapbeam_train_envelope
     use gapbeam_limits, only: bound_trials
     use gapbeam_path_tolerances, only: train_slack, train_equal, most_lost, lebesgue
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, failed, gapbeam_solved
     use gapbeam_bernstein, only: to_coefficients, highest_degree
     use gapbeam_patch, only: patch_type, greatest_on_patch, most_along
     use gapbeam_element, only: field_type
@@ -71,8 +71,7 @@ contains
                   matrix(0:n, 0:n), of_nodes(0:degree_of(train), 0:degree_of(train)), &
                   starts(0:n, bending_count, size(samples%starts, 2)), stays(at_support, m), &
                   wanted(traversal%number), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         matrix(:, :) = to_coefficients(n)
         of_nodes(:, :) = to_coefficients(degree_of(train))
         sampled = 0

@@ -1,7 +1,7 @@
 !> Events of the supports while a train goes over a beam.
 module gapbeam_train_events
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, failed, gapbeam_solved
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_pieces, only: acting_type, acts_in, what_happens, no_change
@@ -40,8 +40,7 @@ contains
         integer :: first, i, k, last, number, stat, step
 
         allocate (events(64), now(size(assembled%beam%supports)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         number = 0
         first = 0
         do step = 1, traversal%number
@@ -78,8 +77,7 @@ contains
             if (change == no_change) return
             if (number == size(events)) then
                 allocate (longer(2*number), stat=stat)
-                if (stat /= 0) call no_memory(error)
-                if (allocated(error)) return
+                if (failed(stat, error)) return
                 longer(:number) = events
                 call move_alloc(longer, events)
             end if

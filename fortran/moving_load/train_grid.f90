@@ -5,7 +5,7 @@
 module gapbeam_train_grid
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_train_states
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input
     use gapbeam_words, only: whole
     use gapbeam_ordered, only: sort, sort_once
     use gapbeam_scene, only: gapbeam_by_x, gapbeam_normal, gapbeam_force, gapbeam_right_end, gapbeam_table_of_k, &
@@ -83,8 +83,7 @@ contains
         end if
         n = size(borders) - 1
         allocate (parts(n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         step = grid_step(assembled, deflection)
         count = sum(max(real(least_parts, wp), aint((borders(2:) - borders(:n))/step) + 1))
         if (count > most_train_states) then

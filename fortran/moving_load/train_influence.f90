@@ -2,7 +2,7 @@
 module gapbeam_train_influence
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_not_converged
     use gapbeam_band, only: band_ok
     use gapbeam_element, only: field_type
     use gapbeam_law_adapters, only: drop_level
@@ -68,8 +68,7 @@ contains
         unit%force(:) = 1.0_wp
         call new_workspace(bare%beam, work)
         call new_cells(bare, unit, cells, stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         powers(:) = quantity_unit(assembled%units, bending)
         do k = 1, size(places)
             call find_intervals(bare, unit, places(k), places(k), intervals, error)

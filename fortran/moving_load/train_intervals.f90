@@ -1,7 +1,7 @@
 !> Intervals of train positions in which no load passes an end of a piece of the beam.
 module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_ordered, only: sort, last_not_above
     use gapbeam_train, only: train_type, track_type, least_distance
     implicit none
@@ -41,8 +41,7 @@ contains
 
         allocate (place(2 + (size(train%offset) + 2*size(train%uniform))*size(track%x)), stat=stat)
         if (stat == 0) allocate (found(2*size(place)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         near = least_distance(track, train)
         count = 1
         place(1) = from

@@ -1,7 +1,7 @@
 !> Fields at places of the beam under a train on the ground or on smooth laws: the largest so far, and states that are asked for.
 module gapbeam_train_line_states
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_query, only: fields_at_places
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_train_states, only: kept_type, box_type
@@ -129,8 +129,7 @@ contains
         ruler = ruler_of(assembled, runs, runs%runs(run))
         n = size(table%at) + count(wanted < not_wanted)
         allocate (longer%value(size(lines%quantities), size(lines%x), n), longer%at(n), longer%cuts(n - 1), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         n = 0
         do i = 1, size(table%at)
             n = n + 1

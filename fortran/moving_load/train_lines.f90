@@ -6,7 +6,7 @@
 module gapbeam_train_lines
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_ordered, only: sort_once
     use gapbeam_quantities, only: of_shear
     use gapbeam_assembled_model, only: assembled_type
@@ -99,8 +99,7 @@ contains
             allocate (lines%quantities(q), lines%x(n), lines%left(n), lines%on_jump(n), lines%best(2, q, n), lines%at(2, q, n), &
                       lines%scale_of(q), stat=stat)
         end associate
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         lines%quantities(:) = quantities
         lines%shear = findloc(quantities, of_shear, 1)
         lines%x(:) = x
@@ -128,8 +127,7 @@ contains
             associate (states => runs%runs(i)%states, table => tables(i))
                 allocate (table%value(size(lines%quantities), size(lines%x), size(states)), table%at(size(states)), &
                           table%cuts(size(states) - 1), stat=stat)
-                if (stat /= 0) call no_memory(error)
-                if (allocated(error)) return
+                if (failed(stat, error)) return
                 table%cuts(:) = 0
                 do k = 1, size(states)
                     table%at(k) = runs%boxes(states(k))%of%position

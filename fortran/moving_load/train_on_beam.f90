@@ -2,7 +2,7 @@
 module gapbeam_train_on_beam
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: position_tolerance
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: load_type, gapbeam_force, gapbeam_distributed, gapbeam_live, gapbeam_by_x
     use gapbeam_assembled_model, only: assembled_type, copy_given
     use gapbeam_assemble, only: assemble_model
@@ -62,8 +62,7 @@ contains
         call copy_given(assembled, placed%model, stat)
         n = size(assembled%model%loads)
         if (stat == 0) allocate (loads(n + count(acts) + size(train%uniform)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         loads(:n) = placed%model%loads
         do i = 1, size(acts)
             if (.not. acts(i)) cycle
@@ -82,8 +81,7 @@ contains
         end do
         deallocate (placed%model%loads)
         allocate (placed%model%loads(n), source=loads(:n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call assemble_model(placed, error)
         placed%beam%watch = assembled%beam%watch
     end subroutine put_train

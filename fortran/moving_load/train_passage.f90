@@ -2,7 +2,7 @@
 module gapbeam_train_passage
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: least_train_share
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_solved, gapbeam_indeterminate, gapbeam_not_converged
     use gapbeam_workspace, only: workspace_type
     use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_words, only: shown
@@ -81,8 +81,7 @@ contains
             if (interval%to - to <= least_distance(track, train)) to = interval%to
             stat = 0
             if (traversal%number == size(traversal%from)) call lengthen(traversal, size(closed), 2*traversal%number, stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             traversal%number = traversal%number + 1
             k = traversal%number
             traversal%from(k) = now

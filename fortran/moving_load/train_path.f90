@@ -14,7 +14,7 @@ module gapbeam_train_path
     use gapbeam_limits, only: most_train_changes, most_of_each
     use gapbeam_path_tolerances, only: least_train_share
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved, gapbeam_no_equilibrium
+    use gapbeam_error, only: error_type, failed, gapbeam_solved, gapbeam_no_equilibrium
     use gapbeam_bernstein, only: highest_degree
     use gapbeam_law_margins, only: may_change
     use gapbeam_workspace, only: new_workspace
@@ -53,8 +53,7 @@ contains
         allocate (passage%closed(m), passage%at_end(m), passage%margins%b(0:highest_degree, max(m, 1)), &
                   passage%margins%slack(max(m, 1)), traversal%motion(0:size(track%beam%links), 0), stat=stat)
         if (stat == 0) call lengthen(traversal, m, size(traversal%intervals) + 64, stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call close_all(assembled, passage%closed)
         call new_state(assembled, along, error)
         if (allocated(error)) return

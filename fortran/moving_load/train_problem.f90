@@ -5,7 +5,7 @@
 module gapbeam_train_problem
     use gapbeam_kinds, only: wp
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, no_memory, gapbeam_solved
+    use gapbeam_error, only: error_type, failed, gapbeam_solved
     use gapbeam_laws, only: is_smooth
     use gapbeam_ground, only: ground_type, grounded_type
     use gapbeam_ground_start, only: ground_start_type, settle_nearby
@@ -101,8 +101,7 @@ contains
         number = problem%states + 1
         if (number > size(problem%boxes)) then
             allocate (more(2*number), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             do i = 1, problem%states
                 call move_alloc(problem%boxes(i)%of, more(i)%of)
             end do

@@ -7,7 +7,7 @@ module gapbeam_train_samples
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: lebesgue
     use gapbeam_watch, only: end_if_stopped
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_finite
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_not_converged, gapbeam_not_finite
     use gapbeam_words, only: shown
     use gapbeam_bernstein, only: sample_points
     use gapbeam_patch, only: most_along
@@ -79,8 +79,7 @@ contains
                                  samples%loads(0:degree, most), samples%supports(0:degree_of(train), 4, &
                                                                             size(assembled%model%supports)), &
                                  stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call new_workspace(track%beam, samples%work)
         call new_state(assembled, samples%state, error)
         if (allocated(error)) return

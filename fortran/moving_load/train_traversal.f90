@@ -2,7 +2,7 @@
 module gapbeam_train_traversal
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: same_tie
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_train_intervals, only: interval_type
     implicit none
     private
@@ -50,8 +50,7 @@ contains
             end if
         end if
         allocate (longer(0:ubound(motion, 1), count + 1), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         longer(:, :count) = traversal%motion
         longer(:, count + 1) = motion
         call move_alloc(longer, traversal%motion)

@@ -1,7 +1,7 @@
 !> The states of a train on its way, and the crossings between them at which something changes.
 module gapbeam_train_way
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_path_problem, only: path_problem_type
     use gapbeam_train_states, only: box_type, take_undecided
     implicit none
@@ -55,8 +55,7 @@ contains
 
         if (problem%length == size(problem%way)) then
             allocate (longer(2*problem%length), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             longer(:problem%length) = problem%way
             call move_alloc(longer, problem%way)
         end if

@@ -1,7 +1,7 @@
 !> Pressure of the ground on a beam in the user's units: at places, and its extremes.
 module gapbeam_pressure
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_words, only: shown
     use gapbeam_quantities, only: of_pressure, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
@@ -31,8 +31,7 @@ contains
         integer :: i, stat
 
         allocate (found(size(piece)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call ground_pressure(assembled, solution, piece, scale(distance, -assembled%units%length), found)
         found(:) = scale(found, quantity_unit(assembled%units, of_pressure))
         i = findloc(abs(found) <= huge(found), .false., 1)

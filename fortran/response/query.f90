@@ -2,7 +2,7 @@
 module gapbeam_query
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: position_tolerance, end_tolerance
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input
     use gapbeam_element, only: field_type
     use gapbeam_fields, only: bending_values, values_at, find_extremes
     use gapbeam_piece, only: piece_load_type, combine_loads, curvature_at
@@ -117,8 +117,7 @@ contains
             return
         end do
         allocate (piece(size(x)), distance(size(x)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, size(x)
             call find_piece(assembled, x(i), from_left, piece(i), distance(i))
         end do
@@ -150,8 +149,7 @@ contains
         integer :: powers(size(quantities)), i, k, stat
 
         allocate (found(size(quantities), size(piece)), bent(size(piece)), pressure(size(piece)), across(size(piece)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         powers = units_of_fields(assembled, quantities)
         pressure(:) = scale(distance, -assembled%units%length)
         if (present(ground)) then

@@ -1,7 +1,7 @@
 !> The state of a beam at one load factor as numbers, checked to be finite.
 module gapbeam_solution
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_indeterminate
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_indeterminate
     use gapbeam_element, only: field_type
     use gapbeam_polyline, only: node_support_type, last_breakpoint
     use gapbeam_words, only: shown
@@ -79,8 +79,7 @@ contains
         allocate (state%closed(m), state%undecided(m), state%reaction(m), state%deflection(0:last_place(assembled%beam)), &
                   state%moment_left(0:n), state%moment_right(0:n), state%motion(0:n), state%shear(n), state%displacement(0:bars), &
                   state%axial_reaction(0:bars), state%tension(bars), state%starts(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         call close_all(assembled, state%closed)
         state%displacement(:) = 0.0_wp
         state%axial_reaction(:) = 0.0_wp

@@ -4,7 +4,7 @@ module gapbeam_state_modes
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
     use gapbeam_kinds, only: wp, qp
     use gapbeam_words, only: whole
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
     use gapbeam_ground, only: ground_type
     use gapbeam_ground_start, only: ground_start_type, start_from
@@ -124,8 +124,7 @@ contains
         end if
         associate (n => size(found%piece), units => assembled%units)
             allocate (shape%x(n), shape%deflection(n), shape%moment(2, n), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             shape%x(:) = places_of(assembled, found%piece, real(found%distance, wp))
             shape%deflection(:) = real(found%deflection, wp)
             shape%moment(:, :) = scale(real(found%moment, wp), units%force + units%length - units%deflection)
@@ -181,8 +180,7 @@ contains
 
         associate (ground => state%ground)
             allocate (x(size(ground%mode_piece)), deflection(size(ground%mode_piece)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             x(:) = places_of(assembled, ground%mode_piece, ground%mode_distance)
             deflection(:) = ground%mode_deflection
         end associate

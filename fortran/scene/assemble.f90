@@ -5,7 +5,7 @@
 module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory, gapbeam_no_memory
+    use gapbeam_error, only: error_type, failed, gapbeam_no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
@@ -54,10 +54,7 @@ contains
         ! Beside what else there is bending cannot feel axial loads in this version: then of first order, as in the first versions
         allocate (other, stat=stat)
         if (stat == 0) call copy_model(given, other%model, stat)
-        if (stat /= 0) then
-            call no_memory(error)
-            return
-        end if
+        if (failed(stat, error)) return
         other%model%first_order = .true.
         call assemble_once(other, given, error)
         if (.not. allocated(error)) call reserve_memory(for_assembling, 4*size(other%pieces), 4*size(other%model%supports), &
@@ -85,8 +82,7 @@ contains
             if (allocated(error)) return
             n = size(model%spans)
             allocate (assembled%ends(0:n), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call place_span_ends(model%spans, assembled%ends)
             call gather_points(model, assembled%law, error)
             if (.not. allocated(error)) then
@@ -96,13 +92,11 @@ contains
             if (.not. allocated(error)) call check_laws(model, assembled%law, error)
             if (allocated(error)) return
             allocate (assembled%with_law(size(model%supports)), source=.false., stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             assembled%with_law(assembled%law%support) = .true.
             model%axial_loads_bend = axial_loads_may_bend(model, assembled%with_law)
             if (model%axial_loads_bend) call copy_model(model, given, stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call check_rest(model, assembled%with_law, assembled%ends, error)
             if (.not. allocated(error)) call check_along(model, assembled%law, assembled%with_law, error)
             if (allocated(error)) return
@@ -144,8 +138,7 @@ contains
                                      assembled%foundation_to(size(model%foundations)), &
                                      assembled%mass_point(size(model%masses, 2)), &
                                      assembled%ground_point(size(model%ground) + size(model%ground_law)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call list_places(assembled, places)
             at = 1 + n + size(model%supports) + size(model%hinges)
             call merge_stations(assembled%ends, places%span, places%offset, at, order, chosen, point, number)
@@ -153,8 +146,7 @@ contains
         allocate (assembled%point_span(0:number - 1), assembled%point_offset(0:number - 1), assembled%hinged(0:number - 1), &
                   assembled%joint(0:number - 1), assembled%pieces(number - 1), assembled%dead(number - 1), &
                   assembled%live(number - 1), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, number
             assembled%point_span(i - 1) = places%span(chosen(i))
             assembled%point_offset(i - 1) = places%offset(chosen(i))

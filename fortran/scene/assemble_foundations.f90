@@ -2,7 +2,7 @@
 module gapbeam_assemble_foundations
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_laws, only: parameters_of_law, law_cubic, law_polyline
     use gapbeam_layers, only: layer_type
     use gapbeam_range, only: is_lost
@@ -44,13 +44,11 @@ contains
         pieces = size(assembled%pieces)
         if (.not. allocated(assembled%layers)) then
             allocate (assembled%layer_first(pieces + 1), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
         end if
         allocate (first(quantities, m), last(quantities, m), laws(m), next(pieces), here(pieces), values(quantities, 2, pieces), &
                   stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (model => assembled%model, layers => assembled%layers, from => assembled%foundation_from, &
                    to => assembled%foundation_to)
             call find_tables(model%ground, first, last)
@@ -68,8 +66,7 @@ contains
             if (.not. allocated(assembled%layers)) then
                 stat = merge(1, 0, total >= huge(m))
                 if (stat == 0) allocate (assembled%layers(total), stat=stat)
-                if (stat /= 0) call no_memory(error)
-                if (allocated(error)) return
+                if (failed(stat, error)) return
             end if
             assembled%layer_first(1) = 1
             do j = 1, pieces

@@ -3,7 +3,7 @@
 module gapbeam_assemble_hinges
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: softest_hinge
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: turning_unit
     use gapbeam_assembled_model, only: assembled_type, turns
@@ -59,8 +59,7 @@ contains
 
         if (.not. any(assembled%model%supports%direction == gapbeam_relative)) return
         allocate (made(0:ubound(assembled%point_span, 1)), source=.false., stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do k = 1, size(assembled%model%supports)
             if (assembled%model%supports(k)%direction /= gapbeam_relative) cycle
             associate (at => assembled%support_point(k), m => size(assembled%model%supports))

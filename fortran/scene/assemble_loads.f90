@@ -1,7 +1,7 @@
 !> Assembly of the loads and links of a model whose points and nodes are known.
 module gapbeam_assemble_loads
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_link, only: condense_link, piece_load_type, no_load
     use gapbeam_piece, only: is_tapered
     use gapbeam_range, only: first_lost_link
@@ -32,8 +32,7 @@ contains
         integer :: i, first, stat
 
         allocate (work(size(assembled%pieces)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         assembled%fingerprint = fingerprint(assembled%model)
         call sum_loads(assembled)
         call assemble_foundations(assembled, error)

@@ -1,7 +1,7 @@
 !> Assembly of loads that move supports and foundations.
 module gapbeam_assemble_movements
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_movement, gapbeam_ground_movement, gapbeam_dead
     use gapbeam_input_error, only: of_loads
     use gapbeam_check, only: entry_type, refuse_number
@@ -22,8 +22,7 @@ contains
         associate (model => assembled%model)
             if (.not. any(model%loads%kind == gapbeam_movement .and. abs(model%loads%value) > 0.0_wp)) return
             allocate (assembled%given_settlement(size(model%supports)), assembled%growth(size(model%supports)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             assembled%given_settlement(:) = model%supports%settlement
             assembled%growth(:) = 0.0_wp
             do i = 1, size(model%loads)
@@ -59,8 +58,7 @@ contains
             if (any(loads%kind == gapbeam_ground_movement .and. loads%case /= gapbeam_dead .and. &
                     (abs(loads%value) > 0.0_wp .or. abs(loads%value_to) > 0.0_wp))) then
                 allocate (assembled%layer_growth(2, size(assembled%layers)), source=0.0_wp, stat=stat)
-                if (stat /= 0) call no_memory(error)
-                if (allocated(error)) return
+                if (failed(stat, error)) return
             end if
             do i = 1, size(loads)
                 if (loads(i)%kind == gapbeam_ground_movement) call move_foundation(assembled, i)

@@ -1,7 +1,7 @@
 !> Assembly of supports and hinges as nodes of the system, and of the axial system.
 module gapbeam_assemble_supports
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_band, only: plain, hinge, restrained
     use gapbeam_scene, only: support_type, load_type, gapbeam_temperature, gapbeam_both, gapbeam_below, gapbeam_above, &
@@ -76,8 +76,7 @@ contains
         m = size(assembled%model%supports)
         allocate (rigid(-1:18, 0:ubound(assembled%point_span, 1)), restrained(0:ubound(assembled%point_span, 1)), &
                   held(0:ubound(assembled%point_span, 1)), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         rigid(:, :) = 0
         restrained(:) = .false.
         held(:) = 0
@@ -196,8 +195,7 @@ contains
 
         n = ubound(assembled%point_span, 1)
         allocate (assembled%node_of_point(0:n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         associate (node => assembled%node_of_point)
             node(:) = merge(0, -1, assembled%hinged .or. assembled%joint > 0.0_wp)
             node(0) = 0
@@ -220,8 +218,7 @@ contains
                 end associate
             end do
             allocate (assembled%node_point(0:count(node == 0) - 1), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             k = 0
             do j = 0, n
                 if (node(j) < 0) cycle
@@ -246,8 +243,7 @@ contains
         n = ubound(assembled%node_point, 1)
         associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%law)
             allocate (first(size(given)), last(size(given)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             call find_laws(law, first, last)
             m = 0
             do k = 1, size(given)
@@ -258,8 +254,7 @@ contains
                       assembled%turning(0:n), clamped(0:n), supports(m), stat=stat)
             ! order_supports frees and allocates these again
             if (stat == 0) allocate (beam%supports(m), beam%order(m), beam%first(0:n + 1), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             ! Copies of supports that the compiler makes, and order_supports
             call reserve_memory(for_assembling, n, 3*size(supports), 0, error)
             if (allocated(error)) return
@@ -335,8 +330,7 @@ contains
         n = ubound(assembled%point_span, 1)
         associate (axial => assembled%axial, model => assembled%model)
             allocate (node(0:n), axial%node(size(model%supports)), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             every = any(makes_longer(model%loads) .or. model%loads%kind == gapbeam_axial_distributed) &
                 .or. any(has_ground_along(model%sections)) .or. model%stretching
             node(:) = merge(0, -1, every)
@@ -357,8 +351,7 @@ contains
             if (stat == 0 .and. any(has_ground_along(model%sections))) allocate (axial%limit(i), stat=stat)
             if (stat == 0 .and. any(has_springs_along(model%sections))) allocate (axial%bedding(i), axial%limits(2, i), stat=stat)
             if (stat == 0 .and. any(model%loads%kind == gapbeam_axial_distributed)) allocate (axial%along_bar(2, i), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
+            if (failed(stat, error)) return
             i = -1
             do j = 0, n
                 if (node(j) < 0) cycle

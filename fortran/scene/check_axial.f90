@@ -2,7 +2,7 @@
 !> this version.
 module gapbeam_check_axial
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_words, only: shown
     use gapbeam_laws, only: is_smooth
     use gapbeam_scene, only: model_type, law_point_type, gapbeam_both, gapbeam_axial, gapbeam_normal, gapbeam_broken, &
@@ -44,8 +44,7 @@ contains
         integer :: k, stat
 
         call find_falling(law, size(model%supports), falls, stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         curved = any(is_smooth(model%supports%law))
         stiff = any(model%spans%EI > huge(1.0_wp)) .or. any(model%sections%EI > huge(1.0_wp))
         do k = 1, size(model%supports)

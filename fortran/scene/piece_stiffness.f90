@@ -1,7 +1,7 @@
 !> Stiffness of the pieces of a beam in the user's units: that of their span, or of the last section that gives it.
 module gapbeam_piece_stiffness
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_unchanged
     use gapbeam_assembled_model, only: assembled_type, point_x, in_bending, in_shear, along_axis, axial_force_in, kinds
     implicit none
@@ -18,8 +18,7 @@ contains
 
         if (size(assembled%model%sections) == 0) return
         allocate (assembled%section_of(kinds, size(assembled%pieces)), source=0, stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         do i = 1, size(assembled%model%sections)
             associate (s => assembled%model%sections(i), first => assembled%section_from(i) + 1, last => assembled%section_to(i))
                 if (s%EI > gapbeam_unchanged) assembled%section_of(in_bending, first:last) = i

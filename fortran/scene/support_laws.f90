@@ -2,7 +2,7 @@
 module gapbeam_support_laws
     use gapbeam_kinds, only: wp
     use gapbeam_tolerances, only: cubic_rounding
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_memory, only: reserve_memory, for_laws
     use gapbeam_words, only: shown, whole
     use gapbeam_laws, only: law_by_points, law_plastic, law_hardening, law_hyperbolic, law_tanh, law_cubic, law_power, &
@@ -36,8 +36,7 @@ contains
         n = count(model%supports%law /= law_by_points)
         allocate (made(merge(size(model%supports), 0, n > 0)), stat=stat)
         if (stat == 0) call reserve_memory(for_laws, 0, 0, n, error)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         n = size(model%law)
         do k = 1, size(made)
             if (model%supports(k)%law == law_by_points) cycle
@@ -47,8 +46,7 @@ contains
             n = n + size(made(k)%points, 2)
         end do
         allocate (points(n), stat=stat)
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
+        if (failed(stat, error)) return
         n = size(model%law)
         points(:n) = model%law
         do k = 1, size(made)
