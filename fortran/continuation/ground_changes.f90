@@ -4,13 +4,14 @@ module gapbeam_ground_changes
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_both, gapbeam_below, gapbeam_above
+    use gapbeam_zone_margin, only: change_type
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_runs, only: run_type, ground_runs
     use gapbeam_pieces, only: gapbeam_appears, gapbeam_vanishes, gapbeam_merges, gapbeam_splits, gapbeam_reaches, gapbeam_leaves
     implicit none
     private
-    public :: zone_type, zone_change_type, find_zones, same_zones, compare_zones
+    public :: zone_type, zone_change_type, find_zones, same_zones, compare_zones, looked_for
 
     !> Zones of a smaller share of the beam only touch: rounding of the load factor makes them and takes them away
     real(wp), parameter :: min_zone_length = 2.0_wp**(-46)
@@ -227,6 +228,17 @@ contains
             call compare_layer(before(first(1):last(1)), after(first(2):last(2)), changes, number)
         end do
     end subroutine compare_zones
+
+    !> A change as the engine looks for it
+    elemental function looked_for(change, unit) result(sought)
+        type(zone_change_type), intent(in) :: change
+        !> Power of 2 of the engine's length
+        integer, intent(in) :: unit
+        type(change_type) :: sought
+
+        sought = change_type(foundation=change%foundation, side=change%side, branch=change%branch, from=scale(change%from, -unit), &
+                             to=scale(change%to, -unit), greatest=all(change%change /= [gapbeam_merges, gapbeam_splits]))
+    end function looked_for
 
     !> The same for one branch of a layer
     subroutine compare_layer(before, after, changes, number)

@@ -4,11 +4,11 @@ module gapbeam_ground_events
     use gapbeam_error, only: error_type, failed, no_memory
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
-    use gapbeam_pieces, only: acts_in, what_happens, no_change, gapbeam_merges, gapbeam_splits
+    use gapbeam_pieces, only: acts_in, what_happens, no_change
     use gapbeam_zone_margin, only: change_type
     use gapbeam_ground_start, only: ground_start_type
     use gapbeam_path_problem, only: point_type
-    use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones
+    use gapbeam_ground_changes, only: zone_type, zone_change_type, same_zones, compare_zones, looked_for
     implicit none
     private
     public :: ground_path_type, ground_event_type, ground_segment_type, held_type, note_changes, list_changes, add_segment, &
@@ -117,23 +117,11 @@ contains
         !> Of supports, then of zones
         type(change_type), allocatable, intent(out) :: list(:)
         type(zone_change_type), allocatable :: changes(:)
-        integer :: k, n, number
+        integer :: k, number
 
         call compare_zones(before%zones, after%zones, changes, number)
-        allocate (list(count(before%closed .neqv. after%closed) + number))
-        n = 0
-        do k = 1, size(before%closed)
-            if (before%closed(k) .eqv. after%closed(k)) cycle
-            n = n + 1
-            list(n) = change_type(support=k, closed=before%closed(k))
-        end do
-        do k = 1, number
-            associate (c => changes(k), power => -assembled%units%length)
-                list(n + k) = change_type(foundation=c%foundation, side=c%side, branch=c%branch, from=scale(c%from, power), &
-                                          to=scale(c%to, power), &
-                                          greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)
-            end associate
-        end do
+        list = [pack([(change_type(support=k, closed=before%closed(k)), k=1, size(before%closed))], &
+                     before%closed .neqv. after%closed), looked_for(changes(:number), assembled%units%length)]
     end subroutine list_changes
 
     !> One event more
@@ -167,7 +155,7 @@ contains
     !> One segment more
     subroutine add_segment(from, held, path, error)
         real(wp), intent(in) :: from
-        type(held_type), intent(in) :: held
+        class(point_type), intent(in) :: held
         type(ground_path_type), intent(inout) :: path
         !> No memory
         type(error_type), allocatable, intent(out) :: error
@@ -185,23 +173,36 @@ contains
         end if
         path%segments = path%segments + 1
         path%segment(path%segments)%from = from
-        allocate (path%segment(path%segments)%closed, source=held%closed)
+        select type (held)
+        type is (held_type)
+            allocate (path%segment(path%segments)%closed, source=held%closed)
+        end select
     end subroutine add_segment
 
     !> What holds the beam of a state beside another one: what carries where both may move freely
     pure function beside(held, other) result(seen)
-        type(held_type), intent(in) :: held, other
+        class(point_type), intent(in) :: held, other
         !> Supports and zones alone
         type(held_type) :: seen
+        logical :: both_loose
 
+        both_loose = .false.
+        select type (other)
+        type is (held_type)
+            both_loose = other%loose
+        end select
         seen%stands = held%stands
-        if (held%loose .and. other%loose) then
-            seen%closed = held%carries
-            seen%zones = held%carrying
-        else
-            if (allocated(held%closed)) seen%closed = held%closed
-            if (allocated(held%zones)) seen%zones = held%zones
-        end if
+        select type (held)
+        type is (held_type)
+            both_loose = both_loose .and. held%loose
+            if (both_loose) then
+                seen%closed = held%carries
+                seen%zones = held%carrying
+            else
+                if (allocated(held%closed)) seen%closed = held%closed
+                if (allocated(held%zones)) seen%zones = held%zones
+            end if
+        end select
     end function beside
 
     !> Does the same hold the beam: the same supports, and as many zones with ends of the same kind

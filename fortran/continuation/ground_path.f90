@@ -8,7 +8,7 @@ module gapbeam_ground_path
     use gapbeam_solution, only: state_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_walk, only: walk_along
-    use gapbeam_ground_events, only: ground_path_type, held_type, add_segment
+    use gapbeam_ground_events, only: ground_path_type, add_segment
     use gapbeam_ground_problem, only: ground_problem_type, new_ground_problem
     use gapbeam_steady_path, only: pass_steady
     implicit none
@@ -68,10 +68,7 @@ contains
             problem%path%beyond = 0.0_wp
             return
         end if
-        select type (start)
-        type is (held_type)
-            call add_segment(0.0_wp, start, problem%path, error)
-        end select
+        call add_segment(0.0_wp, start, problem%path, error)
         if (.not. allocated(error)) call pass_steady(problem, start, error)
         if (allocated(error)) return
         call walk_along(problem, start, ended, error)

@@ -200,14 +200,7 @@ contains
 
         associate (unused => problem)
         end associate
-        alike = .false.
-        select type (before)
-        type is (held_type)
-            select type (after)
-            type is (held_type)
-                alike = same_contact(beside(before, after), beside(after, before))
-            end select
-        end select
+        alike = same_contact(beside(before, after), beside(after, before))
     end function alike
 
     !> Supports that change, and zones
@@ -216,13 +209,7 @@ contains
         class(point_type), intent(in) :: before, after
         type(change_type), allocatable, intent(out) :: changes(:)
 
-        select type (before)
-        type is (held_type)
-            select type (after)
-            type is (held_type)
-                call list_changes_between(problem%assembled, beside(before, after), beside(after, before), changes)
-            end select
-        end select
+        call list_changes_between(problem%assembled, beside(before, after), beside(after, before), changes)
     end subroutine list_changes
 
     !> How far a change is away at a load factor, in double precision; where laws of supports are curves, on the tangents there
@@ -349,15 +336,8 @@ contains
         real(wp), intent(in) :: at(:), place(:)
         type(error_type), allocatable, intent(out) :: error
 
-        select type (before)
-        type is (held_type)
-            select type (after)
-            type is (held_type)
-                call note_changes(problem%assembled, beside(before, after), beside(after, before), at, place, problem%path, &
-                                  error)
-                if (.not. allocated(error)) call add_segment(minval(at), after, problem%path, error)
-            end select
-        end select
+        call note_changes(problem%assembled, beside(before, after), beside(after, before), at, place, problem%path, error)
+        if (.not. allocated(error)) call add_segment(minval(at), after, problem%path, error)
     end subroutine take_changes
 
 end module gapbeam_ground_states

@@ -5,8 +5,7 @@ module gapbeam_train_changes
     use gapbeam_zone_margin, only: change_type
     use gapbeam_smooth_laws, only: past_curve, reaction_at
     use gapbeam_solution, only: way_to_contact
-    use gapbeam_pieces, only: gapbeam_merges, gapbeam_splits
-    use gapbeam_ground_changes, only: zone_change_type, compare_zones
+    use gapbeam_ground_changes, only: zone_change_type, compare_zones, looked_for
     use gapbeam_train_states, only: kept_type
     implicit none
     private
@@ -38,13 +37,7 @@ contains
         end do
         if (.not. allocated(one%zones)) return
         call compare_zones(one%zones, other%zones, of_zones, number)
-        do k = 1, number
-            associate (c => of_zones(k), power => -one%placed%units%length)
-                changes = [changes, change_type(foundation=c%foundation, side=c%side, branch=c%branch, &
-                                                from=scale(c%from, power), to=scale(c%to, power), &
-                                                greatest=c%change /= gapbeam_merges .and. c%change /= gapbeam_splits)]
-            end associate
-        end do
+        changes = [changes, looked_for(of_zones(:number), one%placed%units%length)]
     end subroutine list_changes_between
 
     !> How far a support is past where it begins to act: of one that acts by its force, or on its curve
