@@ -210,9 +210,9 @@ module gapbeam_limits
     !> Links up to which doubt on a path is a reason for quadruple precision; in longer beams only if the end of the path is wrong;
     !> tuned. Read by continuation/path
     integer, parameter :: short_beam_links = 200
-    !> Looks at regions for the single way on; tuned. Read by continuation/single_direction
+    !> Looks at regions for the single way on; tuned. Read by continuation/outgoing_directions
     integer, parameter :: most_looks = 200
-    !> Looks without progress in which all that moves the wrong way is passed; tuned. Read by continuation/single_direction
+    !> Looks without progress in which all that moves the wrong way is passed; tuned. Read by continuation/outgoing_directions
     integer, parameter :: looks_without_progress = 3
     !> Segments without length in turn, beyond four for every breakpoint, after which a path is given up; tuned. Read by
     !> continuation/history, continuation/axial_path and continuation/ground_along_path
