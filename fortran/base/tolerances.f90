@@ -44,7 +44,7 @@ module gapbeam_tolerances
     !> rounding, and too little to cost pieces. Read by beam/fields, cases/lane_roots
     real(wp), parameter :: extreme_margin = 1.0e-6_wp
     !> Weak springs of the proximal iteration relative to the softest stiffness present: a third of the digits, so that two rounds
-    !> leave nothing but rounding. Read by cases/lane_model, cases/lane_spans, contact/contact_state, contact/ground_energy
+    !> leave nothing but rounding. Read by cases/lane_blocks, cases/lane_spans, contact/contact_state, contact/ground_energy
     real(wp), parameter :: proximal_ratio = 10.0_wp**(-precision(1.0_wp)/3)
     !> Splits a number into two halves of its bits (Dekker 1971, Numer. Math. 18, 224). Read by cases/lane_residual,
     !> elimination/elements, elimination/residual

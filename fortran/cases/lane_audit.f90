@@ -12,7 +12,7 @@ module gapbeam_lane_audit
     implicit none
     private
     public :: audit_pack, audit_along
-    public :: is_joined, check_link, check_support, check_restraint, wrong_way   ! for gapbeam_lane_measures
+    public :: is_joined, check_link, check_support, check_restraint, wrong_way   ! for gapbeam_lane_certificate
 
     !> In place of that where a law is not that of a support alone, as no sum is larger than its terms
     real(wp), parameter :: anything = 2.0_wp

@@ -4,17 +4,17 @@
 !> bounds of the same errors, none always the smaller.
 module gapbeam_lane_certificate
     use gapbeam_kinds, only: wp
-    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, &
-        link_faa, link_fab, link_fbb, link_sum_a, link_sum_b, link_bending
+    use gapbeam_lane_types, only: lanes, lane_beam_type, lane_rounding_type, pack_type, link_faa, link_fab, link_fbb, link_sum_a, &
+        link_sum_b, link_bending
     use gapbeam_lane_search, only: add_loads, apply_scheme
     use gapbeam_tolerances, only: unit => rounding_unit, largest_error_share, greatest_squared
     use gapbeam_lane_row_errors, only: find_sizes, limit_range
     use gapbeam_lane_residual, only: find_rests
     use gapbeam_lane_reactions, only: complete
-    use gapbeam_lane_audit, only: audit_pack
-    use gapbeam_lane_measures, only: measure_pack
+    use gapbeam_lane_audit, only: audit_pack, is_joined, check_link, check_support, check_restraint, wrong_way
     use gapbeam_lane_fields, only: find_rotations
     use gapbeam_lane_error_ellipses, only: find_movements, kinds_of_movement, of_deflection, of_moment, of_shear, of_rotation
+    use gapbeam_lane_stiffness, only: stiffness_lanes
     implicit none
     private
     public :: certify_pack
@@ -32,7 +32,7 @@ contains
         type(pack_type), intent(inout) :: pack
         !> Room, shape (lanes, 0:n, kinds_of_movement)
         real(wp), intent(inout), contiguous :: moves(:, 0:, :)
-        !> Relative residuals of compatibility, equilibrium and complementarity (gapbeam_lane_measures); largest errors of
+        !> Relative residuals of compatibility, equilibrium and complementarity (measure_pack); largest errors of
         !> deflections of the nodes and of reactions; of deflections, rotations, moments, shears along the beam
         real(wp), intent(out) :: found(lanes, 9)
         !> Above 0 for cases that are not certified here: not a solution, a sign within its rounding error, few digits
@@ -246,5 +246,72 @@ contains
     end subroutine bound_fields
 
     include 'cases/larger.inc'
+
+    !> Residuals of eight cases, of the sums that audit_pack looks at, each relative to the largest size of the terms of one
+    pure subroutine measure_pack(beam, pack, residuals)
+        !> At most one support at a node
+        type(lane_beam_type), intent(in) :: beam
+        type(pack_type), intent(in) :: pack
+        !> Of rotations; of forces; of laws of supports with what violates contact, in force or in deflection
+        real(wp), intent(out) :: residuals(lanes, 3)
+        integer, parameter :: turns = 1, forces = 2, reactions = 3, distances = 4
+        real(wp) :: far(4), most(4), turned, turned_size, passed, passed_size, start, end, link_size, next, next_size, force_size
+        real(wp) :: off, size_of_off, level, law, held, held_size, spring_size
+        real(wp), dimension(lanes) :: of_restraint, size_of_restraint
+        integer :: i, k, l, m
+
+        do l = 1, lanes
+            far(:) = 0.0_wp
+            most(:) = tiny(1.0_wp)
+            turned = 0.0_wp
+            turned_size = 0.0_wp
+            passed = 0.0_wp
+            passed_size = 0.0_wp
+            do i = 0, beam%n
+                k = min(i + 1, beam%n)
+                associate (link => pack%links(min(l, stiffness_lanes), :, k), w => pack%w(l, i), r => pack%reaction(l, i), &
+                           c => pack%contact(l, i), closed => pack%closed(l, i))
+                    call check_link(w, pack%w(l, k), pack%mr(l, i), pack%ml(l, k), beam%inverse(k)*merge(1, 0, i < beam%n), &
+                                    link(link_faa), link(link_fab), link(link_fbb), start, end, link_size, next, next_size)
+                    off = start - turned + (pack%left(l, i) + pack%right(l, i))
+                    size_of_off = link_size + turned_size
+                    if (is_joined(beam, i)) call raise(abs(off), size_of_off, far(turns), most(turns))
+                    call check_support(pack%stiffness(l, i), pack%rigid(l, i), c, closed, w, r, law, held, held_size, spring_size)
+                    off = next - passed + (pack%shear(l, i) - r)
+                    force_size = next_size + passed_size + (spring_size + abs(r))
+                    call raise(abs(off), force_size, far(forces), most(forces))
+                    turned = end
+                    turned_size = link_size
+                    passed = next
+                    passed_size = next_size
+                    if (beam%there(i) < 0.5_wp) cycle
+                    level = abs(w) + abs(c)
+                    m = merge(distances, reactions, held > 0.5_wp)
+                    call raise(law, merge(level, force_size, m == distances), far(m), most(m))
+                    off = wrong_way(beam%changes(i)*beam%side(i), c, closed, w, r)
+                    m = merge(reactions, distances, closed > 0.5_wp)
+                    call raise(off, merge(level, force_size, m == distances), far(m), most(m))
+                end associate
+            end do
+            do m = 1, size(beam%restrained)
+                do k = max(beam%restrained(m), 1), min(beam%restrained(m) + 1, beam%n)
+                    call check_restraint(beam, pack%links, beam%n, m, k, pack%left, pack%right, pack%couple, pack%w, pack%ml, &
+                                         pack%mr, of_restraint, size_of_restraint)
+                    call raise(of_restraint(l), size_of_restraint(l), far(turns), most(turns))
+                end do
+            end do
+            far(:) = far/most
+            residuals(l, :) = [far(turns), far(forces), larger(far(reactions), far(distances))]
+        end do
+    end subroutine measure_pack
+
+    !> Raise largest values
+    elemental subroutine raise(off, size_of_off, far, most)
+        real(wp), intent(in) :: off, size_of_off
+        real(wp), intent(inout) :: far, most
+
+        far = larger(far, off)
+        most = larger(most, size_of_off)
+    end subroutine raise
 
 end module gapbeam_lane_certificate

@@ -19,7 +19,7 @@ module gapbeam_ground_query
     implicit none
     private
     public :: ground_values, ground_extremes
-    ! For gapbeam_ground_pressure and gapbeam_ground_distance
+    ! For gapbeam_pressure and gapbeam_ground_distance
     public :: layers_under, stretch_of, share_of, values_in, curved_in, peaks_in
 
 contains

@@ -26,7 +26,7 @@ program test_ground
     use gapbeam_loaded_ground, only: ground_of
     use gapbeam_state, only: solve_state
     use gapbeam_ground_query, only: ground_values, ground_extremes
-    use gapbeam_ground_pressure, only: ground_pressure, pressure_extremes
+    use gapbeam_pressure, only: ground_pressure, pressure_extremes
     use gapbeam_ground_distance, only: largest_ways
     implicit none
     real(wp), parameter :: pi = acos(-1.0_wp)
