@@ -233,9 +233,9 @@ contains
                 path%condition(number) = gapbeam_turns
                 return
             end if
-            before = now_acts(assembled, which, now)
+            before = acts_in(assembled, assembled%normal(which), now)
             now(which) = .not. now(which)
-            after = now_acts(assembled, which, now)
+            after = acts_in(assembled, assembled%normal(which), now)
             path%condition(number) = after%condition
             change = what_happens(before, after)
             if (.not. curved .or. change == no_change .or. .not. path%factor(number) > 0.0_wp) return
@@ -244,16 +244,5 @@ contains
             now(which) = .not. now(which)
         end associate
     end subroutine name_change
-
-    !> What acts of a support of the beam, which may be a breakpoint of a law
-    pure function now_acts(assembled, which, now) result(acting)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: which
-        !> The scheme
-        logical, intent(in) :: now(:)
-        type(acting_type) :: acting
-
-        acting = acts_in(assembled, assembled%normal(which), now)
-    end function now_acts
 
 end module gapbeam_events

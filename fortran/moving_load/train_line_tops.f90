@@ -195,9 +195,8 @@ contains
         type(ruler_type), intent(in) :: ruler
         real(wp), intent(out) :: place, height
         logical, intent(out) :: known
-        real(wp) :: far(size(at)), near_at(min(size(at), nearest)), near_heights(min(size(at), nearest)), other, higher
+        real(wp) :: far(size(at)), near_at(min(size(at), nearest)), near_heights(min(size(at), nearest))
         integer :: k, n
-        logical :: there
 
         far(:) = abs(at - best)
         do n = 1, size(near_at)
@@ -206,19 +205,30 @@ contains
             near_heights(n) = heights(k)
             far(k) = huge(far)
         end do
-        call find_highest(near_at, near_heights, bounds(1), bounds(2), place, height, known)
-        if (known .and. ruler%bears_zones) then
-            call find_highest(position_of(ruler, near_at), near_heights, position_of(ruler, bounds(1)), &
-                              position_of(ruler, bounds(2)), other, higher, there)
-            if (there .and. higher > height) then
-                place = angle_of(ruler, other)
-                height = higher
-            end if
-        end if
+        call find_higher(near_at, near_heights, bounds, ruler, place, height, known)
         ! A top that is not above the highest point is another one
         known = known .and. height >= near_heights(1)
         if (.not. known) call find_vertex(best, at, heights, bounds(1), bounds(2), place, height, known)
     end subroutine find_next
+
+    !> The higher one of the tops of the polynomials in the angle and in the position
+    subroutine find_higher(at, heights, bounds, ruler, place, height, known)
+        !> Points, and bounds, as angles
+        real(wp), intent(in) :: at(:), heights(:), bounds(2)
+        type(ruler_type), intent(in) :: ruler
+        real(wp), intent(out) :: place, height
+        logical, intent(out) :: known
+        real(wp) :: other, higher
+        logical :: there
+
+        call find_highest(at, heights, bounds(1), bounds(2), place, height, known)
+        if (.not. (known .and. ruler%bears_zones)) return
+        call find_highest(position_of(ruler, at), heights, position_of(ruler, bounds(1)), position_of(ruler, bounds(2)), &
+                          other, higher, there)
+        if (.not. there .or. higher <= height) return
+        place = angle_of(ruler, other)
+        height = higher
+    end subroutine find_higher
 
     !> Top of the polynomials in the angle and in the position: that of which two agree, else the higher one
     subroutine find_top(at, values, j, ruler, enough, top)
@@ -229,14 +239,12 @@ contains
         !> By how much two may differ
         real(wp), intent(in) :: enough
         type(top_type), intent(out) :: top
-        real(wp) :: bounds(2), positions(size(at)), other, higher
-        logical :: there
+        real(wp) :: bounds(2)
         integer :: from, to
 
         bounds(:) = [at(max(j - 1, 1)), at(min(j + 1, size(at)))]
         if (ruler%bears_zones) then
-            positions(:) = position_of(ruler, at)
-            call agree(positions, position_of(ruler, bounds))
+            call agree(position_of(ruler, at), position_of(ruler, bounds))
             if (top%is_sure) then
                 if (top%known) top%place = angle_of(ruler, top%place)
                 return
@@ -246,15 +254,7 @@ contains
         if (top%is_sure) return
         from = min(max(j - on_each_side, 1), max(size(at) - nearest + 1, 1))
         to = min(from + nearest - 1, size(at))
-        call find_highest(at(from:to), values(from:to), bounds(1), bounds(2), top%place, top%height, top%known)
-        if (top%known .and. ruler%bears_zones) then
-            bounds(:) = position_of(ruler, bounds)
-            call find_highest(positions(from:to), values(from:to), bounds(1), bounds(2), other, higher, there)
-            if (there .and. higher > top%height) then
-                top%place = angle_of(ruler, other)
-                top%height = higher
-            end if
-        end if
+        call find_higher(at(from:to), values(from:to), bounds, ruler, top%place, top%height, top%known)
         ! A top that is not above the state is another one
         top%known = top%known .and. top%height >= values(j)
 
@@ -263,7 +263,7 @@ contains
         !> Do polynomials through more and through fewer states agree: in the top, or at an end that there is none
         subroutine agree(places, between)
             real(wp), intent(in) :: places(:), between(2)
-            real(wp) :: fewer
+            real(wp) :: fewer, other
             logical :: both
             integer :: first, last, n
 

@@ -285,13 +285,11 @@ contains
         subroutine add_events(crossing)
             type(crossing_type), intent(in) :: crossing
 
-            if (backwards) then
-                call list_events(problem%assembled, problem%boxes(crossing%above)%of, problem%boxes(crossing%below)%of, crossing, &
-                                 runs%events, .true.)
-            else
-                call list_events(problem%assembled, problem%boxes(crossing%below)%of, problem%boxes(crossing%above)%of, crossing, &
-                                 runs%events, .false.)
-            end if
+            associate (before => merge(crossing%above, crossing%below, backwards), &
+                       after => merge(crossing%below, crossing%above, backwards))
+                call list_events(problem%assembled, problem%boxes(before)%of, problem%boxes(after)%of, crossing, runs%events, &
+                                 backwards)
+            end associate
         end subroutine add_events
 
     end subroutine read_way

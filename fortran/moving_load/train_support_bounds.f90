@@ -22,6 +22,12 @@ module gapbeam_train_support_bounds
         real(wp) :: way = 1.0_wp
     end type watch_type
 
+    !> A stretch that may hold an extreme value, which one it is, and how large at most
+    type :: kept_type
+        integer :: stretch = 0, which(3) = 0
+        real(wp) :: bound = 0.0_wp
+    end type kept_type
+
     !> What is known of the extremes
     type :: support_bounds_type
         !> What the scheme at hand lets change
@@ -33,10 +39,8 @@ module gapbeam_train_support_bounds
         !> of all supports
         real(wp), allocatable, private :: reached(:, :, :)
         real(wp), private :: size(4) = 0.0_wp
-        !> Stretches that may hold an extreme value, which one it is, and how large at most
         integer, private :: count = 0
-        integer, allocatable, private :: stretch(:), which(:, :)
-        real(wp), allocatable, private :: bound(:)
+        type(kept_type), allocatable, private :: kept(:)
     end type support_bounds_type
 
 contains
@@ -50,8 +54,8 @@ contains
         integer :: m
 
         m = size(assembled%model%supports)
-        allocate (bounds%watches(4*m), bounds%stays(4, m), bounds%always(m), bounds%reached(2, 4, m), bounds%stretch(256), &
-                  bounds%which(3, 256), bounds%bound(256), stat=stat)
+        allocate (bounds%watches(4*m), bounds%stays(4, m), bounds%always(m), bounds%reached(2, 4, m), bounds%kept(256), &
+                  stat=stat)
         if (stat /= 0) return
         bounds%reached(:, :, :) = -huge(1.0_wp)
         bounds%always(:) = .false.
@@ -172,15 +176,13 @@ contains
             type(watch_type), intent(in) :: watch
             integer, intent(in) :: i
 
-            if (bounds%count == size(bounds%bound)) then
+            if (bounds%count == size(bounds%kept)) then
                 call drop(bounds)
-                if (2*bounds%count > size(bounds%bound)) call lengthen(bounds, stat)
+                if (2*bounds%count > size(bounds%kept)) call lengthen(bounds, stat)
                 if (stat /= 0) return
             end if
             bounds%count = bounds%count + 1
-            bounds%stretch(bounds%count) = k
-            bounds%which(:, bounds%count) = [i, watch%what, watch%support]
-            bounds%bound(bounds%count) = most
+            bounds%kept(bounds%count) = kept_type(k, [i, watch%what, watch%support], most)
         end subroutine keep
 
     end subroutine bound_supports
@@ -189,19 +191,12 @@ contains
     subroutine lengthen(bounds, stat)
         type(support_bounds_type), intent(inout) :: bounds
         integer, intent(out) :: stat
-        integer, allocatable :: stretch(:), which(:, :)
-        real(wp), allocatable :: bound(:)
-        integer :: n
+        type(kept_type), allocatable :: longer(:)
 
-        n = size(bounds%bound)
-        allocate (stretch(2*n), which(3, 2*n), bound(2*n), stat=stat)
+        allocate (longer(2*size(bounds%kept)), stat=stat)
         if (stat /= 0) return
-        stretch(:n) = bounds%stretch
-        which(:, :n) = bounds%which
-        bound(:n) = bounds%bound
-        call move_alloc(stretch, bounds%stretch)
-        call move_alloc(which, bounds%which)
-        call move_alloc(bound, bounds%bound)
+        longer(:size(bounds%kept)) = bounds%kept
+        call move_alloc(longer, bounds%kept)
     end subroutine lengthen
 
     !> Drop stretches that are no longer in question
@@ -211,13 +206,11 @@ contains
 
         kept = 0
         do q = 1, bounds%count
-            associate (w => bounds%which(:, q))
-                if (bounds%bound(q) < bounds%reached(w(1), w(2), w(3)) - bounds%size(w(2))*train_slack) cycle
+            associate (one => bounds%kept(q), w => bounds%kept(q)%which)
+                if (one%bound < bounds%reached(w(1), w(2), w(3)) - bounds%size(w(2))*train_slack) cycle
+                kept = kept + 1
+                bounds%kept(kept) = one
             end associate
-            kept = kept + 1
-            bounds%stretch(kept) = bounds%stretch(q)
-            bounds%which(:, kept) = bounds%which(:, q)
-            bounds%bound(kept) = bounds%bound(q)
         end do
         bounds%count = kept
     end subroutine drop
@@ -229,7 +222,7 @@ contains
         logical, intent(inout) :: wanted(:)
 
         call drop(bounds)
-        wanted(bounds%stretch(:bounds%count)) = .true.
+        wanted(bounds%kept(:bounds%count)%stretch) = .true.
     end subroutine mark_stretches
 
 end module gapbeam_train_support_bounds
