@@ -190,7 +190,7 @@ contains
             if (.not. allocated(error)) call supports_of_runs(beam%lowered, passing%runs, envelope%supports, error)
         else
             passing%track%beam%watch = beam%lowered%beam%watch
-            call find_envelope(beam%lowered, passing%track, passing%train, passing%passage, envelope, error)
+            call find_envelope(beam%lowered, passing%track, passing%passage, envelope, error)
         end if
     end subroutine envelope_of
 
@@ -250,7 +250,7 @@ contains
             passing%track%beam%watch = beam%lowered%beam%watch
             do side = 1, 2
                 call find_pieces(beam%lowered, x, side == 2, piece, distance, error)
-                if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%train, passing%passage, piece, &
+                if (.not. allocated(error)) call find_curves(beam%lowered, passing%track, passing%passage, piece, &
                                                              distance, curves, curves_at, error)
                 if (allocated(error)) return
                 found(:, :, :, side) = curves(:, place_of(quantities), :)

@@ -113,7 +113,7 @@ subroutine gbtenv(beam, train, nm, nb, fields, field_sides, field_ties, supports
     ! Another thread may ask the same train
     associate (p => passing%passing)
         track = p%track
-        call find_envelope(handle%beam%lowered, track, p%train, p%passage, envelope, error)
+        call find_envelope(handle%beam%lowered, track, p%passage, envelope, error)
     end associate
     call report(error, status, message)
     if (allocated(error)) return
@@ -149,7 +149,7 @@ subroutine gbtcur(beam, train, nx, nb, piece, dist, value, position, status, mes
     ! Another thread may ask the same train
     associate (p => passing%passing)
         track = p%track
-        call find_curves(handle%beam%lowered, track, p%train, p%passage, piece, dist, value, position, error)
+        call find_curves(handle%beam%lowered, track, p%passage, piece, dist, value, position, error)
     end associate
     call report(error, status, message)
 end subroutine gbtcur

@@ -41,6 +41,8 @@ module gapbeam_train
         !> Rotations of the ends of the simple bar under a unit force at a distance from the left end of a piece: coefficients,
         !> shape (0:3, npiece)
         real(wp), allocatable :: turn_a(:, :), turn_b(:, :)
+        !> What passes (pass_train)
+        type(train_type) :: train
         !> Exponents of the units of length and force
         integer :: length_unit = 0, force_unit = 0
         !> Links with loads of the train, the first `loaded` of them
@@ -149,12 +151,11 @@ contains
     end function degree_of
 
     !> Places of a train that are nearer to each other than this are one
-    pure function least_distance(track, train) result(distance)
+    pure function least_distance(track) result(distance)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         real(wp) :: distance
 
-        distance = position_tolerance*(track%x(ubound(track%x, 1)) + maxval(abs(train%offset)))
+        distance = position_tolerance*(track%x(ubound(track%x, 1)) + maxval(abs(track%train%offset)))
     end function least_distance
 
 end module gapbeam_train

@@ -17,7 +17,7 @@ module gapbeam_train_bounds
     use gapbeam_nodes, only: hinge
     use gapbeam_quantities, only: bending_count
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, slopes_type, new_view, enter_stretch, &
@@ -53,10 +53,9 @@ module gapbeam_train_bounds
 contains
 
     !> Find bounds of the fields on all stretches of a train's way
-    subroutine find_bounds(assembled, track, train, traversal, bounds, error)
+    subroutine find_bounds(assembled, track, traversal, bounds, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> By pass_train
         type(traversal_type), intent(in) :: traversal
         type(bounds_type), intent(out) :: bounds
@@ -72,7 +71,7 @@ contains
         integer :: count, i, k, n, stat
 
         n = size(track%beam%links)
-        call new_view(assembled, track, train, bounds%view, stat)
+        call new_view(assembled, track, bounds%view, stat)
         if (stat == 0) call new_support_bounds(assembled, bounds%supports, stat)
         if (stat == 0) allocate (bounds%at_most(2, bending_count, traversal%number), &
                                  bounds%of_supports(traversal%number), parts(256), start(n), begin(n), touched(n), &
@@ -86,7 +85,7 @@ contains
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
             if (traversal%status(k) /= gapbeam_solved) cycle
-            call enter_stretch(track, train, traversal, k, bounds%view)
+            call enter_stretch(track, traversal, k, bounds%view)
             if (.not. bounds%view%clear) then
                 bounds%at_most(:, :, k) = huge(1.0_wp)
                 bounds%of_supports(k) = .true.
@@ -109,7 +108,7 @@ contains
             if (allocated(error)) return
             do k = parts(i)%first, parts(i)%last
                 associate (link => parts(i)%link)
-                    call enter_stretch(track, train, traversal, k, bounds%view)
+                    call enter_stretch(track, traversal, k, bounds%view)
                     call bound_link(assembled, track, bounds%view, link, 0.0_wp, first)
                     call reach_values(first, k)
                     call bound_link(assembled, track, bounds%view, link, 1.0_wp, last)
@@ -137,14 +136,14 @@ contains
                 return
             end if
             if (bounds%view%shears) return
-            call enter_next_interval(track, train, traversal, traversal%interval(k + 1), bounds%view)
+            call enter_next_interval(track, traversal, traversal%interval(k + 1), bounds%view)
             touched(:) = .false.
             associate (before => bounds%view%interval, after => bounds%view%ahead)
                 do i = 1, size(after%piece)
                     call touch(before%piece(i), after%piece(i), past_hinges=.false.)
                 end do
-                do i = 1, size(train%uniform)
-                    associate (load => train%uniform(i))
+                do i = 1, size(track%train%uniform)
+                    associate (load => track%train%uniform(i))
                         call touch(piece_of_end(before, load%from, before%first(i)), &
                                    piece_of_end(after, load%from, after%first(i)), past_hinges=.true.)
                         call touch(piece_of_end(before, load%to, before%last(i)), &

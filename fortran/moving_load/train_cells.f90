@@ -8,7 +8,7 @@ module gapbeam_train_cells
     use gapbeam_recover, only: recover_beam
     use gapbeam_workspace, only: workspace_type
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type
     implicit none
     private
@@ -41,21 +41,20 @@ module gapbeam_train_cells
 contains
 
     !> Room for the cells of a beam under a train
-    subroutine new_cells(track, train, cells, stat)
+    subroutine new_cells(track, cells, stat)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(cells_type), intent(out) :: cells
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
-        integer :: axle(size(train%offset) + 2*size(train%uniform)), most, moving, i, j, k
+        integer :: axle(size(track%train%offset) + 2*size(track%train%uniform)), most, moving, i, j, k
 
         ! An axle without a force changes nothing, and a cell that ended there would have its extreme values on a curve of
         ! position and place, not at points
         moving = 0
-        do i = 1, size(train%offset)
-            if (abs(train%force(i)) > 0.0_wp) call add(i)
+        do i = 1, size(track%train%offset)
+            if (abs(track%train%force(i)) > 0.0_wp) call add(i)
         end do
-        do i = 1, size(train%uniform)
+        do i = 1, size(track%train%uniform)
             call add(1 - 2*i)
             call add(-2*i)
         end do
@@ -69,10 +68,10 @@ contains
         do i = 1, moving
             k = axle(i)
             if (k > 0) then
-                cells%offset(i) = train%offset(k)
-                cells%force(i) = scale(train%force(k), -track%force_unit)
+                cells%offset(i) = track%train%offset(k)
+                cells%force(i) = scale(track%train%force(k), -track%force_unit)
             else
-                associate (load => train%uniform((1 - k)/2))
+                associate (load => track%train%uniform((1 - k)/2))
                     cells%offset(i) = merge(load%to, load%from, mod(k, 2) == 0)
                 end associate
                 cells%force(i) = 0.0_wp
@@ -102,9 +101,8 @@ contains
     end subroutine new_cells
 
     !> The cells of an interval
-    subroutine find_cells(track, train, interval, cells)
+    subroutine find_cells(track, interval, cells)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
         type(cells_type), intent(inout) :: cells
         real(wp) :: middle, from, to
@@ -128,11 +126,11 @@ contains
             cells%last(track%link(j)) = cells%number
         end do
         cells%first(size(track%link) + 1) = cells%number + 1
-        if (size(train%uniform) == 0) return
+        if (size(track%train%uniform) == 0) return
         do k = 1, cells%number
             call cell_ends(track, cells, cells%cells(k), middle, from, to)
-            do i = 1, size(train%uniform)
-                associate (x => from + (to - from)/2, load => train%uniform(i))
+            do i = 1, size(track%train%uniform)
+                associate (x => from + (to - from)/2, load => track%train%uniform(i))
                     if (x <= middle + load%from .or. x >= middle + load%to) cycle
                     cells%cells(k)%q = cells%cells(k)%q + scale(load%q, track%length_unit - track%force_unit)
                 end associate

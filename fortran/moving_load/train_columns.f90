@@ -5,7 +5,7 @@ module gapbeam_train_columns
     use gapbeam_band, only: pivot_type, factor_chain, band_ok
     use gapbeam_model, only: beam_type
     use gapbeam_workspace, only: workspace_type, new_workspace, set_loads, apply_scheme
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type
     implicit none
     private
@@ -95,9 +95,8 @@ contains
     end function value_of_column
 
     !> What the train does to the links
-    subroutine load_columns(track, train, interval, from, columns)
+    subroutine load_columns(track, interval, from, columns)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: from
         type(columns_type), intent(inout) :: columns
@@ -112,13 +111,13 @@ contains
             columns%shear_b(:, l) = 0.0_wp
             columns%loaded(l) = .false.
         end do
-        do i = 1, size(train%offset)
+        do i = 1, size(track%train%offset)
             j = interval%piece(i)
             if (j == 0) cycle
             l = track%link(j)
             columns%loaded(l) = .true.
-            f = train%force(i)*columns%to_force
-            t = at_distance(track, columns, j, from + train%offset(i))
+            f = track%train%force(i)*columns%to_force
+            t = at_distance(track, columns, j, from + track%train%offset(i))
             distance = track%before(j) + t
             associate (link => track%beam%links(l))
                 call add_cubic(track%turn_a(:, j), columns%turn_a(:, l))
@@ -127,8 +126,8 @@ contains
                 columns%shear_b(1:2, l) = columns%shear_b(1:2, l) - f*link%inverse*[distance, 1.0_wp]
             end associate
         end do
-        do i = 1, size(train%uniform)
-            associate (load => train%uniform(i), first => interval%first(i), last => interval%last(i))
+        do i = 1, size(track%train%uniform)
+            associate (load => track%train%uniform(i), first => interval%first(i), last => interval%last(i))
                 f = load%q*columns%to_force/columns%to_length
                 do j = first, last
                     l = track%link(j)

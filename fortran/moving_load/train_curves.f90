@@ -11,7 +11,7 @@ module gapbeam_train_curves
     use gapbeam_quantities, only: bending_count, bending
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type, degree_of, least_distance
+    use gapbeam_train, only: track_type, degree_of, least_distance
     use gapbeam_train_cells, only: cells_type, cell_ends
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_prescribed_deflections, only: keep_prescribed
@@ -29,10 +29,9 @@ module gapbeam_train_curves
 contains
 
     !> Largest and smallest values of the fields at given places, over all positions
-    subroutine find_curves(assembled, track, train, traversal, piece, distance, value, position, error)
+    subroutine find_curves(assembled, track, traversal, piece, distance, value, position, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> By pass_train
         type(traversal_type), intent(in) :: traversal
         !> Pieces, and the distances from their left ends in the user's units, shape (n)
@@ -53,21 +52,21 @@ contains
         value(1, :, :) = -huge(1.0_wp)
         value(2, :, :) = huge(1.0_wp)
         position(:, :, :) = 0.0_wp
-        d = degree_of(train)
-        call new_samples(assembled, track, train, d, samples, error)
+        d = degree_of(track%train)
+        call new_samples(assembled, track, d, samples, error)
         if (allocated(error)) return
-        call new_screen(assembled, track, train, screen, stat)
+        call new_screen(assembled, track, screen, stat)
         if (stat == 0) call new_places(track, piece, distance, screen%view%columns%to_length, places, stat)
         if (stat == 0) allocate (wanted(size(piece)), stat=stat)
         if (failed(stat, error)) return
         ! First what is reached at the ends of stretches, so that then there is little left to look into
-        near = least_distance(track, train)
+        near = least_distance(track)
         told = .true.
         do k = 1, traversal%number
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
             if (traversal%status(k) /= gapbeam_solved) cycle
-            call show_stretch(assembled, track, train, traversal, k, screen)
+            call show_stretch(assembled, track, traversal, k, screen)
             if (screen%view%clear) call pass_beam(reaching)
         end do
         call search()
@@ -115,11 +114,11 @@ contains
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
                 if (traversal%status(k) /= gapbeam_solved) cycle
-                call show_stretch(assembled, track, train, traversal, k, screen)
+                call show_stretch(assembled, track, traversal, k, screen)
                 wanted(:) = .not. (told .and. screen%view%clear)
                 if (told .and. screen%view%clear) call pass_beam(bounding)
                 if (.not. any(wanted)) cycle
-                call sample_stretch(assembled, track, train, traversal, k, samples, error)
+                call sample_stretch(assembled, track, traversal, k, samples, error)
                 if (allocated(error)) return
                 if (told .and. screen%view%clear) then
                     do c = 1, samples%cells%number

@@ -8,7 +8,7 @@ module gapbeam_train_elimination
     use gapbeam_kinds, only: wp
     use gapbeam_band, only: pivot_type, plain, hinge, restrained, full, w_known, m_known, both_known, end_of_beam
     use gapbeam_model, only: beam_type
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_columns, only: columns_type, most_columns, load_columns
     implicit none
@@ -18,9 +18,8 @@ module gapbeam_train_elimination
 contains
 
     !> Solve for the polynomials on a stretch
-    subroutine solve_columns(track, train, interval, from, to, columns)
+    subroutine solve_columns(track, interval, from, to, columns)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> Where the train is, by enter_interval
         type(interval_type), intent(in) :: interval
         !> Its positions at both ends of the stretch
@@ -29,7 +28,7 @@ contains
         type(columns_type), intent(inout) :: columns
 
         columns%length = (to - from)*columns%to_length
-        call load_columns(track, train, interval, from, columns)
+        call load_columns(track, interval, from, columns)
         call eliminate(track%beam, columns)
         call substitute(track%beam, columns)
     end subroutine solve_columns

@@ -16,7 +16,7 @@ module gapbeam_train_envelope
     use gapbeam_quantities, only: bending_count, bending
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train, only: track_type, degree_of
     use gapbeam_train_cells, only: cell_type
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_samples, only: samples_type, new_samples, sample_stretch, sample_supports, degree_in_position, along_cell, &
@@ -47,10 +47,9 @@ module gapbeam_train_envelope
 contains
 
     !> Find the extremes of all fields and supports
-    subroutine find_envelope(assembled, track, train, traversal, envelope, error)
+    subroutine find_envelope(assembled, track, traversal, envelope, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> By pass_train
         type(traversal_type), intent(in) :: traversal
         type(envelope_type), intent(out) :: envelope
@@ -64,18 +63,18 @@ contains
         integer :: powers(bending_count), c, f, i, k, last, m, n, sampled, stat
 
         m = size(assembled%model%supports)
-        call new_samples(assembled, track, train, degree_in_position(train), samples, error)
+        call new_samples(assembled, track, degree_in_position(track%train), samples, error)
         if (allocated(error)) return
         n = samples%degree
         allocate (of_fields(2, bending_count), of_supports(2, at_support, m), envelope%supports(2, at_support, m), &
-                  matrix(0:n, 0:n), of_nodes(0:degree_of(train), 0:degree_of(train)), &
+                  matrix(0:n, 0:n), of_nodes(0:degree_of(track%train), 0:degree_of(track%train)), &
                   starts(0:n, bending_count, size(samples%starts, 2)), stays(at_support, m), &
                   wanted(traversal%number), stat=stat)
         if (failed(stat, error)) return
         matrix(:, :) = to_coefficients(n)
-        of_nodes(:, :) = to_coefficients(degree_of(train))
+        of_nodes(:, :) = to_coefficients(degree_of(track%train))
         sampled = 0
-        call find_bounds(assembled, track, train, traversal, bounds, error)
+        call find_bounds(assembled, track, traversal, bounds, error)
         if (.not. allocated(error)) call try_bounds()
         if (allocated(error)) return
         do k = 1, traversal%number
@@ -99,7 +98,7 @@ contains
                 if (allocated(error)) return
             end if
             if (.not. told .or. bounds%of_supports(k) .or. any(bounds%supports%always)) then
-                call sample_supports(assembled, track, train, traversal, k, samples, error)
+                call sample_supports(assembled, track, traversal, k, samples, error)
                 if (allocated(error)) return
                 do i = 1, m
                     do f = 1, at_support
@@ -119,7 +118,7 @@ contains
             do i = 1, 2
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
-                call find_extreme(assembled, track, train, traversal, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
+                call find_extreme(assembled, track, traversal, samples%cells, of_fields(i, f), i, powers(f), f == 1, &
                                   envelope%fields(i, f))
             end do
         end do
@@ -128,7 +127,7 @@ contains
                 call end_if_stopped(track%beam%watch, error)
                 if (allocated(error)) return
                 do c = 1, m
-                    call find_extreme(assembled, track, train, traversal, samples%cells, of_supports(i, f, c), i, 0, .false., &
+                    call find_extreme(assembled, track, traversal, samples%cells, of_supports(i, f, c), i, 0, .false., &
                                       envelope%supports(i, f, c))
                     if (f <= 2) call drop_rounding(f == 1, assembled%model%supports(c)%side, &
                                                    train_equal*of_supports(i, f, c)%largest, envelope%supports(i, f, c))
@@ -147,7 +146,7 @@ contains
 
             if (sampled == k) return
             sampled = k
-            call sample_stretch(assembled, track, train, traversal, k, samples, error)
+            call sample_stretch(assembled, track, traversal, k, samples, error)
             if (allocated(error)) return
             do j = 1, samples%cells%number
                 do p = 0, n
@@ -189,7 +188,7 @@ contains
             type(field_type) :: seen(size(samples%starts, 2))
             integer :: j, link
 
-            call enter_stretch(track, train, traversal, k, bounds%view)
+            call enter_stretch(track, traversal, k, bounds%view)
             if (.not. bounds%view%clear) return
             call sample_fields()
             if (allocated(error)) return
@@ -245,10 +244,10 @@ contains
                 if (any(traversal%closed(:, last + 1) .neqv. traversal%closed(:, k))) exit
                 last = last + 1
             end do
-            call sample_supports(assembled, track, train, traversal, k, samples, error)
+            call sample_supports(assembled, track, traversal, k, samples, error)
             if (allocated(error)) return
             patch%along = 0
-            patch%across = degree_of(train)
+            patch%across = degree_of(track%train)
             do i = 1, m
                 do f = 1, at_support
                     if (.not. stays(f, i)) cycle
@@ -318,7 +317,7 @@ contains
                     change - first < least_of(of_supports(2, what, i))) return
             end associate
             patch%along = 0
-            patch%across = degree_of(train)
+            patch%across = degree_of(track%train)
             patch%b(0, 0:patch%across) = matmul(of_nodes, samples%supports(:, what, i))
             call offer(of_supports(1, what, i), patch, cell_type(), k, k)
             patch%b(0, 0:patch%across) = -patch%b(0, 0:patch%across)

@@ -5,7 +5,7 @@ module gapbeam_train_extremes
     use gapbeam_bernstein, only: value_of
     use gapbeam_patch, only: greatest_on_patch
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type, least_distance
+    use gapbeam_train, only: track_type, least_distance
     use gapbeam_train_cells, only: cell_type, cells_type, cell_ends, x_in_cell
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_candidates, only: candidate_type, candidates_type, upper_bound
@@ -21,11 +21,10 @@ module gapbeam_train_extremes
 contains
 
     !> The largest value among candidates, and where it is
-    subroutine find_extreme(assembled, track, train, traversal, cells, candidates, which, power, of_deflection, extreme)
+    subroutine find_extreme(assembled, track, traversal, cells, candidates, which, power, of_deflection, extreme)
         !> The beam, the train and its way
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         !> What the beam is cut into, and what may be the largest there or at a support
         type(cells_type), intent(in) :: cells
@@ -78,7 +77,7 @@ contains
             call add_tie(extreme, tie)
         end do
         do q = 1, extreme%number
-            extreme%ties(q)%position = extreme%ties(q)%position + inside(extreme%ties(q)%limit)*least_distance(track, train)
+            extreme%ties(q)%position = extreme%ties(q)%position + inside(extreme%ties(q)%limit)*least_distance(track)
         end do
 
     contains
@@ -107,8 +106,8 @@ contains
 
             u = share
             associate (whole => traversal%to(candidate%stretch) - traversal%from(candidate%stretch))
-                if (u*whole <= least_distance(track, train)) u = 0.0_wp
-                if ((1 - u)*whole <= least_distance(track, train) .and. u > 0.0_wp) u = 1.0_wp
+                if (u*whole <= least_distance(track)) u = 0.0_wp
+                if ((1 - u)*whole <= least_distance(track) .and. u > 0.0_wp) u = 1.0_wp
             end associate
             value = value_of([(value_of(candidate%patch%b(0:candidate%patch%along, j), v), j=0, candidate%patch%across)], u)
             associate (q => candidate%stretch, interval => traversal%intervals(traversal%interval(candidate%stretch)), &
@@ -129,7 +128,7 @@ contains
                 if (v <= 0.0_wp) tie%side = 2
                 ! Between a support and an axle that comes to it there is a shear that neither has when it is there
                 call cell_ends(track, cells, cell, tie%position, from, to)
-                if (to - from > least_distance(track, train)) return
+                if (to - from > least_distance(track)) return
                 if (u <= 0.0_wp) tie%limit = 1
                 if (u >= 1.0_wp) tie%limit = 2
                 ! It is on that side of the support on which the axle is

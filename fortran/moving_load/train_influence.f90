@@ -14,7 +14,7 @@ module gapbeam_train_influence
     use gapbeam_quantities, only: bending_count, bending, of_moment, of_shear
     use gapbeam_units, only: quantity_unit
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: train_type, track_type, uniform_type
     use gapbeam_train_intervals, only: interval_type, find_intervals, enter_interval
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells, fill_cells, recover_cells, cell_ends, cell_of_place, &
@@ -44,7 +44,6 @@ contains
         !> No unique state, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(track_type) :: bare
-        type(train_type) :: unit
         type(cells_type) :: cells
         type(assembled_type) :: empty
         type(interval_type), allocatable :: intervals(:)
@@ -63,18 +62,16 @@ contains
         call drop_loads(bare%beam, 2)
         bare%loaded = 0
         bare%is_loaded(:) = .false.
-        allocate (unit%offset(1), unit%force(1), unit%uniform(0))
-        unit%offset(:) = 0.0_wp
-        unit%force(:) = 1.0_wp
+        bare%train = train_type([0.0_wp], [1.0_wp], [uniform_type ::])
         call new_workspace(bare%beam, work)
-        call new_cells(bare, unit, cells, stat)
+        call new_cells(bare, cells, stat)
         if (failed(stat, error)) return
         powers(:) = quantity_unit(assembled%units, bending)
         do k = 1, size(places)
-            call find_intervals(bare, unit, places(k), places(k), intervals, error)
+            call find_intervals(bare, places(k), places(k), intervals, error)
             if (allocated(error)) return
-            call enter_interval(bare, unit, intervals(1), interval)
-            call place_train(bare, unit, interval, places(k))
+            call enter_interval(bare, intervals(1), interval)
+            call place_train(bare, interval, places(k))
             call set_loads(bare%beam, 1.0_wp, work)
             call solve_and_refine(bare%beam, closed, work, state, place)
             if (state /= band_ok) then
@@ -82,7 +79,7 @@ contains
                 call end_if_stopped(bare%beam%watch, error)
                 return
             end if
-            call find_cells(bare, unit, interval, cells)
+            call find_cells(bare, interval, cells)
             call fill_cells(empty, bare, places(k), cells)
             call recover_cells(bare, work, cells)
             c = cell_of_place(bare, cells, piece, track%x(piece - 1) + distance, places(k))

@@ -3,7 +3,7 @@ module gapbeam_train_intervals
     use gapbeam_kinds, only: wp
     use gapbeam_error, only: error_type, failed
     use gapbeam_ordered, only: sort, last_not_above
-    use gapbeam_train, only: train_type, track_type, least_distance
+    use gapbeam_train, only: track_type, least_distance
     implicit none
     private
     public :: interval_type, find_intervals, enter_interval
@@ -25,9 +25,8 @@ module gapbeam_train_intervals
 contains
 
     !> The intervals of a range of places
-    subroutine find_intervals(track, train, from, to, intervals, error)
+    subroutine find_intervals(track, from, to, intervals, error)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> Places of the train
         real(wp), intent(in) :: from, to
         !> From left to right
@@ -39,18 +38,18 @@ contains
         real(wp) :: near
         integer :: count, number, i, k, stat
 
-        allocate (place(2 + (size(train%offset) + 2*size(train%uniform))*size(track%x)), stat=stat)
+        allocate (place(2 + (size(track%train%offset) + 2*size(track%train%uniform))*size(track%x)), stat=stat)
         if (stat == 0) allocate (found(2*size(place)), stat=stat)
         if (failed(stat, error)) return
-        near = least_distance(track, train)
+        near = least_distance(track)
         count = 1
         place(1) = from
-        do i = 1, size(train%offset)
-            call add(train%offset(i))
+        do i = 1, size(track%train%offset)
+            call add(track%train%offset(i))
         end do
-        do i = 1, size(train%uniform)
-            call add(train%uniform(i)%from)
-            call add(train%uniform(i)%to)
+        do i = 1, size(track%train%uniform)
+            call add(track%train%uniform(i)%from)
+            call add(track%train%uniform(i)%to)
         end do
         count = count + 1
         place(count) = to
@@ -68,10 +67,10 @@ contains
         count = 0
         do k = 1, number
             count = count + 1
-            found(count) = interval_at(track, train, place(k), place(k), place(k), near)
+            found(count) = interval_at(track, place(k), place(k), place(k), near)
             if (k == number) exit
             count = count + 1
-            found(count) = interval_at(track, train, place(k), place(k + 1), place(k) + (place(k + 1) - place(k))/2, near)
+            found(count) = interval_at(track, place(k), place(k + 1), place(k) + (place(k + 1) - place(k))/2, near)
         end do
         call drop_singles()
 
@@ -111,9 +110,8 @@ contains
     end subroutine find_intervals
 
     !> A interval: what acts in it, as the train goes to the right, is told by how many axles are not yet, or no longer, on the beam
-    pure function interval_at(track, train, from, to, about, near) result(interval)
+    pure function interval_at(track, from, to, about, near) result(interval)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         real(wp), intent(in) :: from, to, about
         !> What is not farther from an end of the beam is on it
         real(wp), intent(in) :: near
@@ -122,13 +120,13 @@ contains
         interval%from = from
         interval%to = to
         interval%about = about
-        interval%outside = [count(about + train%offset < -near), count(about + train%offset > track%x(ubound(track%x, 1)) + near)]
+        interval%outside = [count(about + track%train%offset < -near), &
+                            count(about + track%train%offset > track%x(ubound(track%x, 1)) + near)]
     end function interval_at
 
     !> Find the pieces in which axles and uniform loads are, from those of an interval nearby in a few steps
-    subroutine enter_interval(track, train, next, interval)
+    subroutine enter_interval(track, next, interval)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> By find_intervals
         type(interval_type), intent(in) :: next
         !> The interval where the train was before, if any; the same as the next one then, with all pieces
@@ -137,9 +135,10 @@ contains
         integer :: i, j, n
 
         n = ubound(track%x, 1)
-        near = least_distance(track, train)
+        near = least_distance(track)
         if (.not. allocated(interval%piece)) then
-            allocate (interval%piece(size(train%offset)), interval%first(size(train%uniform)), interval%last(size(train%uniform)))
+            allocate (interval%piece(size(track%train%offset)), interval%first(size(track%train%uniform)), &
+                      interval%last(size(track%train%uniform)))
             interval%piece(:) = 0
         end if
         interval%from = next%from
@@ -148,8 +147,8 @@ contains
         interval%outside = next%outside
         interval%holds_from = next%holds_from
         interval%holds_to = next%holds_to
-        do i = 1, size(train%offset)
-            x = interval%about + train%offset(i)
+        do i = 1, size(track%train%offset)
+            x = interval%about + track%train%offset(i)
             j = interval%piece(i)
             if (.not. (x >= -near .and. x <= track%x(n) + near)) then
                 j = 0
@@ -167,10 +166,10 @@ contains
             end if
             interval%piece(i) = j
         end do
-        do i = 1, size(train%uniform)
+        do i = 1, size(track%train%uniform)
             interval%first(i) = 1
             interval%last(i) = 0
-            associate (from => interval%about + train%uniform(i)%from, to => interval%about + train%uniform(i)%to)
+            associate (from => interval%about + track%train%uniform(i)%from, to => interval%about + track%train%uniform(i)%to)
                 if (to <= 0.0_wp .or. from >= track%x(n)) cycle
                 interval%first(i) = piece_at(track, from)
                 interval%last(i) = piece_at(track, to)

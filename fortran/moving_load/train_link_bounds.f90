@@ -7,7 +7,7 @@ module gapbeam_train_link_bounds
     use gapbeam_link, only: piece_load_type, combine_loads
     use gapbeam_quantities, only: state_count, derived_count, bending_count, shares_of, with_derived
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type, enter_interval
     use gapbeam_train_cells, only: cells_type, new_cells, find_cells
     use gapbeam_train_traversal, only: traversal_type
@@ -60,10 +60,9 @@ module gapbeam_train_link_bounds
 contains
 
     !> Make ready to look
-    subroutine new_view(assembled, track, train, view, stat)
+    subroutine new_view(assembled, track, view, stat)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(view_type), intent(out) :: view
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
@@ -71,7 +70,7 @@ contains
 
         n = size(track%beam%links)
         call new_columns(track, view%columns, stat)
-        if (stat == 0) call new_cells(track, train, view%cells, stat)
+        if (stat == 0) call new_cells(track, view%cells, stat)
         if (stat == 0) allocate (view%loads(size(track%link)), view%worst(n), view%axles(n), view%uniform(n), stat=stat)
         if (stat /= 0) return
         view%worst(:) = worst_type(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
@@ -90,9 +89,8 @@ contains
     end subroutine new_view
 
     !> Make a stretch the one at hand
-    subroutine enter_stretch(track, train, traversal, k, view)
+    subroutine enter_stretch(track, traversal, k, view)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         !> Number of a stretch that is solved
         integer, intent(in) :: k
@@ -113,10 +111,10 @@ contains
         if (view%next == traversal%interval(k)) then
             view%interval = view%ahead
         else
-            call enter_interval(track, train, traversal%intervals(traversal%interval(k)), view%interval)
+            call enter_interval(track, traversal%intervals(traversal%interval(k)), view%interval)
         end if
-        call find_cells(track, train, view%interval, view%cells)
-        call solve_columns(track, train, view%interval, traversal%from(k), traversal%to(k), view%columns)
+        call find_cells(track, view%interval, view%cells)
+        call solve_columns(track, view%interval, traversal%from(k), traversal%to(k), view%columns)
         view%clear = view%columns%finite
         view%axles(:) = 0.0_wp
         view%uniform(:) = 0.0_wp
@@ -127,9 +125,9 @@ contains
                 end associate
             end do
         end associate
-        do c = 1, size(train%uniform)
+        do c = 1, size(track%train%uniform)
             associate (first => view%interval%first(c), last => view%interval%last(c), &
-                       q => train%uniform(c)%q*view%columns%to_force/view%columns%to_length)
+                       q => track%train%uniform(c)%q*view%columns%to_force/view%columns%to_length)
                 if (first > last) cycle
                 associate (links => view%uniform(track%link(first):track%link(last)))
                     links(:) = links + abs(q)
@@ -139,15 +137,14 @@ contains
     end subroutine enter_stretch
 
     !> Enter the interval that comes next
-    subroutine enter_next_interval(track, train, traversal, r, view)
+    subroutine enter_next_interval(track, traversal, r, view)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         !> Number of the interval
         integer, intent(in) :: r
         type(view_type), intent(inout) :: view
 
-        call enter_interval(track, train, traversal%intervals(r), view%ahead)
+        call enter_interval(track, traversal%intervals(r), view%ahead)
         view%next = r
     end subroutine enter_next_interval
 

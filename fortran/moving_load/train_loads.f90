@@ -2,7 +2,7 @@
 module gapbeam_train_loads
     use gapbeam_kinds, only: wp
     use gapbeam_link, only: drop_loads_of_link
-    use gapbeam_train, only: train_type, track_type
+    use gapbeam_train, only: track_type
     use gapbeam_train_intervals, only: interval_type
     implicit none
     private
@@ -11,9 +11,8 @@ module gapbeam_train_loads
 contains
 
     !> Put a train on the beam: its loads are the second ones of the links
-    subroutine place_train(track, train, interval, s)
+    subroutine place_train(track, interval, s)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> The interval, by enter_interval, and a place in it
         type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: s
@@ -24,15 +23,16 @@ contains
             track%is_loaded(track%with_load(i)) = .false.
         end do
         track%loaded = 0
-        do i = 1, size(train%offset)
+        do i = 1, size(track%train%offset)
             if (interval%piece(i) == 0) cycle
-            call add_force(interval%piece(i), within(track, interval%piece(i), s + train%offset(i)), &
-                           scale(train%force(i), -track%force_unit))
+            call add_force(interval%piece(i), within(track, interval%piece(i), s + track%train%offset(i)), &
+                           scale(track%train%force(i), -track%force_unit))
         end do
-        do i = 1, size(train%uniform)
+        do i = 1, size(track%train%uniform)
             do j = interval%first(i), interval%last(i)
-                call add_uniform(j, within(track, j, s + train%uniform(i)%from), within(track, j, s + train%uniform(i)%to), &
-                                 scale(train%uniform(i)%q, track%length_unit - track%force_unit))
+                call add_uniform(j, within(track, j, s + track%train%uniform(i)%from), &
+                                 within(track, j, s + track%train%uniform(i)%to), &
+                                 scale(track%train%uniform(i)%q, track%length_unit - track%force_unit))
             end do
         end do
 

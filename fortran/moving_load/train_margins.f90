@@ -11,7 +11,7 @@ module gapbeam_train_margins
     use gapbeam_workspace, only: workspace_type, set_loads
     use gapbeam_tolerances, only: sign_width
     use gapbeam_system, only: solve_and_refine
-    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train, only: track_type, degree_of
     use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_loads, only: place_train
     implicit none
@@ -29,9 +29,8 @@ module gapbeam_train_margins
 contains
 
     !> Reactions and openings of a scheme from here to the end of an interval
-    subroutine sample_margins(track, train, interval, now, closed, margins, work, solved)
+    subroutine sample_margins(track, interval, now, closed, margins, work, solved)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: now
         logical, intent(in) :: closed(:)
@@ -39,18 +38,18 @@ contains
         type(workspace_type), intent(inout) :: work
         !> Has the scheme a solution
         logical, intent(out) :: solved
-        real(wp) :: points(0:degree_of(train)), values(0:degree_of(train), size(closed)), rounding(size(closed))
-        real(wp) :: matrix(0:degree_of(train), 0:degree_of(train))
+        real(wp) :: points(0:degree_of(track%train)), values(0:degree_of(track%train), size(closed)), rounding(size(closed))
+        real(wp) :: matrix(0:degree_of(track%train), 0:degree_of(track%train))
         integer :: k, p, n, state, place
 
-        n = degree_of(train)
+        n = degree_of(track%train)
         points(:) = sample_points(n)
         matrix(:, :) = to_coefficients(n)
         margins%count = size(closed)
         margins%slack(:) = 0.0_wp
         solved = .false.
         do p = 0, n
-            call place_train(track, train, interval, now + points(p)*(interval%to - now))
+            call place_train(track, interval, now + points(p)*(interval%to - now))
             call set_loads(track%beam, 1.0_wp, work)
             call solve_and_refine(track%beam, closed, work, state, place)
             if (state /= band_ok) return
@@ -66,21 +65,20 @@ contains
     end subroutine sample_margins
 
     !> Work of the loads along a motion from here to the end of an interval
-    subroutine sample_work(track, train, interval, now, motion, margins)
+    subroutine sample_work(track, interval, now, motion, margins)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: now, motion(0:)
         type(margins_type), intent(inout) :: margins
-        real(wp) :: points(0:degree_of(train)), values(0:degree_of(train)), parts
+        real(wp) :: points(0:degree_of(track%train)), values(0:degree_of(track%train)), parts
         integer :: p, n
 
-        n = degree_of(train)
+        n = degree_of(track%train)
         points(:) = sample_points(n)
         margins%count = 1
         margins%slack(1) = 0.0_wp
         do p = 0, n
-            call place_train(track, train, interval, now + points(p)*(interval%to - now))
+            call place_train(track, interval, now + points(p)*(interval%to - now))
             call work_of_loads(track%beam, 1.0_wp, motion, [0, ubound(motion, 1)], values(p), parts)
             margins%slack(1) = max(margins%slack(1), sign_width*epsilon(1.0_wp)*parts)
         end do

@@ -6,7 +6,7 @@ module gapbeam_train_passage
     use gapbeam_workspace, only: workspace_type
     use gapbeam_static_indeterminacy, only: find_indeterminacy
     use gapbeam_words, only: shown
-    use gapbeam_train, only: train_type, track_type, degree_of, least_distance
+    use gapbeam_train, only: track_type, degree_of, least_distance
     use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_traversal, only: traversal_type, lengthen
     use gapbeam_train_margins, only: margins_type, sample_margins, find_interval, are_zero
@@ -34,22 +34,20 @@ module gapbeam_train_passage
 contains
 
     !> The share of the rest of the interval that cannot be told from here: events are known to the last digits of positions only
-    pure function resolution(track, train, passage) result(share)
+    pure function resolution(track, passage) result(share)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(passage_type), intent(in) :: passage
         real(wp) :: share
 
         share = 0.0_wp
         associate (now => passage%now, to => passage%interval%to)
-            if (to > now) share = min(0.25_wp, max(least_train_share, least_distance(track, train)/(to - now)))
+            if (to > now) share = min(0.25_wp, max(least_train_share, least_distance(track)/(to - now)))
         end associate
     end function resolution
 
     !> Find from which share of the rest of the interval to which the scheme at hand is right
-    subroutine find_share(track, train, around, passage, traversal, solved)
+    subroutine find_share(track, around, passage, traversal, solved)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> As for find_interval
         real(wp), intent(in) :: around
         type(passage_type), intent(inout) :: passage
@@ -58,15 +56,14 @@ contains
         !> Has the scheme a solution
         logical, intent(out) :: solved
 
-        call sample_margins(track, train, passage%interval, passage%now, passage%closed, passage%margins, passage%work, solved)
-        traversal%solves = traversal%solves + degree_of(train) + 1
-        if (solved) call find_interval(passage%margins, degree_of(train), around, passage%begin, passage%end, passage%at_end)
+        call sample_margins(track, passage%interval, passage%now, passage%closed, passage%margins, passage%work, solved)
+        traversal%solves = traversal%solves + degree_of(track%train) + 1
+        if (solved) call find_interval(passage%margins, degree_of(track%train), around, passage%begin, passage%end, passage%at_end)
     end subroutine find_share
 
     !> Take a stretch from here to a share of the rest
-    subroutine take_stretch(track, train, status, share, passage, traversal, error)
+    subroutine take_stretch(track, status, share, passage, traversal, error)
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         integer, intent(in) :: status
         real(wp), intent(in) :: share
         type(passage_type), intent(inout) :: passage
@@ -78,7 +75,7 @@ contains
         associate (now => passage%now, interval => passage%interval, closed => passage%closed)
             to = interval%to
             if (share < 1.0_wp) to = min(now + share*(interval%to - now), interval%to)
-            if (interval%to - to <= least_distance(track, train)) to = interval%to
+            if (interval%to - to <= least_distance(track)) to = interval%to
             stat = 0
             if (traversal%number == size(traversal%from)) call lengthen(traversal, size(closed), 2*traversal%number, stat)
             if (failed(stat, error)) return
@@ -93,7 +90,7 @@ contains
             traversal%at_zero(:, k) = status == gapbeam_solved .and. .not. passage%changes
             traversal%motion_of(k) = 0
             if (status == gapbeam_solved .and. passage%changes) then
-                traversal%at_zero(:, k) = are_zero(passage%margins, degree_of(train), size(closed))
+                traversal%at_zero(:, k) = are_zero(passage%margins, degree_of(track%train), size(closed))
                 call find_indeterminacy(track%beam, closed, traversal%at_zero(:, k), node)
                 if (node >= 0) traversal%status(k) = gapbeam_indeterminate
             end if

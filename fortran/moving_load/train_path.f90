@@ -48,7 +48,8 @@ contains
         integer :: m, r, stat
 
         m = size(track%beam%supports)
-        call find_intervals(track, train, from, to, traversal%intervals, error)
+        track%train = train
+        call find_intervals(track, from, to, traversal%intervals, error)
         if (allocated(error)) return
         allocate (passage%closed(m), passage%at_end(m), passage%margins%b(0:highest_degree, max(m, 1)), &
                   passage%margins%slack(max(m, 1)), traversal%motion(0:size(track%beam%links), 0), stat=stat)
@@ -79,18 +80,17 @@ contains
                 ! It holds everywhere, and need not be looked at
                 passage%interval = traversal%intervals(r)
             else
-                call enter_interval(track, train, traversal%intervals(r), passage%interval)
+                call enter_interval(track, traversal%intervals(r), passage%interval)
             end if
-            call cross_interval(track, train, passage, traversal, error)
+            call cross_interval(track, passage, traversal, error)
             call end_if_stopped(track%beam%watch, error)
             if (allocated(error)) return
         end do
     end subroutine pass_train
 
     !> Move a train through an interval
-    subroutine cross_interval(track, train, passage, traversal, error)
+    subroutine cross_interval(track, passage, traversal, error)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(passage_type), intent(inout) :: passage
         type(traversal_type), intent(inout) :: traversal
         type(error_type), allocatable, intent(out) :: error
@@ -105,12 +105,12 @@ contains
             skipped = least_train_share
             do
                 if (passage%known .and. .not. passage%changes) then
-                    call take_stretch(track, train, gapbeam_solved, 1.0_wp, passage, traversal, error)
+                    call take_stretch(track, gapbeam_solved, 1.0_wp, passage, traversal, error)
                     return
                 else if (passage%known) then
-                    call find_share(track, train, resolution(track, train, passage), passage, traversal, solved)
-                    if (solved .and. passage%end > 2*resolution(track, train, passage)) then
-                        call take_stretch(track, train, gapbeam_solved, passage%end, passage, traversal, error)
+                    call find_share(track, resolution(track, passage), passage, traversal, solved)
+                    if (solved .and. passage%end > 2*resolution(track, passage)) then
+                        call take_stretch(track, gapbeam_solved, passage%end, passage, traversal, error)
                         if (allocated(error) .or. now >= to) return
                         closed(:) = closed .neqv. passage%at_end
                         changed = changed + 1
@@ -121,8 +121,8 @@ contains
                     ! What was tried is not right
                     closed(:) = traversal%closed(:, max(traversal%number, 1))
                 end if
-                skipped = max(skipped, resolution(track, train, passage))
-                call search_further(track, train, skipped, passage, traversal, error)
+                skipped = max(skipped, resolution(track, passage))
+                call search_further(track, skipped, passage, traversal, error)
                 if (allocated(error) .or. now >= to) return
                 searches = searches + 1
                 if (searches > most_train_changes + most_of_each*size(closed)) call too_near(now, error)

@@ -61,10 +61,9 @@ contains
     end function degree_in_position
 
     !> Room for samples
-    subroutine new_samples(assembled, track, train, degree, samples, error)
+    subroutine new_samples(assembled, track, degree, samples, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         !> Of what is made of the samples, in the position
         integer, intent(in) :: degree
         type(samples_type), intent(out) :: samples
@@ -73,10 +72,10 @@ contains
         integer :: most, stat
 
         samples%degree = degree
-        most = size(track%link) + size(train%offset) + 2*size(train%uniform)
-        call new_cells(track, train, samples%cells, stat)
+        most = size(track%link) + size(track%train%offset) + 2*size(track%train%uniform)
+        call new_cells(track, samples%cells, stat)
         if (stat == 0) allocate (samples%position(0:degree), samples%starts(0:degree, most), samples%pieces(0:degree, most), &
-                                 samples%loads(0:degree, most), samples%supports(0:degree_of(train), 4, &
+                                 samples%loads(0:degree, most), samples%supports(0:degree_of(track%train), 4, &
                                                                             size(assembled%model%supports)), &
                                  stat=stat)
         if (failed(stat, error)) return
@@ -89,10 +88,9 @@ contains
     end subroutine new_samples
 
     !> Sample the fields on a stretch that is solved
-    subroutine sample_stretch(assembled, track, train, traversal, k, samples, error)
+    subroutine sample_stretch(assembled, track, traversal, k, samples, error)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         !> Number of the stretch
         integer, intent(in) :: k
@@ -103,12 +101,12 @@ contains
         integer :: p
 
         points(:) = sample_points(samples%degree)
-        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
-        call find_cells(track, train, samples%interval, samples%cells)
+        call enter_interval(track, traversal%intervals(traversal%interval(k)), samples%interval)
+        call find_cells(track, samples%interval, samples%cells)
         associate (n => samples%cells%number)
             do p = 0, samples%degree
                 samples%position(p) = traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k))
-                call solve_at(track, train, traversal%closed(:, k), samples%position(p), samples, error)
+                call solve_at(track, traversal%closed(:, k), samples%position(p), samples, error)
                 if (allocated(error)) return
                 call fill_cells(assembled, track, samples%position(p), samples%cells)
                 call recover_cells(track, samples%work, samples%cells)
@@ -120,22 +118,21 @@ contains
     end subroutine sample_stretch
 
     !> Sample the supports on a stretch that is solved
-    subroutine sample_supports(assembled, track, train, traversal, k, samples, error)
+    subroutine sample_supports(assembled, track, traversal, k, samples, error)
         !> As for sample_stretch
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         integer, intent(in) :: k
         type(samples_type), intent(inout) :: samples
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: points(0:degree_of(train))
+        real(wp) :: points(0:degree_of(track%train))
         integer :: condition(size(assembled%model%supports)), p
 
-        points(:) = sample_points(degree_of(train))
-        call enter_interval(track, train, traversal%intervals(traversal%interval(k)), samples%interval)
-        do p = 0, degree_of(train)
-            call solve_at(track, train, traversal%closed(:, k), &
+        points(:) = sample_points(degree_of(track%train))
+        call enter_interval(track, traversal%intervals(traversal%interval(k)), samples%interval)
+        do p = 0, degree_of(track%train)
+            call solve_at(track, traversal%closed(:, k), &
                           traversal%from(k) + points(p)*(traversal%to(k) - traversal%from(k)), &
                           samples, error)
             if (allocated(error)) return
@@ -152,9 +149,8 @@ contains
     end subroutine sample_supports
 
     !> Solve at a position in the interval that the samples are in
-    subroutine solve_at(track, train, closed, s, samples, error)
+    subroutine solve_at(track, closed, s, samples, error)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> The scheme, and the position
         logical, intent(in) :: closed(:)
         real(wp), intent(in) :: s
@@ -162,7 +158,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         integer :: state, place
 
-        call place_train(track, train, samples%interval, s)
+        call place_train(track, samples%interval, s)
         call set_loads(track%beam, 1.0_wp, samples%work)
         call solve_and_refine(track%beam, closed, samples%work, state, place)
         if (state /= band_ok) then

@@ -8,7 +8,7 @@ module gapbeam_train_screen
     use gapbeam_fields, only: bending_values
     use gapbeam_quantities, only: bending_count
     use gapbeam_assembled_model, only: assembled_type
-    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train, only: track_type, degree_of
     use gapbeam_train_traversal, only: traversal_type
     use gapbeam_train_columns, only: at_distance
     use gapbeam_train_link_bounds, only: view_type, link_bounds_type, new_view, enter_stretch, bound_link, slopes_in_link, &
@@ -37,16 +37,15 @@ module gapbeam_train_screen
 contains
 
     !> Make ready to look
-    subroutine new_screen(assembled, track, train, screen, stat)
+    subroutine new_screen(assembled, track, screen, stat)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(screen_type), intent(out) :: screen
         !> 0, or what allocate says where memory is at an end
         integer, intent(out) :: stat
 
-        screen%degree = degree_of(train)
-        call new_view(assembled, track, train, screen%view, stat)
+        screen%degree = degree_of(track%train)
+        call new_view(assembled, track, screen%view, stat)
         if (stat /= 0) return
         associate (d => screen%degree, n => size(track%beam%links))
             allocate (screen%points(0:d), screen%matrix(0:d, 0:d), screen%seen(size(screen%view%cells%cells), 0:d + 1), &
@@ -58,10 +57,9 @@ contains
     end subroutine new_screen
 
     !> Show a stretch: the fields at the left ends of all cells, at both ends of it
-    subroutine show_stretch(assembled, track, train, traversal, k, screen)
+    subroutine show_stretch(assembled, track, traversal, k, screen)
         type(assembled_type), intent(in) :: assembled
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         type(traversal_type), intent(in) :: traversal
         !> Number of a stretch that is solved
         integer, intent(in) :: k
@@ -70,7 +68,7 @@ contains
         integer :: i, one
 
         associate (view => screen%view, sizes => screen%sizes)
-            call enter_stretch(track, train, traversal, k, view)
+            call enter_stretch(track, traversal, k, view)
             if (.not. view%clear) return
             screen%sampled(:) = .false.
             do i = 1, size(track%beam%links)

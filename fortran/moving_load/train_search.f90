@@ -9,7 +9,7 @@ module gapbeam_train_search
     use gapbeam_search, only: rule_block
     use gapbeam_contact_state, only: find_contact_state, outcome_type
     use gapbeam_extended_precision, only: decide_scheme, detail_type
-    use gapbeam_train, only: train_type, track_type, degree_of
+    use gapbeam_train, only: track_type, degree_of
     use gapbeam_train_intervals, only: interval_type
     use gapbeam_train_loads, only: place_train
     use gapbeam_train_traversal, only: traversal_type, not_unique, keep_motion
@@ -32,9 +32,8 @@ module gapbeam_train_search
 contains
 
     !> Find the scheme that acts from here on
-    subroutine search_further(track, train, least, passage, traversal, error)
+    subroutine search_further(track, least, passage, traversal, error)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> Shares that are left out; grows where nothing else leads on
         real(wp), intent(inout) :: least
         type(passage_type), intent(inout) :: passage
@@ -47,14 +46,14 @@ contains
 
         allocate (before, source=passage%closed)
         if (nearly_all_free(passage, traversal)) then
-            call take_stretch(track, train, not_unique, 1.0_wp, passage, traversal, error)
+            call take_stretch(track, not_unique, 1.0_wp, passage, traversal, error)
             return
         end if
         ! An interval may be one place only
         is_place = .not. passage%interval%to > passage%interval%from
         trial%share = merge(0.0_wp, first_train_share, is_place)
         do
-            call try_scheme(track, train, before, passage, trial, traversal, error)
+            call try_scheme(track, before, passage, trial, traversal, error)
             if (has_ended(error)) return
             if (.not. trial%right .and. .not. trial%closely) then
                 trial%closely = .true.
@@ -66,14 +65,13 @@ contains
                 if (all(code /= [gapbeam_indeterminate, gapbeam_not_converged])) return
                 deallocate (error)
                 passage%closed(:) = before
-                if (.not. is_place) trial%share = so_until(track, train, passage, trial%share, before, code)
-                call take_stretch(track, train, code, max(trial%share, 2*resolution(track, train, passage)), passage, traversal, &
-                                  error)
+                if (.not. is_place) trial%share = so_until(track, passage, trial%share, before, code)
+                call take_stretch(track, code, max(trial%share, 2*resolution(track, passage)), passage, traversal, error)
                 return
             end if
             if (is_place .or. (trial%right .and. passage%begin <= least)) exit
             if (trial%share <= least) then
-                if (least > max(most_train_share, 64*resolution(track, train, passage))) then
+                if (least > max(most_train_share, 64*resolution(track, passage))) then
                     call too_near(passage%now + trial%share*(passage%interval%to - passage%now), error)
                     return
                 end if
@@ -85,7 +83,7 @@ contains
             trial%share = max(min(trial%share/2, passage%begin/2), least)
         end do
         if (is_place) passage%end = 1.0_wp
-        call take_trial(track, train, before, trial, passage, traversal, error)
+        call take_trial(track, before, trial, passage, traversal, error)
     end subroutine search_further
 
     !> Is the rest of an interval but a sliver beside positions at which the beam can move freely: what is loaded by next to nothing
@@ -103,9 +101,8 @@ contains
     end function nearly_all_free
 
     !> Find a scheme further on, and where it is right
-    subroutine try_scheme(track, train, before, passage, trial, traversal, error)
+    subroutine try_scheme(track, before, passage, trial, traversal, error)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         !> Where the search starts
         logical, intent(in) :: before(:)
         type(passage_type), intent(inout) :: passage
@@ -118,29 +115,27 @@ contains
         associate (interval => passage%interval, now => passage%now, share => trial%share, right => trial%right, &
                    outcome => trial%outcome, work => trial%work)
             if (trial%closely .or. .not. allocated(work%nodes)) call new_workspace(track%beam, work)
-            call find_scheme(track, train, interval, now + share*(interval%to - now), trial%closely, passage%closed, work, &
-                             outcome, error)
+            call find_scheme(track, interval, now + share*(interval%to - now), trial%closely, passage%closed, work, outcome, error)
             traversal%solves = traversal%solves + work%solves
             right = .not. allocated(error)
             if (right .and. .not. trial%closely) right = .not. outcome%in_doubt
             if (right .and. outcome%status == gapbeam_solved .and. .not. outcome%indifferent) then
-                call find_share(track, train, share, passage, traversal, right)
+                call find_share(track, share, passage, traversal, right)
             else if (right .and. outcome%status == gapbeam_no_equilibrium) then
-                call sample_work(track, train, interval, now, outcome%motion, passage%margins)
-                call find_interval(passage%margins, degree_of(train), share, passage%begin, passage%end, passage%at_end)
+                call sample_work(track, interval, now, outcome%motion, passage%margins)
+                call find_interval(passage%margins, degree_of(track%train), share, passage%begin, passage%end, passage%at_end)
             else if (right) then
                 passage%begin = 0.0_wp
-                passage%end = so_until(track, train, passage, share, before, not_unique)
+                passage%end = so_until(track, passage, share, before, not_unique)
             end if
             if (right) right = passage%end > 0.0_wp .or. .not. interval%to > interval%from
         end associate
     end subroutine try_scheme
 
     !> Take the stretch of a trial
-    subroutine take_trial(track, train, before, trial, passage, traversal, error)
+    subroutine take_trial(track, before, trial, passage, traversal, error)
         !> As for try_scheme
         type(track_type), intent(in) :: track
-        type(train_type), intent(in) :: train
         logical, intent(in) :: before(:)
         type(trial_type), intent(in) :: trial
         type(passage_type), intent(inout) :: passage
@@ -149,11 +144,11 @@ contains
         real(wp) :: end
         integer :: status
 
-        end = max(passage%end, 2*resolution(track, train, passage))
+        end = max(passage%end, 2*resolution(track, passage))
         status = trial%outcome%status
         if (status /= gapbeam_no_equilibrium) status = merge(not_unique, gapbeam_solved, trial%outcome%indifferent)
         if (status /= gapbeam_solved) passage%closed(:) = before
-        call take_stretch(track, train, status, end, passage, traversal, error)
+        call take_stretch(track, status, end, passage, traversal, error)
         if (status == gapbeam_solved) then
             if (passage%now < passage%interval%to) passage%closed(:) = passage%closed .neqv. passage%at_end
         else if (status == gapbeam_no_equilibrium) then
@@ -162,9 +157,8 @@ contains
     end subroutine take_trial
 
     !> The scheme with the train at a place
-    subroutine find_scheme(track, train, interval, place, closely, closed, work, outcome, error)
+    subroutine find_scheme(track, interval, place, closely, closed, work, outcome, error)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(interval_type), intent(in) :: interval
         real(wp), intent(in) :: place
         !> In whatever precision it takes, and refused where it is not unique
@@ -176,7 +170,7 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(detail_type) :: links_only
 
-        call place_train(track, train, interval, place)
+        call place_train(track, interval, place)
         call set_loads(track%beam, 1.0_wp, work)
         if (closely) then
             call decide_scheme(track%beam, links_only, 1.0_wp, rule_block, closed, work, outcome, error)
@@ -187,9 +181,8 @@ contains
 
     !> How far a beam that can move freely without work of the loads, or has no unique answer, stays so: tried at a few places up to
     !> the end of the interval, else half as far, and so on
-    function so_until(track, train, passage, least, start, status) result(share)
+    function so_until(track, passage, least, start, status) result(share)
         type(track_type), intent(inout) :: track
-        type(train_type), intent(in) :: train
         type(passage_type), intent(in) :: passage
         !> Known to be so up to this share of what is left
         real(wp), intent(in) :: least
@@ -210,7 +203,7 @@ contains
             do k = 3, 1, -1
                 closed = start
                 associate (interval => passage%interval, now => passage%now)
-                    call find_scheme(track, train, interval, now + share*(k/3.0_wp - first_train_share)*(interval%to - now), &
+                    call find_scheme(track, interval, now + share*(k/3.0_wp - first_train_share)*(interval%to - now), &
                                      status /= not_unique, closed, work, outcome, error)
                 end associate
                 if (status == not_unique) then

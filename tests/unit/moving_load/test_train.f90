@@ -83,13 +83,13 @@ contains
         if (size(events) /= 2) return
         call check_close(events%position, [0.194903920083_wp, 0.888199776858_wp], "where", 1e-12_wp)
         call check(all(events%support == 3) .and. all(events%change == [gapbeam_opens, gapbeam_closes]), "what")
-        call find_envelope(lowered, track, train, passage, envelope, error)
+        call find_envelope(lowered, track, passage, envelope, error)
         associate (rise => envelope%fields(2, 1)%ties(1), opening => envelope%supports(1, 2, 3)%ties(1))
             call check_close([rise%value, rise%x], [-0.26320023928_wp, 2.0_wp], "rise", 1e-11_wp)
             call check_close([rise%position, opening%position], [1, 1]/sqrt(3.0_wp), "where it is largest", 1e-12_wp)
             call check_close(opening%value, 8/(9*sqrt(3.0_wp)) - 0.25_wp, "as opening")
         end associate
-        call find_curves(lowered, track, train, passage, [1], [0.25_wp], value, position, error)
+        call find_curves(lowered, track, passage, [1], [0.25_wp], value, position, error)
         ! The train on the place, the end lifted: simple span of 1 with the overhang's weight
         call check_close([value(1, 3, 1), position(1, 3, 1)], [1.5_wp - 0.125_wp + 0.09375_wp, 0.25_wp], "a moment")
         call find_influence(lowered, track, [.true., .true., .true.], [.false., .true., .false.], 1, 0.5_wp, &
@@ -144,7 +144,7 @@ contains
         train = train_type([0.0_wp, -4.0_wp], [0.0_wp, 0.0_wp], [uniform_type(2.0_wp, -4.0_wp, 0.0_wp)])
         call pass_train(lowered, track, train, 0.0_wp, 8.0_wp, passage, error)
         call check(.not. allocated(error), "a uniform load")
-        call find_envelope(lowered, track, train, passage, envelope, error)
+        call find_envelope(lowered, track, passage, envelope, error)
         associate (moment => envelope%fields(1, 3)%ties(1), sag => envelope%fields(1, 1)%ties(1))
             call check_close([moment%value, moment%x, moment%position], [4.0_wp, 2.0_wp, 4.0_wp], "all of it on the beam", 1e-12_wp)
             call check_close(sag%value, 5*2*4.0_wp**4/384, "and its sag", 1e-12_wp)
@@ -164,7 +164,7 @@ contains
         train = axles([0.0_wp, -4.0_wp], [1.0_wp, 1.0_wp])
         call pass_train(lowered, track, train, 0.0_wp, 8.0_wp, passage, error)
         call check(.not. allocated(error), "a long train")
-        call find_envelope(lowered, track, train, passage, envelope, error)
+        call find_envelope(lowered, track, passage, envelope, error)
         associate (moment => envelope%fields(2, 3)%ties(1))
             call check_close([moment%value, moment%position], [-3.0_wp, 0.0_wp], "one axle at an end")
         end associate
@@ -193,13 +193,13 @@ contains
                            [uniform_type(0.25_wp, -3.5_wp, 0.0_wp), uniform_type(0.125_wp, -1.0_wp, 2.0_wp)])
         call pass_train(lowered, track, train, 0.0_wp, 11.5_wp, passage, error)
         call check(.not. allocated(error), "a train passes")
-        call new_samples(lowered, track, train, degree_in_position(train), samples, error)
-        call new_view(lowered, track, train, view, stat)
+        call new_samples(lowered, track, degree_in_position(train), samples, error)
+        call new_view(lowered, track, view, stat)
         worst = 0.0_wp
         do k = 1, passage%number
             if (passage%status(k) /= gapbeam_solved) cycle
-            call sample_stretch(lowered, track, train, passage, k, samples, error)
-            call enter_stretch(track, train, passage, k, view)
+            call sample_stretch(lowered, track, passage, k, samples, error)
+            call enter_stretch(track, passage, k, view)
             do i = 1, size(track%beam%links)
                 call bound_link(lowered, track, view, i, 1.0_wp, look, seen)
             end do
