@@ -14,7 +14,7 @@ module gapbeam_axial_tension
     use gapbeam_ground_steps, only: decays_between
     use gapbeam_limits, only: most_decays_in_tension
     use gapbeam_input_error, only: refuse_range
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, from_to
     implicit none
     private
     public :: tensions_of_loads, changes_of_tension, check_tensions
@@ -93,11 +93,11 @@ contains
         do piece = 1, size(ground%pieces)
             associate (p => ground%pieces(piece))
                 if (.not. abs(p%tension) + abs(p%tension_change) <= huge(1.0_wp)) then
-                    call refuse_range(error, "the axial force "//trim(place())//" is too far from the stiffnesses of the beam", &
-                                      "bring them nearer together")
+                    call refuse_range(error, "the axial force "//trim(from_to(assembled, piece - 1, piece))//" is too far from "// &
+                                      "the stiffnesses of the beam", "bring them nearer together")
                 else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
-                    call refuse_range(error, "the compression "//trim(place())//" is not below GA there, so the beam gives way "// &
-                                      "by shear alone", "give smaller axial loads, or leave GA out")
+                    call refuse_range(error, "the compression "//trim(from_to(assembled, piece - 1, piece))//" is not below GA "// &
+                                      "there, so the beam gives way by shear alone", "give smaller axial loads, or leave GA out")
                 end if
                 if ((abs(p%tension_change) > 0.0_wp .or. is_tapered(p)) .and. p%tension > 0.0_wp) then
                     decays = decays + decays_between(p, 0.0_wp, p%length, 0.0_wp)
@@ -110,16 +110,6 @@ contains
                              trim(shown(decays))//" sqrt(EI/N) long, more than "//trim(shown(most_decays_in_tension))// &
                              ": it is next to a thread; give a greater EI, or sections of one EI and N, each with its mean")
         end if
-
-    contains
-
-        !> Where a piece is
-        pure function place() result(words)
-            character(len=100) :: words
-
-            words = "from x = "//trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))
-        end function place
-
     end subroutine check_tensions
 
 end module gapbeam_axial_tension

@@ -8,14 +8,16 @@ module gapbeam_assemble_axial
     use gapbeam_scene, only: gapbeam_axial, gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_dead, &
         gapbeam_unchanged, gapbeam_below, gapbeam_infinity
     use gapbeam_units, only: exponents_type, stiffness_unit, units_with_loads, middle, middle_of, largest, no_exponent
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length, along_axis, has_ground_along, has_springs_along
+    use gapbeam_assembled_model, only: assembled_type, point_x, from_to, piece_length, along_axis, has_ground_along, &
+        has_springs_along
     use gapbeam_axial_force, only: in_stretches, only_foundations, what_stretches
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, of_loads, of_sections, bad_load, bad_law
     use gapbeam_check_axial, only: has_links_along
     use gapbeam_model, only: node_support_type
-    use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints
+    use gapbeam_check_foundations, only: find_runs
+    use gapbeam_assemble_laws, only: count_breakpoints, make_breakpoints
     implicit none
     private
     public :: assemble_axial, axial_node, moves_along
@@ -70,9 +72,8 @@ contains
                 axial%softness(j) = scale(piece_length(assembled, j), -unit)/scale(EA, -unit - stiffness_unit(axial%units))
                 if (power > 0) axial%softness(j) = axial%softness(j)*mean_softness(1.0_wp, EA/EA_to, power, 1.0_wp)
                 if (EA <= huge(EA) .and. is_lost(axial%softness(j))) then
-                    call refuse_range(error, "EA = "//trim(shown(EA))//" from x = "//trim(shown(point_x(assembled, j - 1)))// &
-                                      " to x = "//trim(shown(point_x(assembled, j)))//" is too far from the other axial "// &
-                                      "stiffnesses", "bring them nearer together")
+                    call refuse_range(error, "EA = "//trim(shown(EA))//" "//trim(from_to(assembled, j - 1, j))// &
+                                      " is too far from the other axial stiffnesses", "bring them nearer together")
                     return
                 end if
                 axial%before(j) = axial%flexibility(i)
@@ -292,7 +293,7 @@ contains
 
         associate (axial => assembled%axial, given => assembled%model%supports, law => assembled%law)
             allocate (first(size(given)), last(size(given)), size_of(size(given)))
-            call find_laws(law, first, last)
+            call find_runs(law%support, first, last)
             size_of(:) = 0
             do k = 1, size(given)
                 if (axial%node(k) < 0) cycle

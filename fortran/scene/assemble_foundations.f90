@@ -9,7 +9,7 @@ module gapbeam_assemble_foundations
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_below, gapbeam_above, gapbeam_unchanged, &
         gapbeam_law_by_points, gapbeam_law_plastic, gapbeam_table_of_k, gapbeam_table_of_gap, gapbeam_table_of_parameter
     use gapbeam_units, only: units_type, exponents_type, stiffness_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, from_to
     use gapbeam_axial_force, only: in_stretches
     use gapbeam_assemble_tables, only: place_in_table, place_of, distance, between, follow_table
     use gapbeam_assemble_movements, only: move_layers
@@ -183,29 +183,17 @@ contains
                    here => entry_type(of_foundations, foundation, size(assembled%model%foundations)))
             if (.not. any(layers(a:b) > 0)) then
                 call refuse_entry(error, here, trim(merge("law", "k  ", with_points .or. f%law /= gapbeam_law_by_points)), &
-                                  bad_law, "carries nowhere from "//trim(stretch(a, b))//"; remove the foundation")
+                                  bad_law, "carries nowhere "//trim(from_to(assembled, a - 1, b))//"; remove the foundation")
                 return
             end if
             if (f%law == gapbeam_law_by_points) return
             do j = a, b
                 if (layers(j) == 0) cycle
                 call check_parameters(f%law, values(gapbeam_table_of_parameter:, 1, j), values(gapbeam_table_of_parameter:, 2, j), &
-                                      "the stretch from "//trim(stretch(j, j)), here, error)
+                                      "the stretch "//trim(from_to(assembled, j - 1, j)), here, error)
                 if (allocated(error)) return
             end do
         end associate
-
-    contains
-
-        !> "x = 2 to x = 3", blanks behind it
-        pure function stretch(from, to)
-            !> First and last piece
-            integer, intent(in) :: from, to
-            character(len=120) :: stretch
-
-            stretch = "x = "//trim(shown(point_x(assembled, from - 1)))//" to x = "//trim(shown(point_x(assembled, to)))
-        end function stretch
-
     end subroutine check_values
 
     !> Layers of a foundation under each of its pieces: two of one that holds both ways by a law or with a gap

@@ -14,27 +14,9 @@ module gapbeam_assemble_laws
     use gapbeam_input_error, only: refuse, of_supports, twice
     implicit none
     private
-    public :: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path, laws_depend_on_path
+    public :: count_breakpoints, make_breakpoints, check_rigid_pieces, depends_on_path, laws_depend_on_path
 
 contains
-
-    !> First and last point of the law of every support
-    pure subroutine find_laws(law, first, last)
-        !> Points of all laws
-        type(law_point_type), intent(in) :: law(:)
-        !> The last is before the first if there is none, shape (nsupport)
-        integer, intent(out) :: first(:), last(:)
-        integer :: i
-
-        first(:) = 1
-        last(:) = 0
-        do i = 1, size(law)
-            associate (k => law(i)%support)
-                if (last(k) == 0) first(k) = i
-                last(k) = i
-            end associate
-        end do
-    end subroutine find_laws
 
     !> No two supports at a place may be rigid at one deflection, if one of them has a law: statics could not tell what each of them
     !> takes. One that begins to push up and another one to push down there may.

@@ -11,7 +11,8 @@ module gapbeam_assemble_supports
     use gapbeam_assembled_model, only: assembled_type, is_along, turns, has_ground_along, has_springs_along
     use gapbeam_axial_force, only: in_stretches
     use gapbeam_assemble_hinges, only: number_rotations, kind_of_rotation, check_side, unclear
-    use gapbeam_assemble_laws, only: find_laws, count_breakpoints, make_breakpoints, check_rigid_pieces
+    use gapbeam_check_foundations, only: find_runs
+    use gapbeam_assemble_laws, only: count_breakpoints, make_breakpoints, check_rigid_pieces
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_input_error, only: refuse, refuse_range, named, of_supports, twice, no_room, at_hinge, bad_law
     implicit none
@@ -244,7 +245,7 @@ contains
         associate (beam => assembled%beam, given => assembled%model%supports, law => assembled%law)
             allocate (first(size(given)), last(size(given)), stat=stat)
             if (failed(stat, error)) return
-            call find_laws(law, first, last)
+            call find_runs(law%support, first, last)
             m = 0
             do k = 1, size(given)
                 if (can_carry(given(k))) m = m + count_breakpoints(given(k), law(first(k):last(k)))

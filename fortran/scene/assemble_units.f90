@@ -6,7 +6,8 @@ module gapbeam_assemble_units
     use gapbeam_range, only: is_lost
     use gapbeam_units, only: units_type, exponents_type, rotation_unit, moment_unit, turning_unit, units_with_loads, middle, &
         largest, no_exponent, ordinary_exponent
-    use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit, point_x, piece_length, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, turns, way_unit, push_unit, point_x, from_to, piece_length, in_bending, &
+        in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_axial_force, only: assign_axial_force
     use gapbeam_assemble_supports, only: contact_level
@@ -387,14 +388,5 @@ contains
         load%force = scale(load%force, -units%force)
         load%couple = scale(load%couple, -moment_unit(units))
     end subroutine load_in_units
-
-    !> "from x = 0 to x = 6": a stretch between two points, blanks behind it
-    pure function from_to(assembled, first, last) result(text)
-        type(assembled_type), intent(in) :: assembled
-        integer, intent(in) :: first, last
-        character(len=80) :: text
-
-        text = "from x = "//trim(shown(point_x(assembled, first)))//" to x = "//trim(shown(point_x(assembled, last)))
-    end function from_to
 
 end module gapbeam_assemble_units

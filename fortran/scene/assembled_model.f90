@@ -1,6 +1,7 @@
 !> The assembled model: the engine's arrays, and the way back to the user's places and supports.
 module gapbeam_assembled_model
     use gapbeam_kinds, only: wp
+    use gapbeam_words, only: shown
     use gapbeam_link, only: piece_type, piece_load_type
     use gapbeam_piece, only: greatest_softness
     use gapbeam_layers, only: layer_type, law_piece_type
@@ -16,7 +17,7 @@ module gapbeam_assembled_model
     public :: in_bending, in_shear, along_axis, axial_force_in, kinds
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, copy_given, &
         is_stretch, is_along, has_ground_along, has_springs_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, &
-        piece_length, find_length_errors
+        from_to, piece_length, find_length_errors
 
     !> What spans and sections give: EI, GA, EA, and the axial force in bending
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3, axial_force_in = 4, kinds = 4
@@ -240,6 +241,15 @@ contains
 
         x = assembled%ends(assembled%point_span(point)) + assembled%point_offset(point)
     end function point_x
+
+    !> "from x = 0 to x = 6": a stretch between two points, blanks behind it
+    pure function from_to(assembled, first, last) result(text)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: first, last
+        character(len=80) :: text
+
+        text = "from x = "//trim(shown(point_x(assembled, first)))//" to x = "//trim(shown(point_x(assembled, last)))
+    end function from_to
 
     !> Length of a piece in the user's units
     pure function piece_length(assembled, piece) result(length)

@@ -11,7 +11,7 @@ module gapbeam_axial_force
     use gapbeam_scene, only: model_type, foundation_type, gapbeam_both, gapbeam_unchanged, gapbeam_law_by_points, gapbeam_axial, &
         force_along => gapbeam_axial_force, gapbeam_axial_distributed, gapbeam_temperature, gapbeam_movement
     use gapbeam_units, only: rotation_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, axial_force_in, is_alone, turns, has_ground_along
+    use gapbeam_assembled_model, only: assembled_type, from_to, axial_force_in, is_alone, turns, has_ground_along
     use gapbeam_piece_stiffness, only: stiffness_of
     use gapbeam_input_error, only: refuse, refuse_range, of_spans, of_sections, of_foundations, not_expected, bad_law
     implicit none
@@ -266,11 +266,12 @@ contains
                 p%mass = scale(assembled%model%spans(assembled%point_span(j - 1) + 1)%mass, &
                                units%length + units%deflection - units%force)
                 if (.not. abs(p%tension) <= huge(1.0_wp) .or. is_lost(abs(p%tension)) .and. abs(N) > 0.0_wp) then
-                    call refuse_range(error, "N = "//trim(shown(N))//" "//trim(place(j))//" is too far from the stiffnesses of "// &
-                                      "the beam", "bring them nearer together, or make it 0")
+                    call refuse_range(error, "N = "//trim(shown(N))//" "//trim(from_to(assembled, j - 1, j))// &
+                                      " is too far from the stiffnesses of the beam", "bring them nearer together, or make it 0")
                 else if (.not. 1 + p%tension*p%shear_flexibility > 0.0_wp) then
-                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//trim(place(j))//" is not below "// &
-                                      "GA there, so the beam gives way by shear alone", "give less compression, or leave GA out")
+                    call refuse_range(error, "the compression N = "//trim(shown(N))//" "//trim(from_to(assembled, j - 1, j))// &
+                                      " is not below GA there, so the beam gives way by shear alone", &
+                                      "give less compression, or leave GA out")
                 end if
             end associate
             if (allocated(error)) return
@@ -285,14 +286,6 @@ contains
 
             in_units = scale(force, rotation_unit(assembled%units) - assembled%units%force)
         end function in_units
-
-        !> Where a piece is
-        pure function place(piece) result(words)
-            integer, intent(in) :: piece
-            character(len=100) :: words
-
-            words = "from x = "//trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))
-        end function place
 
     end subroutine assign_axial_force
 

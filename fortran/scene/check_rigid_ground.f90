@@ -5,7 +5,7 @@ module gapbeam_check_rigid_ground
     use gapbeam_words, only: shown
     use gapbeam_tolerances, only: position_tolerance
     use gapbeam_scene, only: gapbeam_normal, gapbeam_below, gapbeam_above, gapbeam_linear_curvature
-    use gapbeam_assembled_model, only: assembled_type, is_alone, is_beside_point, turns, point_x, in_bending, in_shear
+    use gapbeam_assembled_model, only: assembled_type, is_alone, is_beside_point, turns, from_to, in_bending, in_shear
     use gapbeam_piece_stiffness, only: stiffness_of, stiffness_along
     use gapbeam_input_error, only: refuse, of_supports, of_foundations, of_loads, bad_law, bad_load
     implicit none
@@ -100,9 +100,9 @@ contains
             problem = "one foundation lies over another one"
         end if
         if (.not. allocated(problem)) return
-        call refuse_ground(assembled, assembled%layers(assembled%layer_first(piece))%foundation, "from x = "// &
-                           trim(shown(point_x(assembled, piece - 1)))//" to x = "//trim(shown(point_x(assembled, piece)))//" "// &
-                           problem//", which on rigid ground is not available in this version; give the ground a stiffness", error)
+        call refuse_ground(assembled, assembled%layers(assembled%layer_first(piece))%foundation, &
+                           trim(from_to(assembled, piece - 1, piece))//" "//problem//", which on rigid ground is "// &
+                           "not available in this version; give the ground a stiffness", error)
     end subroutine check_piece
 
     !> A support over rigid ground: it must not hold the beam where the ground is, nor turn it elastically
