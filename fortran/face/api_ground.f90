@@ -5,7 +5,7 @@
 module gapbeam_api_ground
     use gapbeam_kinds, only: wp
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_solved, gapbeam_bad_input
     use gapbeam_words, only: shown
     use gapbeam_query, only: find_pieces
     use gapbeam_ground_zones, only: contact_type, free_span_type, find_contact, find_free_spans
@@ -89,7 +89,6 @@ contains
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
-        integer :: stat
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
@@ -97,8 +96,7 @@ contains
         if (allocated(result%state%ground)) then
             call find_contact(beam%lowered, result%state%ground, zones, error)
         else
-            allocate (zones(0), stat=stat)
-            if (stat /= 0) call no_memory(error)
+            allocate (zones(0))
         end if
     end subroutine get_contact
 
@@ -112,7 +110,6 @@ contains
         !> gapbeam_not_prepared, gapbeam_not_finite, gapbeam_no_memory
         type(error_type), allocatable, intent(out) :: error
         type(environment_type) :: environment
-        integer :: stat
 
         call require_result(beam, result, gapbeam_solved, error)
         if (allocated(error)) return
@@ -120,8 +117,7 @@ contains
         if (allocated(result%state%ground)) then
             call find_free_spans(beam%lowered, result%state%ground, spans, error)
         else
-            allocate (spans(0), stat=stat)
-            if (stat /= 0) call no_memory(error)
+            allocate (spans(0))
         end if
     end subroutine get_free_spans
 

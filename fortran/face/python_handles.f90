@@ -13,7 +13,7 @@ module gapbeam_python_handles
     use gapbeam_smooth_state, only: solve_on_laws
     use gapbeam_path_states, only: audit_lines, by_tangents, with_lines, on_polylines
     use gapbeam_query, only: find_starts
-    use gapbeam_train, only: uniform_type, new_track
+    use gapbeam_train, only: train_type, uniform_type, new_track
     use gapbeam_train_path, only: pass_train
     use gapbeam_train_events, only: find_events
     use gapbeam_train_ties, only: extreme_type
@@ -22,7 +22,7 @@ module gapbeam_python_handles
         number_of, address_numbered
     implicit none
     private
-    public :: error_type, handle_type, number_of, behind, new_beam, copy_beam, keep_state, keep_fields, keep_train
+    public :: error_type, handle_type, number_of, behind, new_beam, copy_beam, keep_state, keep_fields, keep_train, train_of
     public :: listen, report, pack_extremes, laws_given, put_laws
 
     interface
@@ -142,43 +142,39 @@ contains
     end subroutine keep_fields
 
     !> Move a train over a beam and keep its way
-    subroutine keep_train(lowered, offset, force, uniform, from, to, backwards, handle, error)
-        !> The beam
+    subroutine keep_train(lowered, train, from, to, backwards, handle, error)
+        !> The beam, the train, and its positions
         type(assembled_type), intent(in) :: lowered
-        !> As in train_type; uniform loads, and between which distances, shape (3, n)
-        real(wp), intent(in) :: offset(:), force(:), uniform(:, :)
-        !> Positions of the train
+        type(train_type), intent(in) :: train
         real(wp), intent(in) :: from, to
         !> Does it go towards smaller positions
         logical, intent(in) :: backwards
         type(handle_type), pointer, intent(out) :: handle
         !> As for pass_train
         type(error_type), allocatable, intent(out) :: error
-        integer :: i, k, n, stat
 
         call new_handle(passing_tag, handle, error)
         if (allocated(error)) return
-        n = size(offset)
         associate (p => handle%passing)
-            allocate (p%train%offset(n), p%train%force(n), p%train%uniform(count(abs(uniform(1, :)) > 0.0_wp)), stat=stat)
-            if (stat /= 0) then
-                call no_memory(error)
-            else
-                p%train%offset(:) = offset
-                p%train%force(:) = force
-                k = 0
-                do i = 1, size(uniform, 2)
-                    if (.not. abs(uniform(1, i)) > 0.0_wp) cycle
-                    k = k + 1
-                    p%train%uniform(k) = uniform_type(uniform(1, i), uniform(2, i), uniform(3, i))
-                end do
-                call new_track(lowered, p%track, error)
-            end if
-            if (.not. allocated(error)) call pass_train(lowered, p%track, p%train, from, to, p%passage, error)
+            call new_track(lowered, p%track, error)
+            if (.not. allocated(error)) call pass_train(lowered, p%track, train, from, to, p%passage, error)
             if (.not. allocated(error)) call find_events(lowered, p%passage, backwards, p%events, error)
         end associate
         call finish_handle(handle, error)
     end subroutine keep_train
+
+    !> Axles and uniform loads of a train
+    pure function train_of(offset, force, uniform) result(train)
+        !> As in train_type; uniform loads, and between which distances, shape (3, n), those of 0 left out
+        real(wp), intent(in) :: offset(:), force(:), uniform(:, :)
+        type(train_type) :: train
+        integer :: i
+
+        train%offset = offset
+        train%force = force
+        train%uniform = pack([(uniform_type(uniform(1, i), uniform(2, i), uniform(3, i)), i=1, size(uniform, 2))], &
+                             abs(uniform(1, :)) > 0.0_wp)
+    end function train_of
 
     !> Extremes as arrays
     pure subroutine pack_extremes(extremes, values, sides, ties)

@@ -5,8 +5,7 @@
 
 ! Move a train over a beam
 subroutine gbrmak(beam, na, nu, offset, force, uniform, from, to, back, rule, train, sizes, status, message)
-    use gapbeam_python_handles, only: error_type, handle_type, behind, report
-    use gapbeam_train, only: train_type, uniform_type
+    use gapbeam_python_handles, only: error_type, handle_type, behind, train_of, report
     use gapbeam_train_runs, only: follow_train_on_ground
     use gapbeam_handles, only: new_handle, finish_handle, number_of, passing_tag
     implicit none
@@ -25,25 +24,16 @@ subroutine gbrmak(beam, na, nu, offset, force, uniform, from, to, back, rule, tr
     character(len=240), intent(out) :: message
     !f2py threadsafe
     type(handle_type), pointer :: handle, passing
-    type(train_type) :: loads
     type(error_type), allocatable :: error
-    integer :: i, k
+    integer :: i
 
     handle => behind(beam)
     sizes = 0
-    allocate (loads%offset(na), loads%force(na), loads%uniform(count(abs(uniform(1, :nu - 1)) > 0.0d0)))
-    loads%offset = offset
-    loads%force = force
-    k = 0
-    do i = 1, nu - 1
-        if (.not. abs(uniform(1, i)) > 0.0d0) cycle
-        k = k + 1
-        loads%uniform(k) = uniform_type(uniform(1, i), uniform(2, i), uniform(3, i))
-    end do
     call new_handle(passing_tag, passing, error)
     if (.not. allocated(error)) then
         allocate (passing%passing%runs)
-        call follow_train_on_ground(handle%beam%lowered, loads, rule, from, to, back /= 0, passing%passing%runs, error)
+        call follow_train_on_ground(handle%beam%lowered, train_of(offset, force, uniform(:, :nu - 1)), rule, from, to, &
+                                    back /= 0, passing%passing%runs, error)
     end if
     call finish_handle(passing, error)
     train = number_of(passing)

@@ -5,7 +5,7 @@
 
 ! Move a train over a beam
 subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, sizes, status, message)
-    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_train, report
+    use gapbeam_python_handles, only: error_type, handle_type, number_of, behind, keep_train, train_of, report
     implicit none
     integer(8), intent(in) :: beam
     ! Axles; uniform loads and one more
@@ -27,7 +27,7 @@ subroutine gbtmak(beam, na, nu, offset, force, uniform, from, to, back, train, s
 
     handle => behind(beam)
     sizes = 0
-    call keep_train(handle%beam%lowered, offset, force, uniform(:, :nu - 1), from, to, back /= 0, passing, error)
+    call keep_train(handle%beam%lowered, train_of(offset, force, uniform(:, :nu - 1)), from, to, back /= 0, passing, error)
     train = number_of(passing)
     call report(error, status, message)
     if (allocated(error)) return
