@@ -81,7 +81,6 @@ contains
             solves = solves + path%solves
             do k = 1, path%count
                 call note(path%factor(k), path%support(k), path%event(k), path%condition(k))
-                if (allocated(error)) return
             end do
             if (outcome%status == gapbeam_no_equilibrium) then
                 call forget(state)
@@ -103,29 +102,19 @@ contains
             integer, intent(in) :: which, change, condition
 
             if (change == no_change .or. (.not. when > 0.0_wp .and. change /= gapbeam_turns)) return
-            call add_event(event_type(when, assembled%normal(which), condition, change), events, number, stat)
-            if (stat /= 0) call no_memory(error)
+            call add_event(event_type(when, assembled%normal(which), condition, change), events, number)
         end subroutine note
 
     end subroutine follow_events
 
     !> Put an event to others
-    pure subroutine add_event(event, events, number, stat)
+    pure subroutine add_event(event, events, number)
         type(event_type), intent(in) :: event
         !> The first `number` entries are events
         type(event_type), allocatable, intent(inout) :: events(:)
         integer, intent(inout) :: number
-        !> Not 0 where memory is at an end
-        integer, intent(out) :: stat
-        type(event_type), allocatable :: longer(:)
 
-        stat = 0
-        if (number == size(events)) then
-            allocate (longer(2*number), stat=stat)
-            if (stat /= 0) return
-            longer(:number) = events
-            call move_alloc(longer, events)
-        end if
+        if (number == size(events)) events = [events, events]
         number = number + 1
         events(number) = event
     end subroutine add_event

@@ -1,7 +1,7 @@
 !> Load path of a beam on the ground, event by event and segment by segment.
 module gapbeam_ground_events
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, failed, no_memory
+    use gapbeam_error, only: error_type, failed
     use gapbeam_polyline, only: last_breakpoint
     use gapbeam_assembled_model, only: assembled_type, point_x
     use gapbeam_pieces, only: acts_in, what_happens, no_change
@@ -69,15 +69,13 @@ module gapbeam_ground_events
 contains
 
     !> The events between two factors in the order of their factors; at the same one of supports, then of zones
-    subroutine note_changes(assembled, before, after, factor, place, path, error)
+    subroutine note_changes(assembled, before, after, factor, place, path)
         type(assembled_type), intent(in) :: assembled
         type(held_type), intent(in) :: before, after
         !> Of the changes as listed by list_changes: load factor, and place in the user's units; that of a zone below zero: where it
         !> is between the zones before and after
         real(wp), intent(in) :: factor(:), place(:)
         type(ground_path_type), intent(inout) :: path
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
         type(zone_change_type), allocatable :: changes(:)
         integer :: begin, k, n, last, number, what
 
@@ -90,11 +88,8 @@ contains
                 if (supports(k)%breakpoint > 0) last = last_breakpoint(supports, k)
                 associate (s => assembled%normal(k), point => assembled%support_point(assembled%normal(k)))
                     what = what_happens(acts_in(assembled, s, before%closed), acts_in(assembled, s, after%closed))
-                    if (what /= no_change) then
-                        call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, change=what), begin, &
-                                       path, error)
-                        if (allocated(error)) return
-                    end if
+                    if (what /= no_change) call add_event(ground_event_type(factor(n + 1), point_x(assembled, point), support=s, &
+                                                                            change=what), begin, path)
                 end associate
                 n = n + count(changed(k:last))
                 k = last + 1
@@ -104,9 +99,8 @@ contains
         do k = 1, number
             associate (c => changes(k))
                 call add_event(ground_event_type(factor(n + k), merge(place(n + k), c%x, place(n + k) >= 0.0_wp), &
-                                                 foundation=c%foundation, branch=c%branch, change=c%change), begin, path, error)
+                                                 foundation=c%foundation, branch=c%branch, change=c%change), begin, path)
             end associate
-            if (allocated(error)) return
         end do
     end subroutine note_changes
 
@@ -125,23 +119,14 @@ contains
     end subroutine list_changes
 
     !> One event more
-    pure subroutine add_event(event, first, path, error)
+    pure subroutine add_event(event, first, path)
         type(ground_event_type), intent(in) :: event
         !> Among events after so many the factor tells where
         integer, intent(in) :: first
         type(ground_path_type), intent(inout) :: path
-        !> No memory
-        type(error_type), allocatable, intent(out) :: error
-        type(ground_event_type), allocatable :: longer(:)
-        integer :: at, stat
+        integer :: at
 
-        if (path%number == size(path%events)) then
-            allocate (longer(2*path%number), stat=stat)
-            if (stat /= 0) call no_memory(error)
-            if (allocated(error)) return
-            longer(:path%number) = path%events
-            call move_alloc(longer, path%events)
-        end if
+        if (path%number == size(path%events)) path%events = [path%events, path%events]
         path%number = path%number + 1
         at = path%number
         do while (at > first + 1)

@@ -336,8 +336,8 @@ contains
         real(wp), intent(in) :: at(:), place(:)
         type(error_type), allocatable, intent(out) :: error
 
-        call note_changes(problem%assembled, beside(before, after), beside(after, before), at, place, problem%path, error)
-        if (.not. allocated(error)) call add_segment(minval(at), after, problem%path, error)
+        call note_changes(problem%assembled, beside(before, after), beside(after, before), at, place, problem%path)
+        call add_segment(minval(at), after, problem%path, error)
     end subroutine take_changes
 
 end module gapbeam_ground_states

@@ -15,14 +15,12 @@ module gapbeam_history_events
 contains
 
     !> All events but those while the dead loads are put on
-    subroutine find_events(assembled, path, found, stat)
+    subroutine find_events(assembled, path, found)
         type(assembled_type), intent(in) :: assembled
         !> By follow_history
         type(history_type), intent(in) :: path
         !> In their order
         type(event_type), allocatable, intent(out) :: found(:)
-        !> Not 0 where memory is at an end
-        integer, intent(out) :: stat
         type(event_type), allocatable :: events(:)
         type(pieces_type) :: pieces
         integer, allocatable :: which(:)
@@ -31,12 +29,11 @@ contains
 
         number = 0
         at = 0
-        allocate (events(16), stat=stat)
+        allocate (events(16))
         ! Events from here on are passed in a jump and happen where it begins
         pending = 0
         associate (s => path%stretches(:path%number))
             do k = 1, size(s)
-                if (stat /= 0) return
                 if (s(k)%skipped) then
                     if (k > 1) call note_changes(k)
                     cycle
@@ -45,10 +42,8 @@ contains
                     call go_to(path, k, at, pieces)
                     which = switching(s(k + 1), pieces)
                     which = pack(which, .not. pieces%closed(which))
-                    if (size(which) > 0) then
-                        call add_event(event_type(s(k)%from, assembled%normal(minval(which)), gapbeam_turns, gapbeam_turns, k), &
-                                       events, number, stat)
-                    end if
+                    if (size(which) > 0) call add_event(event_type(s(k)%from, assembled%normal(minval(which)), gapbeam_turns, &
+                                                                   gapbeam_turns, k), events, number)
                 end if
                 if (s(k)%leg == 0) cycle
                 begins = .false.
@@ -65,10 +60,9 @@ contains
                 end if
                 pending = 0
             end do
-            if (stat /= 0) return
             if (pending > 0) call end_at_limit()
         end associate
-        if (stat == 0) allocate (found, source=events(:number), stat=stat)
+        found = events(:number)
 
     contains
 
@@ -77,11 +71,10 @@ contains
             integer, intent(in) :: other
             integer :: added
 
-            if (stat /= 0) return
-            call find_changes_across(assembled, path, other, at, pieces, events, number, added, stat)
+            call find_changes_across(assembled, path, other, at, pieces, events, number, added)
             pending = pending + added
             if (.not. allocated(assembled%axial%laws)) return
-            call find_changes_along(assembled, path, other - 1, other, events, number, added, stat)
+            call find_changes_along(assembled, path, other - 1, other, events, number, added)
             pending = pending + added
         end subroutine note_changes
 
@@ -122,7 +115,7 @@ contains
     end subroutine go_to
 
     !> What happens to every support across the beam where a stretch begins
-    subroutine find_changes_across(assembled, path, other, at, pieces, events, number, added, stat)
+    subroutine find_changes_across(assembled, path, other, at, pieces, events, number, added)
         type(assembled_type), intent(in) :: assembled
         type(history_type), intent(in) :: path
         !> The stretch
@@ -134,7 +127,6 @@ contains
         type(event_type), allocatable, intent(inout) :: events(:)
         integer, intent(inout) :: number
         integer, intent(out) :: added
-        integer, intent(inout) :: stat
         type(acting_type), allocatable :: before(:)
         type(acting_type) :: after
         integer, allocatable :: which(:)
@@ -149,11 +141,10 @@ contains
         end do
         call go_to(path, other, at, pieces)
         do i = 1, size(which)
-            if (stat /= 0) exit
             after = acts_in(assembled, which(i), pieces%closed, pieces%laws)
             change = what_happens(before(i), after)
             if (change == no_change) cycle
-            call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number, stat)
+            call add_event(event_type(path%stretches(other)%from, which(i), after%condition, change, other), events, number)
         end do
         added = number - begun
     end subroutine find_changes_across
@@ -193,7 +184,7 @@ contains
     end function changing
 
     !> What happens to every link along the beam between two stretches
-    subroutine find_changes_along(assembled, path, one, other, events, number, added, stat)
+    subroutine find_changes_along(assembled, path, one, other, events, number, added)
         type(assembled_type), intent(in) :: assembled
         type(history_type), intent(in) :: path
         integer, intent(in) :: one, other
@@ -202,8 +193,6 @@ contains
         integer, intent(inout) :: number
         !> How many were added
         integer, intent(out) :: added
-        !> Not 0 where memory is at an end
-        integer, intent(inout) :: stat
         type(acting_type) :: before, after
         integer :: k, last, change, first
 
@@ -211,7 +200,7 @@ contains
         added = 0
         k = 1
         associate (a => path%stretches(one)%along, b => path%stretches(other)%along, axial => assembled%axial)
-            do while (k <= size(axial%laws) .and. stat == 0)
+            do while (k <= size(axial%laws))
                 last = last_breakpoint(axial%laws, k)
                 if (any(a(k:last) .neqv. b(k:last))) then
                     associate (side => assembled%model%supports(axial%support(k))%side)
@@ -223,10 +212,8 @@ contains
                     else
                         change = what_happens(before, after)
                     end if
-                    if (change /= no_change) then
-                        call add_event(event_type(path%stretches(other)%from, axial%support(k), after%condition, change, other), &
-                                       events, number, stat)
-                    end if
+                    if (change /= no_change) call add_event(event_type(path%stretches(other)%from, axial%support(k), &
+                                                                       after%condition, change, other), events, number)
                 end if
                 k = last + 1
             end do

@@ -4,7 +4,7 @@ module gapbeam_api_history
     use gapbeam_kinds, only: wp
     use gapbeam_limits, only: most_path_segments
     use gapbeam_environment, only: environment_type, hold_environment
-    use gapbeam_error, only: error_type, fatal_error, no_memory, gapbeam_not_converged, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_not_converged, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_along_axis, only: name_range
@@ -48,22 +48,18 @@ contains
         call hold_environment(environment)
         call require_beam(beam, error)
         if (.not. allocated(error)) call check_call(factors, at_limit, error)
-        if (.not. allocated(error)) then
-            allocate (history%path, stat=stat)
+        if (allocated(error)) return
+        allocate (history%path, stat=stat)
+        if (failed(stat, error)) return
+        call follow_on_laws(beam%lowered, factors, at_limit, most_path_segments, history%path, error)
+        call name_range(beam%lowered, error)
+        if (allocated(error)) return
+        if (history%path%ending == cut_off) then
+            call fatal_error(error, gapbeam_not_converged, "the path has more than "//trim(whole(history%path%number))// &
+                             " stretches: shorten the history, or follow it in parts")
+        else
+            call describe(beam%lowered, factors, history, stat)
             if (stat /= 0) call no_memory(error)
-        end if
-        if (.not. allocated(error)) then
-            call follow_on_laws(beam%lowered, factors, at_limit, most_path_segments, history%path, error)
-            call name_range(beam%lowered, error)
-        end if
-        if (.not. allocated(error)) then
-            if (history%path%ending == cut_off) then
-                call fatal_error(error, gapbeam_not_converged, "the path has more than "//trim(whole(history%path%number))// &
-                                 " stretches: shorten the history, or follow it in parts")
-            else
-                call describe(beam%lowered, factors, history, stat)
-                if (stat /= 0) call no_memory(error)
-            end if
         end if
     end subroutine follow_history
 
@@ -262,8 +258,7 @@ contains
                 call node_places(lowered, history%x)
                 history%motion(:) = path%motion
             end if
-            call find_events(lowered, path, history%events, stat)
-            if (stat /= 0) return
+            call find_events(lowered, path, history%events)
             do k = 1, size(history%events)
                 history%events(k)%stretch = run_with(history%events(k)%stretch)
             end do

@@ -93,10 +93,8 @@ subroutine gbhist(beam, nf, factor, limit, most, sizes, hist, status, message)
         allocate (found%history%path, stat=stat)
         if (stat == 0) call follow_on_laws(handle%beam%lowered, factor, limit, most, found%history%path, error)
         call name_range(handle%beam%lowered, error)
-        if (stat == 0 .and. .not. allocated(error)) then
-            call find_events(handle%beam%lowered, found%history%path, found%history%events, stat)
-        end if
         if (stat /= 0) call no_memory(error)
+        if (.not. allocated(error)) call find_events(handle%beam%lowered, found%history%path, found%history%events)
     end if
     call finish_handle(found, error)
     hist = number_of(found)

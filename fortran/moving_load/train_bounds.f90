@@ -93,8 +93,7 @@ contains
                 cycle
             end if
             if (bounds%view%new_scheme) call watch_scheme(assembled, traversal%closed(:, k), bounds%view%columns, bounds%supports)
-            call bound_supports(track, k, bounds%view%columns, bounds%supports, stat)
-            if (failed(stat, error)) return
+            call bound_supports(track, k, bounds%view%columns, bounds%supports)
             call find_touched(k)
             do i = 1, n
                 call go_on(i, k)
@@ -262,17 +261,11 @@ contains
         !> Keep a part, if it may hold an extreme value
         subroutine keep_part(part)
             type(part_type), intent(in) :: part
-            type(part_type), allocatable :: longer(:)
 
             if (.not. counts(part)) return
             if (count == size(parts)) then
                 call drop_parts()
-                if (2*count > size(parts)) then
-                    allocate (longer(2*size(parts)), stat=stat)
-                    if (failed(stat, error)) return
-                    longer(:count) = parts(:count)
-                    call move_alloc(longer, parts)
-                end if
+                if (2*count > size(parts)) parts = [parts, parts]
             end if
             count = count + 1
             parts(count) = part

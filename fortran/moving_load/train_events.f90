@@ -34,7 +34,6 @@ contains
         type(train_event_type), allocatable, intent(out) :: events(:)
         !> No memory
         type(error_type), allocatable, intent(out) :: error
-        type(train_event_type), allocatable :: longer(:)
         logical, allocatable :: now(:)
         type(acting_type) :: before, after
         integer :: first, i, k, last, number, stat, step
@@ -57,7 +56,6 @@ contains
                     now(k:last) = traversal%closed(k:last, i)
                     after = acts_in(assembled, assembled%normal(k), now)
                     call note(merge(traversal%to(i), traversal%from(i), backwards), assembled%normal(k), before, after)
-                    if (allocated(error)) return
                 end if
                 k = last + 1
             end do
@@ -75,12 +73,7 @@ contains
 
             change = what_happens(before, after)
             if (change == no_change) return
-            if (number == size(events)) then
-                allocate (longer(2*number), stat=stat)
-                if (failed(stat, error)) return
-                longer(:number) = events
-                call move_alloc(longer, events)
-            end if
+            if (number == size(events)) events = [events, events]
             number = number + 1
             events(number) = train_event_type(position, support, after%condition, change)
         end subroutine note

@@ -119,19 +119,16 @@ contains
     end subroutine watch_scheme
 
     !> Look at the supports on a stretch
-    subroutine bound_supports(track, k, columns, bounds, stat)
+    subroutine bound_supports(track, k, columns, bounds)
         type(track_type), intent(in) :: track
         !> Number of the stretch, and its columns
         integer, intent(in) :: k
         type(columns_type), intent(in) :: columns
         type(support_bounds_type), intent(inout) :: bounds
-        !> 0, or what allocate says where memory is at an end
-        integer, intent(out) :: stat
         real(wp) :: c(most_columns), first, last, rise, most
         integer :: i, n, q
 
         n = size(track%beam%links)
-        stat = 0
         do q = 1, bounds%number
             associate (watch => bounds%watches(q), h => columns%length)
                 i = watch%node
@@ -178,26 +175,13 @@ contains
 
             if (bounds%count == size(bounds%kept)) then
                 call drop(bounds)
-                if (2*bounds%count > size(bounds%kept)) call lengthen(bounds, stat)
-                if (stat /= 0) return
+                if (2*bounds%count > size(bounds%kept)) bounds%kept = [bounds%kept, bounds%kept]
             end if
             bounds%count = bounds%count + 1
             bounds%kept(bounds%count) = kept_type(k, [i, watch%what, watch%support], most)
         end subroutine keep
 
     end subroutine bound_supports
-
-    !> Twice as much room
-    subroutine lengthen(bounds, stat)
-        type(support_bounds_type), intent(inout) :: bounds
-        integer, intent(out) :: stat
-        type(kept_type), allocatable :: longer(:)
-
-        allocate (longer(2*size(bounds%kept)), stat=stat)
-        if (stat /= 0) return
-        longer(:size(bounds%kept)) = bounds%kept
-        call move_alloc(longer, bounds%kept)
-    end subroutine lengthen
 
     !> Drop stretches that are no longer in question
     pure subroutine drop(bounds)
