@@ -2,7 +2,7 @@
 module gapbeam_branch_points
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: arc_rounding, arc_noise, nearest_crossing, less_independent
-    use gapbeam_error, only: error_type, no_memory
+    use gapbeam_error, only: error_type
     use gapbeam_dense_solver, only: solve_least_squares, find_singular_values
     use gapbeam_smooth_arc, only: arc_type, forces_at, tangent_matrix, lose
     use gapbeam_arc_states, only: eigenvalues_at
@@ -52,24 +52,14 @@ contains
     end function tracer_at
 
     !> Keep a point
-    pure subroutine add_point(point, branch, error)
+    pure subroutine add_point(point, branch)
         real(wp), intent(in) :: point(:)
         type(branch_points_type), intent(inout) :: branch
-        type(error_type), allocatable, intent(out) :: error
-        real(wp), allocatable :: longer(:, :)
-        integer :: stat
 
-        stat = 0
-        if (.not. allocated(branch%points)) allocate (branch%points(size(point), 64), stat=stat)
-        if (stat == 0 .and. branch%number == size(branch%points, 2)) then
-            allocate (longer(size(point), 2*branch%number), stat=stat)
-            if (stat == 0) then
-                longer(:, :branch%number) = branch%points
-                call move_alloc(longer, branch%points)
-            end if
+        if (.not. allocated(branch%points)) allocate (branch%points(size(point), 64))
+        if (branch%number == size(branch%points, 2)) then
+            branch%points = reshape([branch%points, branch%points], [size(point), 2*branch%number])
         end if
-        if (stat /= 0) call no_memory(error)
-        if (allocated(error)) return
         branch%number = branch%number + 1
         branch%points(:, branch%number) = point
     end subroutine add_point

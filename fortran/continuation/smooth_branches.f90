@@ -62,10 +62,9 @@ contains
                 taken = side
                 first(:) = point
             end do
-            call add_point(origin, branch, error)
-            if (allocated(error) .or. taken == 0) return
-            call add_point(first, branch, error)
-            if (allocated(error)) return
+            call add_point(origin, branch)
+            if (taken == 0) return
+            call add_point(first, branch)
             call check_pieces(tracer, first, error)
             if (.not. allocated(error)) call tangent_at(tracer, first, taken*aside, tangent, error)
             if (.not. allocated(error)) call go_on(tracer, way, goal, tangent, branch, error)
@@ -129,12 +128,12 @@ contains
                 if (.not. crosses) then
                     call find_top(tracer, last, tangent, step, way, ahead, error)
                     if (.not. allocated(error)) call check_pieces(tracer, ahead, error)
-                    if (.not. allocated(error)) call add_point(ahead, branch, error)
+                    if (.not. allocated(error)) call add_point(ahead, branch)
                     return
                 end if
                 call leave_crossing()
             else if (way*(ahead(n + 1) - goal) >= 0.0_wp) then
-                call add_point(ahead, branch, error)
+                call add_point(ahead, branch)
                 if (.not. allocated(error)) call point_at_factor(tracer, branch%points(:, :branch%number), goal, last, error)
                 if (.not. allocated(error)) call check_pieces(tracer, last, error)
                 branch%points(:, branch%number) = last
@@ -144,7 +143,7 @@ contains
                 call is_stable_at(tracer, ahead, stable, error)
                 if (.not. (allocated(error) .or. stable)) call lose(error)
                 if (.not. allocated(error)) call check_pieces(tracer, ahead, error)
-                if (.not. allocated(error)) call add_point(ahead, branch, error)
+                if (.not. allocated(error)) call add_point(ahead, branch)
                 tangent(:) = turned
                 step = min(1.3_wp*step, longest_branch_step)
             end if
@@ -165,13 +164,13 @@ contains
 
         !> Go on along the other branch where branches cross
         subroutine leave_crossing()
-            call add_point(ahead, branch, error)
-            if (.not. allocated(error)) call other_branch(tracer, ahead, way, tangent, error)
+            call add_point(ahead, branch)
+            call other_branch(tracer, ahead, way, tangent, error)
             if (allocated(error)) return
             step = first_branch_step
             ahead(:) = ahead + step*tangent*tracer%arc%weights
             call correct_point(tracer, tangent, ahead, error)
-            if (.not. allocated(error)) call add_point(ahead, branch, error)
+            if (.not. allocated(error)) call add_point(ahead, branch)
             if (.not. allocated(error)) call tangent_at(tracer, ahead, tangent, turned, error)
             if (.not. allocated(error)) call is_stable_at(tracer, ahead, stable, error)
             if (allocated(error)) return

@@ -10,7 +10,7 @@ module gapbeam_steady_path
     use gapbeam_watch, only: end_if_stopped
     use gapbeam_error, only: error_type, gapbeam_stopped
     use gapbeam_scene, only: gapbeam_elastic
-    use gapbeam_assembled_model, only: assembled_type, growth_of
+    use gapbeam_assembled_model, only: growth_of
     use gapbeam_model_quad, only: beam_type
     use gapbeam_path_problem, only: point_type
     use gapbeam_ground_events, only: held_type, same_contact

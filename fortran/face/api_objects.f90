@@ -6,7 +6,6 @@ module gapbeam_api_objects
         gapbeam_bad_input, gapbeam_not_prepared
     use gapbeam_words, only: shown, whole
     use gapbeam_search, only: rule_block, rule_single
-    use gapbeam_input_error, only: of_supports
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_axial_force, only: what_stretches, or_first_order
     use gapbeam_solution, only: state_type, new_state

@@ -1,7 +1,7 @@
 !> Trains in the C interface: marshalling only. include/gapbeam.h says what every function does.
 module gapbeam_capi_trains
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_char, c_size_t, c_ptr, c_null_ptr
-    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input, gapbeam_not_prepared
+    use gapbeam_error, only: error_type, fatal_error, failed, no_memory, gapbeam_solved, gapbeam_bad_input
     use gapbeam_api, only: count_supports
     use gapbeam_api_trains, only: moving_train_type, train_extreme_type, get_train_extremes, copy_extremes
     use gapbeam_handles, only: handle_type, passing_tag, find_handle, free_handle, address_of
