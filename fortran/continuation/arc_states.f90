@@ -8,7 +8,8 @@ module gapbeam_arc_states
     use gapbeam_certificate, only: certificate_type
     use gapbeam_solution, only: state_type
     use gapbeam_state, only: certify_state
-    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, deflections_of, forces_at, &
+    use gapbeam_smooth_laws, only: deflections_at_curves
+    use gapbeam_smooth_arc, only: arc_type, arc_state_type, known_type, solve_with_springs, forces_at, &
         tangent_matrix, lose, is_lost
     implicit none
     private
@@ -49,7 +50,7 @@ contains
                 call forces_at(arc, x(:n), force, found%slope, past)
                 call solve_with_springs(arc, x(:n), force, x(n + 1), found%state, error)
                 if (allocated(error)) return
-                deflection(:) = deflections_of(arc%assembled, arc%numbers, found%state)
+                deflection(:) = deflections_at_curves(arc%assembled, found%state%deflection)
                 call correct(arc, found, deflection, solved, wrong, error)
                 if (allocated(error)) return
                 found%rate(:) = solved(:, 2)*arc%weights

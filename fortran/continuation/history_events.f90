@@ -135,10 +135,7 @@ contains
         begun = number
         call go_to(path, other - 1, at, pieces)
         allocate (which, source=changing(assembled, path%stretches(other), pieces))
-        allocate (before(size(which)))
-        do i = 1, size(which)
-            before(i) = acts_in(assembled, which(i), pieces%closed, pieces%laws)
-        end do
+        before = [(acts_in(assembled, which(i), pieces%closed, pieces%laws), i=1, size(which))]
         call go_to(path, other, at, pieces)
         do i = 1, size(which)
             after = acts_in(assembled, which(i), pieces%closed, pieces%laws)

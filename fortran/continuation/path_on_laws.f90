@@ -13,8 +13,8 @@ module gapbeam_path_on_laws
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
     use gapbeam_pieces, only: acting_type, acts_in
-    use gapbeam_smooth_laws, only: smooth_supports
-    use gapbeam_smooth_arc, only: arc_type, new_arc, deflections_of, lose
+    use gapbeam_smooth_laws, only: smooth_supports, deflections_at_curves
+    use gapbeam_smooth_arc, only: arc_type, new_arc, lose
     use gapbeam_arc_states, only: eigenvalues_at, wrongness_of
     use gapbeam_arc_roots, only: arc_test_type, of_factor, of_breakpoint, find_root
     use gapbeam_history_record, only: history_type, pieces_type, find_pieces, scheme_at, laws_at, same_laws, no_limit
@@ -213,7 +213,7 @@ contains
             allocate (state%laws, source=laws_at(beam, view%history, k))
             call solve_state(beam, factor, rule_extended, state, error)
             if (.not. allocated(error) .and. state%status /= gapbeam_solved) call lose(error)
-            if (.not. allocated(error)) point = [deflections_of(beam, smooth_supports(beam), state), factor]
+            if (.not. allocated(error)) point = [deflections_at_curves(beam, state%deflection), factor]
         end associate
     end subroutine end_of
 

@@ -14,10 +14,10 @@ module gapbeam_smooth_arc
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_solution, only: state_type, new_state
     use gapbeam_state, only: solve_state
-    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflection_at, put_line
+    use gapbeam_smooth_laws, only: smooth_supports, past_the_gap, force_and_slope, deflections_at_curves, put_line
     implicit none
     private
-    public :: arc_type, arc_state_type, known_type, new_arc, springs_at, solve_with_springs, deflections_of, forces_at, &
+    public :: arc_type, arc_state_type, known_type, new_arc, springs_at, solve_with_springs, forces_at, &
         tangent_matrix, or_one, lose, is_lost
 
     !> A state on the smooth laws
@@ -182,18 +182,6 @@ contains
         if (.not. allocated(error) .and. state%status /= gapbeam_solved) call lose(error)
     end subroutine solve_with_springs
 
-    !> Deflections at the smooth laws
-    pure function deflections_of(assembled, numbers, state) result(deflection)
-        type(assembled_type), intent(in) :: assembled
-        !> Supports of the model with smooth laws
-        integer, intent(in) :: numbers(:)
-        type(state_type), intent(in) :: state
-        real(wp) :: deflection(size(numbers))
-        integer :: j
-
-        deflection = [(deflection_at(assembled, state%deflection, numbers(j)), j=1, size(numbers))]
-    end function deflections_of
-
     !> Deflections due to a force at each law, and due to the live loads
     subroutine find_responses(arc, error)
         type(arc_type), intent(inout) :: arc
@@ -208,16 +196,16 @@ contains
             none(:) = 0.0_wp
             call solve_with_springs(arc, x, none, factor, state, error)
             if (allocated(error)) return
-            still(:) = deflections_of(arc%assembled, arc%numbers, state)
+            still(:) = deflections_at_curves(arc%assembled, state%deflection)
             call solve_with_springs(arc, x, none, factor + load, state, error)
             if (allocated(error)) return
-            arc%under_load(:) = (deflections_of(arc%assembled, arc%numbers, state) - still)/load
+            arc%under_load(:) = (deflections_at_curves(arc%assembled, state%deflection) - still)/load
             do j = 1, n
                 force(:) = 0.0_wp
                 force(j) = arc%springs(j)*max(abs(x(j)), arc%weights(1))
                 call solve_with_springs(arc, x, force, factor, state, error)
                 if (allocated(error)) return
-                arc%flexibility(:, j) = (still - deflections_of(arc%assembled, arc%numbers, state))/force(j)
+                arc%flexibility(:, j) = (still - deflections_at_curves(arc%assembled, state%deflection))/force(j)
             end do
         end associate
     end subroutine find_responses

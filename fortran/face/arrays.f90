@@ -75,9 +75,7 @@ contains
                 if (size(sup, 1) > 8) s%friction = sup(9, i)
             end associate
         end do
-        do i = 1, size(model%law)
-            model%law(i) = law_point_type(ilaw(i), alaw(1, i), alaw(2, i))
-        end do
+        model%law(:) = [(law_point_type(ilaw(i), alaw(1, i), alaw(2, i)), i=1, size(model%law))]
         call loads_from_arrays(iload, aload, model%loads, error)
     end subroutine model_from_arrays
 

@@ -71,9 +71,7 @@ contains
         track%length_unit = assembled%units%length
         track%force_unit = assembled%units%force
         track%length(:) = assembled%pieces%length
-        do j = 0, n
-            track%x(j) = point_x(assembled, j)
-        end do
+        track%x(0:) = [(point_x(assembled, j), j=0, n)]
         associate (beam => track%beam)
             beam%force(1, :) = beam%force(1, :) + beam%force(2, :)
             beam%couple(1, :) = beam%couple(1, :) + beam%couple(2, :)

@@ -108,9 +108,7 @@ contains
         lines%at(:, :, :) = 0.0_wp
         allocate (lines%boxes(most_states))
         allocate (jumps, source=places_of_jumps(assembled))
-        do k = 1, size(x)
-            lines%on_jump(k) = any(abs(jumps - x(k)) <= 0.0_wp)
-        end do
+        lines%on_jump(:) = [(any(abs(jumps - x(k)) <= 0.0_wp), k=1, size(x))]
     end subroutine new_lines
 
     !> Values of all states at all places

@@ -95,10 +95,7 @@ contains
         integer :: j
 
         numbers = smooth_supports(assembled)
-        allocate (found(size(numbers)))
-        do j = 1, size(numbers)
-            found(j) = deflection_at(assembled, deflection, numbers(j))
-        end do
+        found = [(deflection_at(assembled, deflection, numbers(j)), j=1, size(numbers))]
     end function deflections_at_curves
 
     !> The largest deflection of the beam at its nodes, either way

@@ -168,9 +168,7 @@ contains
         integer :: width, first, middle, last, i, n
 
         n = size(order)
-        do i = 1, n
-            order(i) = i
-        end do
+        order(1:n) = [(i, i=1, n)]
         width = 1
         do while (width < n)
             do first = 1, n, 2*width
