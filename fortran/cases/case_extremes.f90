@@ -9,7 +9,7 @@ module gapbeam_case_extremes
     use gapbeam_error, only: error_type, gapbeam_solved, gapbeam_no_memory, gapbeam_stopped
     use gapbeam_model, only: has_other_supports
     use gapbeam_units, only: moment_unit, rotation_unit, stiffness_unit, quantity_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, is_alone
+    use gapbeam_assembled_model, only: assembled_type, place_x, is_alone
     use gapbeam_solution, only: state_type
     use gapbeam_quantities, only: bending_count, bending
     use gapbeam_query, only: extremes_of_fields, fields_in_pieces
@@ -179,7 +179,7 @@ contains
                 made = made .and. abs(value) <= huge(value)
                 piece = int(found(l, 3*i - 1, k))
                 extremes(i, k) = value
-                places(i, k) = point_x(assembled, piece - 1) + scale(found(l, 3*i, k), assembled%units%length)
+                places(i, k) = place_x(assembled, piece, found(l, 3*i, k))
             end do
         end do
     end subroutine give_extremes

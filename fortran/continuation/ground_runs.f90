@@ -5,7 +5,7 @@ module gapbeam_ground_runs
     use gapbeam_error, only: error_type, failed
     use gapbeam_scene, only: gapbeam_both, gapbeam_below
     use gapbeam_layers, only: layer_type, branches_of_law, other_way
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x, place_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_ground_distance, only: largest_ways, is_shallow
     implicit none
@@ -128,10 +128,10 @@ contains
                 made%side = l%side
                 made%law_pieces = branches_of_law(l)
                 made%acts = solution%acts(row, i)
-                made%from = point_x(assembled, j - 1) + scale(solution%from(i), units%length)
+                made%from = place_x(assembled, j, solution%from(i))
                 made%to = point_x(assembled, j)
                 if (i < m) then
-                    if (solution%piece(i + 1) == j) made%to = point_x(assembled, j - 1) + scale(solution%to(i), units%length)
+                    if (solution%piece(i + 1) == j) made%to = place_x(assembled, j, solution%to(i))
                 end if
                 if (bare) return
                 made%resultant = scale(solution%resultant(row, i), units%force)

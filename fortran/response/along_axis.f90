@@ -7,7 +7,7 @@ module gapbeam_along_axis
     use gapbeam_audit, only: audit_axial
     use gapbeam_axial_quad, only: solve_axial_finely => solve_axial
     use gapbeam_axial, only: solve_axial, axial_ok, axial_slides, axial_indeterminate
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x, place_x
     use gapbeam_assemble_units, only: name_farthest
     use gapbeam_bedding_state, only: solve_bedding
     use gapbeam_solution, only: state_type
@@ -26,7 +26,7 @@ contains
 
         if (ledger%wrong == 0) return
         call fatal_error(error, gapbeam_not_converged, "the result does not stand its own audit: at x = " &
-                         //trim(shown(point_x(assembled, ledger%piece - 1) + scale(ledger%distance, assembled%units%length))) &
+                         //trim(shown(place_x(assembled, ledger%piece, ledger%distance))) &
                          //" "//trim(words_for(ledger%wrong))//", by "//trim(shown(real(nint(min(ledger%excess, 1e9_wp)), wp))) &
                          //" roundings or more; look for stiffnesses or lengths that lie far apart, and report the scene")
     end subroutine name_fault

@@ -6,7 +6,7 @@ module gapbeam_pressure
     use gapbeam_quantities, only: of_pressure, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
     use gapbeam_input_error, only: refuse_range
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, point_x, place_x
     use gapbeam_ground_solver, only: ground_solution_type
     use gapbeam_element, only: field_type
     use gapbeam_laws, only: law_by_points
@@ -63,7 +63,7 @@ contains
         call pressure_extremes(assembled, solution, value, piece, distance)
         value = scale(value, quantity_unit(assembled%units, of_pressure))
         do i = 1, 2
-            x(i) = point_x(assembled, piece(i) - 1) + scale(distance(i), assembled%units%length)
+            x(i) = place_x(assembled, piece(i), distance(i))
             if (abs(value(i)) <= huge(value) .or. allocated(error)) cycle
             call refuse_pressure(x(i), error)
         end do

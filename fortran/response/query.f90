@@ -9,7 +9,7 @@ module gapbeam_query
     use gapbeam_quantities, only: quantity_count, bending_count, bending, of_shear, of_axial_force, of_axial_displacement, &
         of_pressure, of_transverse, needs_axial, quantity_names, quantity_remedies
     use gapbeam_units, only: quantity_unit
-    use gapbeam_assembled_model, only: assembled_type, point_x, piece_length
+    use gapbeam_assembled_model, only: assembled_type, point_x, place_x, piece_length
     use gapbeam_stretched_displacement, only: displacement_in, extremes_of_displacement
     use gapbeam_axial_fields, only: axial_fields, extremes_along
     use gapbeam_ground_along, only: ground_along_type
@@ -295,13 +295,13 @@ contains
             call find_extremes(assembled%pieces, assembled%dead, assembled%live, state%factor, starts, bent, piece, distance)
         end if
         found(:, bending) = bent
-        places(:, bending) = reshape(x_of(reshape(piece, [2*bending_count]), reshape(distance, [2*bending_count])), shape(bent))
+        places(:, bending) = place_x(assembled, piece, distance)
         ! Without an axial force that bending feels it is the shear
         found(:, of_transverse) = found(:, of_shear)
         places(:, of_transverse) = places(:, of_shear)
         if (allocated(state%ground) .and. any(quantities == of_transverse)) then
             call transverse_extremes(assembled, state%ground, found(:, of_transverse), of_force, at)
-            places(:, of_transverse) = x_of(of_force, at)
+            places(:, of_transverse) = place_x(assembled, of_force, at)
         end if
         if (allocated(assembled%axial%point)) then
             associate (point => assembled%axial%point, displacement => state%displacement, tension => state%tension)
@@ -338,19 +338,6 @@ contains
                 return
             end associate
         end do
-
-    contains
-
-        !> x of places in pieces
-        elemental function x_of(piece, distance) result(x)
-            integer, intent(in) :: piece
-            !> From its left end, in the engine's units
-            real(wp), intent(in) :: distance
-            real(wp) :: x
-
-            x = point_x(assembled, piece - 1) + scale(distance, assembled%units%length)
-        end function x_of
-
     end subroutine extremes_of_pieces
 
     !> x of all nodes

@@ -47,7 +47,6 @@ contains
         !> On the ground: where to begin, before the search starts as ever
         type(ground_start_type), intent(in), optional :: near
         type(beam_type) :: changed
-        type(ground_type) :: ground
 
         call forget(state)
         if (allocated(state%stretched)) deallocate (state%stretched)
@@ -63,9 +62,7 @@ contains
             if (assembled%model%stretching) then
                 call settle_stretched(assembled, rule, state, error)
             else
-                ground = ground_of(assembled, factor, state)
-                call check_tensions(assembled, ground, error)
-                if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error, near)
+                call settle_on_ground(assembled, rule, state, error, near)
             end if
         else if (has_own_laws(assembled, state)) then
             changed = assembled%beam
@@ -125,7 +122,6 @@ contains
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
         type(stretching_type) :: stretching
-        type(ground_type) :: ground
         logical :: start(size(state%closed))
         integer :: solves
 
@@ -137,9 +133,7 @@ contains
             if (allocated(state%ground)) deallocate (state%ground)
             state%status = -1
             state%stretched = stretching%stretched
-            ground = ground_of(assembled, state%factor, state)
-            call check_tensions(assembled, ground, error)
-            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
+            call settle_on_ground(assembled, rule, state, error)
             if (allocated(state%ground)) solves = solves + state%ground%solves
             if (has_ended(error)) return
             if (.not. allocated(error) .and. state%status == gapbeam_solved) then
@@ -159,9 +153,7 @@ contains
             if (allocated(state%ground)) deallocate (state%ground)
             deallocate (state%stretched)
             state%closed(:) = start
-            ground = ground_of(assembled, state%factor, state)
-            call check_tensions(assembled, ground, error)
-            if (.not. allocated(error)) call settle_on_ground(assembled, ground, rule, state, error)
+            call settle_on_ground(assembled, rule, state, error)
             return
         end if
         state%solves = solves
@@ -176,10 +168,8 @@ contains
     end subroutine settle_stretched
 
     !> The same on the ground
-    subroutine settle_on_ground(assembled, ground, rule, state, error, near)
+    subroutine settle_on_ground(assembled, rule, state, error, near)
         type(assembled_type), intent(in) :: assembled
-        !> With lines in place of the laws of supports out, where that is how it was solved
-        type(ground_type), intent(inout) :: ground
         integer, intent(in) :: rule
         type(state_type), intent(inout) :: state
         type(error_type), allocatable, intent(out) :: error
@@ -187,8 +177,11 @@ contains
         type(outcome_type) :: outcome
         type(ledger_type) :: ledger
         logical, allocatable :: acting(:)
+        type(ground_type) :: ground
 
-        call copy_scheme(state, acting, error)
+        ground = ground_of(assembled, state%factor, state)
+        call check_tensions(assembled, ground, error)
+        if (.not. allocated(error)) call copy_scheme(state, acting, error)
         if (allocated(error)) return
         allocate (state%ground)
         call solve_stable(ground, detail_of(assembled), state%factor, merge(rule_block, rule, rule >= rule_given), acting, &
@@ -319,7 +312,8 @@ contains
         type(error_type), allocatable, intent(out) :: error
         type(field_type), allocatable :: starts(:)
         real(wp), allocatable :: length_error(:)
-        type(beam_type) :: changed
+        type(beam_type), target :: changed
+        type(beam_type), pointer :: beam
 
         if (allocated(state%ground)) then
             associate (bounds => state%ground%bounds, residuals => state%ground%residuals)
@@ -338,15 +332,14 @@ contains
         allocate (starts(size(assembled%pieces)), length_error(size(assembled%beam%links)))
         call recover_state(assembled, state, starts)
         call find_length_errors(assembled, length_error)
+        beam => assembled%beam
         if (has_own_laws(assembled, state)) then
             changed = assembled%beam
             changed%supports(:) = laws_in(assembled, state)
-            call certify(changed, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
-                         state%moment_right, state%reaction, starts, length_error, certificate, error)
-        else
-            call certify(assembled%beam, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
-                         state%moment_right, state%reaction, starts, length_error, certificate, error)
+            beam => changed
         end if
+        call certify(beam, detail_of(assembled), state%factor, state%closed, state%deflection, state%moment_left, &
+                     state%moment_right, state%reaction, starts, length_error, certificate, error)
         call end_if_stopped(assembled%beam%watch, error)
     end subroutine certify_state
 

@@ -14,7 +14,7 @@ module gapbeam_state_modes
     use gapbeam_mode_values, only: find_mode_values
     use gapbeam_mode_values_quad, only: find_fine_values => find_mode_values
     use gapbeam_modes_quad, only: fine_shape_type => mode_shape_type, find_fine_shape => find_mode_shape
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, place_x
     use gapbeam_solution, only: state_type
     use gapbeam_loaded_ground, only: ground_of
     use gapbeam_law_margins, only: margin_in_scheme, is_watched_in
@@ -125,7 +125,7 @@ contains
         associate (n => size(found%piece), units => assembled%units)
             allocate (shape%x(n), shape%deflection(n), shape%moment(2, n), stat=stat)
             if (failed(stat, error)) return
-            shape%x(:) = places_of(assembled, found%piece, real(found%distance, wp))
+            shape%x(:) = place_x(assembled, found%piece, real(found%distance, wp))
             shape%deflection(:) = real(found%deflection, wp)
             shape%moment(:, :) = scale(real(found%moment, wp), units%force + units%length - units%deflection)
         end associate
@@ -181,24 +181,10 @@ contains
         associate (ground => state%ground)
             allocate (x(size(ground%mode_piece)), deflection(size(ground%mode_piece)), stat=stat)
             if (failed(stat, error)) return
-            x(:) = places_of(assembled, ground%mode_piece, ground%mode_distance)
+            x(:) = place_x(assembled, ground%mode_piece, ground%mode_distance)
             deflection(:) = ground%mode_deflection
         end associate
     end subroutine shape_of_buckling
-
-    !> Places of the beam
-    pure function places_of(assembled, piece, distance) result(x)
-        type(assembled_type), intent(in) :: assembled
-        !> Pieces, and distances from their left ends in the engine's units
-        integer, intent(in) :: piece(:)
-        real(wp), intent(in) :: distance(:)
-        real(wp) :: x(size(piece))
-        integer :: i
-
-        do i = 1, size(piece)
-            x(i) = point_x(assembled, piece(i) - 1) + scale(distance(i), assembled%units%length)
-        end do
-    end function places_of
 
     !> Has a beam what its modes are of: compression, or mass
     pure function has_any(assembled, what) result(it_has)

@@ -5,7 +5,7 @@ module gapbeam_stretched_displacement
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_query, only: peaks_in, curved_in
     use gapbeam_stretching, only: lengthening_to
-    use gapbeam_assembled_model, only: assembled_type, point_x
+    use gapbeam_assembled_model, only: assembled_type, place_x
     implicit none
     private
     public :: displacement_in, extremes_of_displacement
@@ -57,7 +57,7 @@ contains
                     do k = 1, size(xi)
                         at = solution%from(i) + xi(k)*(solution%to(i) - solution%from(i))
                         found = displacement_in(assembled, solution, displacement, j, at)
-                        at = point_x(assembled, j - 1) + scale(at, assembled%units%length)
+                        at = place_x(assembled, j, at)
                         if (found > value(1)) x(1) = at
                         if (found < value(2)) x(2) = at
                         value(:) = [max(value(1), found), min(value(2), found)]

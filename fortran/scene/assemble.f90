@@ -5,7 +5,7 @@
 module gapbeam_assemble
     use, intrinsic :: iso_fortran_env, only: int64
     use gapbeam_kinds, only: wp
-    use gapbeam_error, only: error_type, failed, gapbeam_no_memory
+    use gapbeam_error, only: error_type, no_memory, failed, gapbeam_no_memory
     use gapbeam_memory, only: reserve_memory, for_assembling
     use gapbeam_scene, only: model_type, gapbeam_by_x, gapbeam_couple, gapbeam_couple_left, gapbeam_couple_right, gapbeam_right_end
     use gapbeam_assembled_model, only: assembled_type, copy_model, is_stretch, is_movement, is_of_support
@@ -54,7 +54,10 @@ contains
         ! Beside what else there is bending cannot feel axial loads in this version: then of first order, as in the first versions
         allocate (other, stat=stat)
         if (stat == 0) call copy_model(given, other%model, stat)
-        if (failed(stat, error)) return
+        if (stat /= 0) then
+            call no_memory(error)
+            return
+        end if
         other%model%first_order = .true.
         call assemble_once(other, given, error)
         if (.not. allocated(error)) call reserve_memory(for_assembling, 4*size(other%pieces), 4*size(other%model%supports), &

@@ -17,7 +17,7 @@ module gapbeam_assembled_model
     public :: in_bending, in_shear, along_axis, axial_force_in, kinds
     public :: assembled_type, axial_type, growth_of, turns, way_unit, push_unit, copy_model, copy_given, &
         is_stretch, is_along, has_ground_along, has_springs_along, is_movement, is_beside_point, is_alone, is_of_support, point_x, &
-        from_to, piece_length, find_length_errors
+        place_x, from_to, piece_length, find_length_errors
 
     !> What spans and sections give: EI, GA, EA, and the axial force in bending
     integer, parameter :: in_bending = 1, in_shear = 2, along_axis = 3, axial_force_in = 4, kinds = 4
@@ -241,6 +241,17 @@ contains
 
         x = assembled%ends(assembled%point_span(point)) + assembled%point_offset(point)
     end function point_x
+
+    !> x of a place in a piece
+    elemental function place_x(assembled, piece, distance) result(x)
+        type(assembled_type), intent(in) :: assembled
+        integer, intent(in) :: piece
+        !> From its left end, in the engine's units
+        real(wp), intent(in) :: distance
+        real(wp) :: x
+
+        x = point_x(assembled, piece - 1) + scale(distance, assembled%units%length)
+    end function place_x
 
     !> "from x = 0 to x = 6": a stretch between two points, blanks behind it
     pure function from_to(assembled, first, last) result(text)
