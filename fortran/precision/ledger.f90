@@ -8,11 +8,20 @@ module gapbeam_ledger
     public :: of_bending, of_equilibrium, of_parts, of_resultants, of_zone_ends, of_contact, of_supports, of_restraints, of_places
     public :: deflections, rotations, moments, forces, beyond, pulls, kinds
 
-    !> What may be wrong: deflections and rotations do not fit to moments; forces and moments do not balance, at a place, or those
-    !> of a part between hinges; pressure does not add up to the resultant; a zone does not end where it is said to; ground is not
-    !> in the state in which it is said to be; supports, restraints are off their laws; stretches do not cover the beam
+    !> What may be wrong
     integer, parameter :: of_bending = 1, of_equilibrium = 2, of_parts = 3, of_resultants = 4, of_zone_ends = 5, of_contact = 6, &
                           of_supports = 7, of_restraints = 8, of_places = 9
+    !> The same in words that follow "at x = ..."
+    character(len=*), parameter :: words_for(of_places) = [character(len=72) :: &
+        "deflection and rotation do not fit the moments", &
+        "forces or moments do not balance", &
+        "forces or moments of the part of the beam left of it do not balance", &
+        "the pressure of the ground does not add up to its force", &
+        "a zone of the ground does not end where the beam leaves it", &
+        "the ground is not in the state that the deflection asks for", &
+        "a support is not on its law", &
+        "a rotational restraint is not on its law", &
+        "stretches do not cover the beam"]
     !> Of what something can be left over: of each of them the most is kept; beyond: distance past the line at which a state
     !> ends; pulls: force of a support that ought to push
     integer, parameter :: deflections = 1, rotations = 2, moments = 3, forces = 4, beyond = 5, pulls = 6, kinds = 6
@@ -53,33 +62,5 @@ contains
         ledger%piece = piece
         ledger%distance = distance
     end subroutine note
-
-    !> What is wrong, in words that follow "at x = ..."
-    pure function words_for(wrong) result(words)
-        !> of_bending, of_equilibrium, ...
-        integer, intent(in) :: wrong
-        character(len=80) :: words
-
-        select case (wrong)
-        case (of_bending)
-            words = "deflection and rotation do not fit the moments"
-        case (of_equilibrium)
-            words = "forces or moments do not balance"
-        case (of_parts)
-            words = "forces or moments of the part of the beam left of it do not balance"
-        case (of_resultants)
-            words = "the pressure of the ground does not add up to its force"
-        case (of_zone_ends)
-            words = "a zone of the ground does not end where the beam leaves it"
-        case (of_contact)
-            words = "the ground is not in the state that the deflection asks for"
-        case (of_supports)
-            words = "a support is not on its law"
-        case (of_restraints)
-            words = "a rotational restraint is not on its law"
-        case default
-            words = "stretches do not cover the beam"
-        end select
-    end function words_for
 
 end module gapbeam_ledger
