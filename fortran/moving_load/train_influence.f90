@@ -44,6 +44,7 @@ contains
         !> No unique state, or no memory
         type(error_type), allocatable, intent(out) :: error
         type(track_type) :: bare
+        type(uniform_type) :: none(0)
         type(cells_type) :: cells
         type(assembled_type) :: empty
         type(interval_type), allocatable :: intervals(:)
@@ -62,7 +63,7 @@ contains
         call drop_loads(bare%beam, 2)
         bare%loaded = 0
         bare%is_loaded(:) = .false.
-        bare%train = train_type([0.0_wp], [1.0_wp], [uniform_type ::])
+        bare%train = train_type([0.0_wp], [1.0_wp], none)
         call new_workspace(bare%beam, work)
         call new_cells(bare, cells, stat)
         if (failed(stat, error)) return
