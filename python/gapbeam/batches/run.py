@@ -126,30 +126,15 @@ def run_batch(
     jobs = whole("jobs", jobs, least=1) if jobs is not None else getattr(executor, "_max_workers", None) or cores()
     if chunk is not None:
         size = whole("chunk", chunk, least=1)
-    share = None if part is None else checked_part(part)
+    share = None if part is None else _checked_part(part)
     with locked(path, share):
         folder = _begin(path, rows, job, scene_digest, size, chunk is None, share)
         _run(folder, rows, job, jobs, executor, retry_failed, progress, by_processes)
     return Batch(path, share)
 
 
-def checked_part(part: Any) -> tuple[int, int]:
-    """Check which part is to be solved.
-
-    Parameters
-    ----------
-    part : (int, int)
-        Number, from 1, and how many there are.
-
-    Returns
-    -------
-    (int, int)
-
-    Raises
-    ------
-    SceneError
-        There is no such part.
-    """
+def _checked_part(part: Any) -> tuple[int, int]:
+    """Check which part is to be solved: its number, from 1, and how many there are."""
     is_pair = isinstance(part, Sequence) and not isinstance(part, str) and len(part) == 2
     if not is_pair or any(type(one) is not int for one in part) or not 1 <= part[0] <= part[1]:
         raise SceneError("part", f"expected a number and how many parts there are, as (3, 10), the third of ten; got {shown(part)}")

@@ -146,7 +146,7 @@ class ParquetTable:
             if not (pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) or pyarrow.types.is_null(kind)):
                 raise SceneError(f"{path}, column {shown(one.name)}", f"expected numbers, it holds {kind}")
         self.names, self.cases = tuple(schema.names), self._file.metadata.num_rows
-        self.digest = digest_of_file(path)
+        self.digest = _digest_of_file(path)
         self._next, self._parts = -1, iter(())
         self._left = np.empty((len(self.names), 0))
 
@@ -222,7 +222,7 @@ class SceneFolder:
             raise SceneError(str(self.path), "the folder holds no scene (.toml or .json)")
         digest = hashlib.sha256()
         for name in self.files:
-            digest.update(f"{name}\0{digest_of_file(self.path / name)}\n".encode("utf-8", "surrogateescape"))
+            digest.update(f"{name}\0{_digest_of_file(self.path / name)}\n".encode("utf-8", "surrogateescape"))
         self.digest = digest.hexdigest()
 
     @property
@@ -235,24 +235,8 @@ class SceneFolder:
         return SceneFiles(tuple(str((self.path / name).absolute()) for name in self.files[first:stop]))
 
 
-def digest_of_file(path: Path) -> str:
-    """Give the SHA-256 of a file.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file.
-
-    Returns
-    -------
-    str
-        Hexadecimal.
-
-    Raises
-    ------
-    SceneError
-        It cannot be read.
-    """
+def _digest_of_file(path: Path) -> str:
+    """Give the SHA-256 of a file, hexadecimal."""
     try:
         with open(path, "rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -133,7 +133,7 @@ class Recorder:
             if k < ALWAYS or values.any():
                 found |= {f"{name}_packed": packed(values)} if self._short > 1 else {name: values.tolist()}
         if self._beam.is_on_axial_ground:
-            found["n_parts"] = axial_parts(step)
+            found["n_parts"] = _axial_parts(step)
         columns = self.columns(step)
         if self.grid is not None:
             found |= on_ground(step)
@@ -158,18 +158,10 @@ def joined_moments(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     return {name: values for name, values in columns.items() if name != "m_left"} | {"m": np.append(m, left[-1])}
 
 
-def axial_parts(step: Step) -> list[list[float]]:
-    """Give the axial force of a state on ground along the beam, which has kinks inside the pieces, and curves where that gives way.
+def _axial_parts(step: Step) -> list[list[float]]:
+    """Give the axial force of a state on ground along the beam: both ends of every part that is straight, or nearly, and forces.
 
-    Parameters
-    ----------
-    step : Step
-        The state.
-
-    Returns
-    -------
-    list of list of float
-        Of every part over which it is straight, or nearly so: both ends, and the forces there.
+    It has kinks inside the pieces, and curves where that ground gives way.
     """
     beam, n = step._beam, ROW["axial_force"]
     points, ends = beam.places.point_x, [end for zone in step.slip_zones for end in (zone.from_, zone.to)]

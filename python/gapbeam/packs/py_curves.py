@@ -61,12 +61,12 @@ def matlock_clay(
     [(0.045, 72.14), (0.225, 41.16), (0.45, 41.16)]
     """
     _check_clay("matlock_clay", z, D=D, cu=cu, gamma=gamma, eps50=eps50, J=J)
-    ultimate, y50 = ultimate_clay(z, D, cu, cu, gamma, J), 2.5 * eps50 * D
+    ultimate, y50 = _ultimate_clay(z, D, cu, cu, gamma, J), 2.5 * eps50 * D
     if not cyclic:
-        return clay_points(ultimate, 8.0 * y50, 3)
+        return _clay_points(ultimate, 8.0 * y50, 3)
     peak = 0.72 * ultimate
     residual = peak * min(z * (gamma * D + J * cu) / (6.0 * cu * D), 1.0)
-    return [*clay_points(peak, 3.0 * y50, 3)[:-1], (15.0 * y50, residual), (30.0 * y50, residual)]
+    return [*_clay_points(peak, 3.0 * y50, 3)[:-1], (15.0 * y50, residual), (30.0 * y50, residual)]
 
 
 def reese_clay(
@@ -126,7 +126,7 @@ def reese_clay(
         raise SceneError("reese_clay: free_water", f"{problem}; give its points as law")
     ca = cu if average_cu is None else average_cu
     _check_clay("reese_clay", z, D=D, cu=cu, average_cu=ca, gamma=gamma, eps50=eps50, J=J)
-    return clay_points(ultimate_clay(z, D, cu, ca, gamma, J), 16.0 * 2.5 * eps50 * D, 4)
+    return _clay_points(_ultimate_clay(z, D, cu, ca, gamma, J), 16.0 * 2.5 * eps50 * D, 4)
 
 
 def api_sand(
@@ -172,14 +172,8 @@ def api_sand(
     return {"type": "tanh", "stiffness": modulus * z, "limit": ultimate_sand(z, D, phi, gamma * z, cyclic)}
 
 
-def ultimate_clay(z: float, D: float, cu: float, average_cu: float, gamma: float, J: float) -> float:
-    """Give the ultimate resistance of clay at a depth (force/length): the lesser of that near the ground and that far below.
-
-    Parameters
-    ----------
-    z, D, cu, average_cu, gamma, J : float
-        As of `reese_clay`.
-    """
+def _ultimate_clay(z: float, D: float, cu: float, average_cu: float, gamma: float, J: float) -> float:
+    """Give the ultimate resistance of clay at a depth (force/length): the lesser of that near the ground and that far below."""
     return min(3.0 * average_cu * D + gamma * z * D + J * average_cu * z, 9.0 * cu * D)
 
 
@@ -241,20 +235,11 @@ def sand_modulus(phi: float) -> float:
     return max(197.8 * phi**2 - 10232.0 * phi + 136820.0, 5400.0)
 
 
-def clay_points(ultimate: float, y_ultimate: float, root: int) -> list[tuple[float, float]]:
-    """Give a polyline on ultimate*(y/y_ultimate)^(1/root), which ends level.
+def _clay_points(ultimate: float, y_ultimate: float, root: int) -> list[tuple[float, float]]:
+    """Give a polyline on ultimate*(y/y_ultimate)^(1/root), root 3 or 4, which ends level.
 
     With the square root of p in equal steps all segments but the first are about as far below the curve: the chord of a step t is
     off by (root - 1)/2 t^2 of the ultimate resistance.
-
-    Parameters
-    ----------
-    ultimate : float
-        Ultimate resistance (force/length).
-    y_ultimate : float
-        Displacement from which on it acts (length).
-    root : int
-        3 or 4.
     """
     steps = [k / SEGMENTS for k in range(1, SEGMENTS + 1)]
     return [(y_ultimate * t ** (2 * root), ultimate * t**2) for t in steps] + [(2.0 * y_ultimate, ultimate)]

@@ -57,31 +57,21 @@ class Cells:
         numpy.ndarray
             Cells by 4 by 2: place and value. The curve begins in the first and ends in the last of the four.
         """
-        return np.stack((self.x, control_values(self.values[quantity])), axis=-1)
+        return np.stack((self.x, _control_values(self.values[quantity])), axis=-1)
 
     def along(self, quantity: str) -> tuple[np.ndarray, np.ndarray]:
         """Give places and values from left to right, both sides where a field jumps."""
         return self.x.ravel(), self.values[quantity].ravel()
 
 
-def control_values(values: np.ndarray) -> np.ndarray:
+def _control_values(values: np.ndarray) -> np.ndarray:
     """Turn values of cubics at 0, 1/3, 2/3 and 1 into those of their control points.
-
-    Parameters
-    ----------
-    values : numpy.ndarray
-        Cells by 4.
-
-    Returns
-    -------
-    numpy.ndarray
-        Of the same shape.
 
     Examples
     --------
     >>> import numpy as np
     >>> t = np.array([[0.0, 1 / 3, 2 / 3, 1.0]])
-    >>> control_values(t**3 - t).round(12).tolist()  # -3 b = c, the slope at 0
+    >>> _control_values(t**3 - t).round(12).tolist()  # -3 b = c, the slope at 0
     [[0.0, -0.333333333333, -0.666666666667, 0.0]]
     """
     found = values @ TO_CONTROL.T

@@ -234,15 +234,8 @@ def _branch(scene: Scene, foundations: set[int], state: str) -> str:
     return f"segment {number} of the ground's law"
 
 
-def contact_lines(scene: Scene, factor: float) -> Iterator[tuple[int, float, np.ndarray, np.ndarray]]:
-    """Give where foundations begin to act: number, 1 below or -1 above, places and deflections.
-
-    Parameters
-    ----------
-    scene : Scene
-    factor : float
-        Load factor, to which loads have moved them.
-    """
+def _contact_lines(scene: Scene, factor: float) -> Iterator[tuple[int, float, np.ndarray, np.ndarray]]:
+    """Give where foundations begin to act: number, 1 below or -1 above, places and deflections."""
     for number, (item, moved) in enumerate(zip(scene.foundation, ground_moved(scene, factor), strict=True)):
         x, gap = surface(scene, item)
         for sign in {"below": (1.0,), "above": (-1.0,), "both": (1.0, -1.0)}[item.side]:
@@ -269,7 +262,7 @@ def near_surface(scene: Scene, cells: Cells, length: float, factor: float) -> li
     """
     found = []
     size = 3.0 * float(np.ptp(np.append(cells.values["deflection"], 0.0)))
-    for _, sign, x, levels in contact_lines(scene, factor):
+    for _, sign, x, levels in _contact_lines(scene, factor):
         at = np.linspace(x[0], x[-1], max(2, int(length * (x[-1] - x[0]) / float(scene.span_ends()[-1]))))
         y = np.interp(at, x, levels)
         parts = np.maximum(1, np.ceil(np.abs(np.diff(y)) / (size or 1.0) * FINE)).astype(int)  # more where it is steep
@@ -296,7 +289,7 @@ def draw_surface(axes: Axes | Turned, scene: Scene, width: float, room: float, f
     """
     high, low = sorted(axes.get_ylim())
     size = low - high
-    levels = [(number, sign, *outline(x, y, width)) for number, sign, x, y in contact_lines(scene, factor)]
+    levels = [(number, sign, *outline(x, y, width)) for number, sign, x, y in _contact_lines(scene, factor)]
     seen = np.concatenate([y for *_, y in levels] or [np.zeros(0)])
     seen = seen[(seen > high - size / 2) & (seen < low + size / 2)]
     high, low = min([high, *(seen - room * size)]), max([low, *(seen + room * size)])

@@ -51,20 +51,15 @@ def picture(figure: Figure, suffix: str) -> bytes:
         if kind == "svg":
             filterwarnings("ignore", "Glyph .* missing")  # the viewer of the file has fonts of its own
         figure.savefig(stream, format=kind, metadata={"Date": None} if kind == "svg" else None)
-    return compact(stream.getvalue()) if kind == "svg" else stream.getvalue()
+    return _compact(stream.getvalue()) if kind == "svg" else stream.getvalue()
 
 
-def compact(svg: bytes) -> bytes:
+def _compact(svg: bytes) -> bytes:
     r"""Shorten a picture: neighbours of one style become one path, places have two decimals.
-
-    Parameters
-    ----------
-    svg : bytes
-        As matplotlib writes it; a unit is a point.
 
     Examples
     --------
-    >>> compact(b'<path d="M 0.12345 1" style="a"/>\n<path d="M 2 3" style="a"/><use x="1.23456" y="2"/>')
+    >>> _compact(b'<path d="M 0.12345 1" style="a"/>\n<path d="M 2 3" style="a"/><use x="1.23456" y="2"/>')
     b'<path d="M 0.12 1M 2 3" style="a"/>\n<use x="1.23" y="2"/>'
     """
     for part in (rb'<path (?:id="[^"]*" )?d="[^"]*"', rb"<use [^>]*>"):

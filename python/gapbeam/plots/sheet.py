@@ -76,7 +76,7 @@ class Sheet:
 
     def write_heading(self, text: str, handles: list[Line2D]) -> None:
         """Write title and text, and the legend beside or under them."""
-        rows = legend_rows(text, handles)
+        rows = _legend_rows(text, handles)
         left = LEFT / self.width * 0.25
         lines = title_lines(fmt.title(self.scene, "Beam"))
         lower = HEIGHT * (len(lines) - 1)
@@ -164,7 +164,7 @@ class Sheet:
         return axes
 
 
-def legend_rows(text: str, handles: list[Line2D]) -> int:
+def _legend_rows(text: str, handles: list[Line2D]) -> int:
     """Count the rows of a legend under a text; 0 where it has room beside it."""
     wide = [measured_width(str(handle.get_label()), 7.5) + 26.0 for handle in handles]
     page = (WIDTH - RIGHT - LEFT / 4) * 72
@@ -175,7 +175,7 @@ def legend_rows(text: str, handles: list[Line2D]) -> int:
 
 def heading_height(scene: Scene, text: str, handles: list[Line2D]) -> float:
     """Give the height of title, text and legend (inches)."""
-    return 0.6 + HEIGHT * (len(title_lines(fmt.title(scene))) - 1) + 0.15 * text.count("\n") + 0.17 * legend_rows(text, handles)
+    return 0.6 + HEIGHT * (len(title_lines(fmt.title(scene))) - 1) + 0.15 * text.count("\n") + 0.17 * _legend_rows(text, handles)
 
 
 def positive(scene: Scene, quantity: str) -> str:

@@ -125,7 +125,7 @@ def legend_handles(kinds: tuple[str, ...]) -> list[Line2D]:
     """Make the entries of the legend for what occurs."""
     found = set(kinds)
     return [
-        Line2D([], [], linestyle="none", marker=centred(symbol.path), markersize=7.0, markerfacecolor=symbol.face,
+        Line2D([], [], linestyle="none", marker=_centred(symbol.path), markersize=7.0, markerfacecolor=symbol.face,
                markeredgecolor=symbol.edge, markeredgewidth=symbol.width, label=symbol.words)
         for kind, symbol in SYMBOLS.items() if kind in found
     ]  # fmt: skip
@@ -149,7 +149,7 @@ def face(state: str) -> str:
     return BRANCHES[min(int(state.rpartition(" ")[2]), len(BRANCHES)) - 1]
 
 
-def centred(path: Path) -> Path:
+def _centred(path: Path) -> Path:
     """Move a symbol so that its middle is the origin."""
     return Path(np.add(path.vertices, (0.0, 0.5)), path.codes)
 

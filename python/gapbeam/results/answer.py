@@ -163,21 +163,8 @@ def values_in_words(result: Result, envelope: Envelope | TrainEnvelope) -> list[
     return lines
 
 
-def limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
-    """Say how far the limits of the scene are used.
-
-    Parameters
-    ----------
-    result : Result
-        Of one load or of combinations.
-    used : dict of Utilisation
-        By `find_utilisations`.
-
-    Returns
-    -------
-    list of str
-        A line for each limit; none where the scene has none.
-    """
+def _limits_in_words(result: Result, used: dict[str, Utilisation]) -> list[str]:
+    """Say how far the limits of the scene are used, a line for each."""
     scene, lines = result.scene, []
     for name, one in used.items():
         quantity = "stress" if name == "pressure" else name
@@ -212,14 +199,8 @@ def is_one_of_several(result: Result) -> bool:
     return bool(not result.combinations and result._beam.in_stretches and result.steps and not result.steps[-1].unique)
 
 
-def outcome_in_words(result: Result) -> list[str]:
-    """Say whether the beam stands; nothing where all is well.
-
-    Parameters
-    ----------
-    result : Result
-        Of one load or of combinations.
-    """
+def _outcome_in_words(result: Result) -> list[str]:
+    """Say whether the beam stands; nothing where all is well."""
     lines = []
     if result.combinations:
         number = result.statuses.count("solved")
@@ -244,7 +225,7 @@ def answer(result: Result) -> list[str]:
     list of str
         Outcome, contact, largest values.
     """
-    lines, cheap = outcome_in_words(result), has_cheap_envelope(result)
+    lines, cheap = _outcome_in_words(result), has_cheap_envelope(result)
     envelope = known_envelope(result) if cheap else None
     if not result.combinations and not result.scene.trains:
         lines += limits_of_load_in_words(result, envelope if is_followed(result) else None, MOST_LIMITS)
@@ -262,7 +243,7 @@ def answer(result: Result) -> list[str]:
     if one_sided and result.steps and result.stands and not result.scene.trains:
         lines += ground_in_words(result)
     lines += values_in_words(result, envelope)
-    lines += limits_in_words(result, find_utilisations(result, envelope))
+    lines += _limits_in_words(result, find_utilisations(result, envelope))
     if result.stands and is_one_of_several(result):
         lines.append(ONE_ON_FALLING_GROUND if any_falls(result.scene.foundation) else ONE_OF_SEVERAL)
     return lines + doubts_of_scene(result, envelope)

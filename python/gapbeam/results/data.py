@@ -206,7 +206,7 @@ def limit_data(result: Result) -> dict[str, Any]:
         **({} if limit.exact else {"exact": False}),
         "landing": None
         if landing is None
-        else {"factor": landing.factor, "released": limit.released, "supports": support_data(result, landing, x)},
+        else {"factor": landing.factor, "released": limit.released, "supports": _support_data(result, landing, x)},
     }
 
 
@@ -216,20 +216,8 @@ def _friction(step: Step, k: int) -> dict[str, Any]:
     return {"force": float(step.friction[k]), "slip": float(step.slip[k]), "slides": slides if slides != "sticks" else ""}
 
 
-def support_data(result: Result, step: Step, x: list[float], lost: np.ndarray | None = None) -> list[dict[str, Any]]:
-    """Give the supports of a state as plain data.
-
-    Parameters
-    ----------
-    result : Result
-        What `gapbeam.solve` returned.
-    step : Step
-        The state.
-    x : list of float
-        Places of the supports.
-    lost : numpy.ndarray, optional
-        What each of them has dissipated.
-    """
+def _support_data(result: Result, step: Step, x: list[float], lost: np.ndarray | None = None) -> list[dict[str, Any]]:
+    """Give the supports of a state as plain data, with what each of them has dissipated."""
     columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
     return [
         {
@@ -310,7 +298,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             **where,
             "solves": step.solves,
             "seconds": step.seconds,
-            "supports": support_data(result, step, x, None if lost is None else lost[k]),
+            "supports": _support_data(result, step, x, None if lost is None else lost[k]),
             **({"hinges": [one._asdict() for one in step.hinges]} if result.scene.hinges else {}),
             **ground_data(result, step),
             **({"slip_zones": [

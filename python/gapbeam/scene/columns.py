@@ -102,7 +102,7 @@ def columns(scene: Scene) -> Columns:
     if with_masses:
         mass[0, :-1], mass[1, :-1] = places, [one.mass for one in scene.masses]
     codes, values = _supports(scene.supports)
-    law_supports, law = _laws(scene.supports, points_given)
+    law_supports, law = _laws(scene.supports, _points_given)
     load_codes, load_values = _loads(scene)
     if not scene.combinations:
         _settle(load_codes[:, :-1], load_values[:, :-1], values)
@@ -187,18 +187,8 @@ def _supports(items: Sequence[Any]) -> tuple[np.ndarray, np.ndarray]:
     return codes, found
 
 
-def points_given(law: Any) -> list[tuple[float, float]] | None:
-    """Give the points of a law; None where it is given by its name.
-
-    Parameters
-    ----------
-    law : Law
-        Of a support.
-
-    Returns
-    -------
-    list of (float, float) or None
-    """
+def _points_given(law: Any) -> list[tuple[float, float]] | None:
+    """Give the points of a law of a support; None where it is given by its name."""
     return None if isinstance(law, Struct) else law
 
 

@@ -111,27 +111,15 @@ def least_between(value: Any, stretch: tuple[float, float], start: float, stop: 
     """
     points = np.asarray(value, dtype=float) if is_table(value) else np.column_stack((stretch, at_both_ends(value)))
     inside = points[(points[:, 0] > start) & (points[:, 0] < stop), 1]
-    return float(min([*at_place(points, start)[1:], *inside, *at_place(points, stop)[:1]]))
+    return float(min([*_at_place(points, start)[1:], *inside, *_at_place(points, stop)[:1]]))
 
 
-def at_place(points: np.ndarray, x: float) -> tuple[float, float]:
-    """Follow a table to a place.
-
-    Parameters
-    ----------
-    points : numpy.ndarray
-        x and value in ascending order, n by 2; two at a place are a step.
-    x : float
-        The place.
-
-    Returns
-    -------
-    left, right : float
-        The value on both sides of it.
+def _at_place(points: np.ndarray, x: float) -> tuple[float, float]:
+    """Follow a table (x and value in ascending order, n by 2; two at a place are a step) to a place: values left and right of it.
 
     Examples
     --------
-    >>> at_place(np.array([[0.0, 1.0], [2.0, 3.0], [2.0, 0.5]]), 2.0)
+    >>> _at_place(np.array([[0.0, 1.0], [2.0, 3.0], [2.0, 0.5]]), 2.0)
     (3.0, 0.5)
     """
     places, values = points[:, 0], points[:, 1]

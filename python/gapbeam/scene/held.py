@@ -38,19 +38,8 @@ def _copied(table: Struct) -> Struct:
     return kind_of(table)(**structs.asdict(table))
 
 
-def held_type(kind: type[Struct]) -> type[Struct]:
-    """Give the type of tables that cannot be changed.
-
-    Parameters
-    ----------
-    kind : type
-        Of tables of a scene.
-
-    Returns
-    -------
-    type
-        With the same keys and values, equal to it.
-    """
+def _held_type(kind: type[Struct]) -> type[Struct]:
+    """Give the type of tables that cannot be changed, with the same keys and values, equal to it."""
     if kind not in _HELD:
         space = {
             "__module__": kind.__module__, "__qualname__": kind.__qualname__, "__doc__": kind.__doc__, "changeable": kind,
@@ -127,7 +116,7 @@ def hold(value: Any) -> Any:
     if held is None:
         if not issubclass(kind, Table) or "changeable" in kind.__dict__:
             return value
-        held = held_type(kind)
+        held = _held_type(kind)
     for name in _INNER[kind]:
         inner = getattr(value, name)
         if inner is not None and type(inner) is not float:
@@ -146,7 +135,7 @@ def _held_list(values: list[Any]) -> HeldList:
     kind = kinds.pop()
     if kinds or not issubclass(kind, Table) or "changeable" in kind.__dict__:
         return HeldList(map(hold, values))
-    held = held_type(kind)
+    held = _held_type(kind)
     for name in _INNER[kind]:
         if any(inner is not None and type(inner) is not float for inner in map(attrgetter(name), values)):
             return HeldList(map(hold, values))

@@ -76,7 +76,7 @@ def take_movements(scene: Scene, only_dead: bool = False) -> tuple[Scene, Moveme
         None where there are none.
     """
     loads = list(scene.loads)
-    which = [k for k, load in enumerate(loads) if moves_support(load) and (load.case == DEAD or not only_dead)]
+    which = [k for k, load in enumerate(loads) if _moves_support(load) and (load.case == DEAD or not only_dead)]
     if not which:
         return scene, None
     supports = [number_of_moved(scene, k, loads[k]) for k in which]
@@ -113,7 +113,7 @@ def supports_moved(scene: Scene, factor: float) -> np.ndarray:
     """Give how far loads have moved every support."""
     moves = np.zeros(len(scene.supports))
     for k, load in enumerate(scene.loads):
-        if moves_support(load):
+        if _moves_support(load):
             moves[number_of_moved(scene, k, load)] += share_of(load, factor) * load.value
     return moves
 
@@ -177,7 +177,7 @@ def number_of_moved(scene: Scene, k: int, load: MovementLoad) -> int:
     return find(scene.supports, load.support, f"loads[{k}].support", "support")
 
 
-def moves_support(load: Load) -> bool:
+def _moves_support(load: Load) -> bool:
     """Whether a load moves a support and does not turn it."""
     return isinstance(load, MovementLoad) and load.value is not None and load.foundation is None
 
@@ -204,7 +204,7 @@ def refuse_movements(scene: Scene, problem: str) -> None:
     for k, load in enumerate(scene.loads):
         if moves_ground(load):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the gap of the foundation")
-        if moves_support(load):
+        if _moves_support(load):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; write it as the settlement of the support")
         if isinstance(load, MovementLoad):
             raise SceneError(f"loads[{k}]", f"{problem} in this version; a couple there does the same where nothing else turns")

@@ -42,7 +42,7 @@ def cases_answer(cases: Cases) -> list[str]:
         lines.append(fmt.sentence(visible(reason)))
     if not solved:
         return lines
-    lines += lifted_in_words(scene, cases.lifted)
+    lines += _lifted_in_words(scene, cases.lifted)
     for name in FIELDS:
         texts = []
         for one, best in zip(cases.extremes[name].values(), (np.nanargmax, np.nanargmin), strict=True):
@@ -53,21 +53,8 @@ def cases_answer(cases: Cases) -> list[str]:
     return lines
 
 
-def lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
-    """Say which supports have no contact in which part of the cases.
-
-    Parameters
-    ----------
-    scene : Scene
-        Knows their names.
-    lifted : list of Lifted
-        Of the cases.
-
-    Returns
-    -------
-    list of str
-        Sentences; none where no support is one-sided.
-    """
+def _lifted_in_words(scene: Scene, lifted: list[Lifted]) -> list[str]:
+    """Say which supports have no contact in which part of the cases; nothing where no support is one-sided."""
     if not any(support.side != "both" for support in scene.supports):
         return []
     if not lifted:

@@ -65,21 +65,15 @@ def html_of_lines(lines: list[str], table: Columns | None, picture: Callable[[],
     title, *rest = map(escape, lines)
     parts = [f"<strong>{title}</strong>", f"<pre>{chr(10).join(rest)}</pre>"]
     if table is not None:
-        parts.append(html_table(table))
+        parts.append(_html_table(table))
     if picture is not None:
         data = base64.b64encode(picture()).decode()
         parts.append(f'<img style="max-width:100%" alt="{title}" src="data:image/svg+xml;base64,{data}">')
     return f"<div>{''.join(parts)}</div>"
 
 
-def html_table(table: Columns) -> str:
-    """Write some columns of a table as HTML.
-
-    Returns
-    -------
-    str
-        Its first rows.
-    """
+def _html_table(table: Columns) -> str:
+    """Write the first rows of some columns of a table as HTML."""
     chosen = Columns({name: table[name] for name in SHOWN if name in table})
     head = "".join(f"<th>{escape(name)}</th>" for name in chosen)
     rows = "".join(f"<tr>{''.join(f'<td>{escape(word)}</td>' for word in row)}</tr>" for row in chosen.rows(MOST_ROWS))

@@ -73,23 +73,8 @@ class Asked(Record):
             self.states.append(found)
         return found
 
-    def once_more(self, status: np.ndarray, want: tuple[str, ...]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Solve all cases for what was not wanted at first, from the same start, as another one may lead to other last digits.
-
-        Parameters
-        ----------
-        status : numpy.ndarray of int
-            That of all cases; one that was refused stays so.
-        want : tuple of str
-            Of `WANTED`.
-
-        Returns
-        -------
-        status : numpy.ndarray of int
-            Of all cases.
-        found : dict of numpy.ndarray
-            As of `solve_cases`.
-        """
+    def _once_more(self, status: np.ndarray, want: tuple[str, ...]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Solve all cases for what was not wanted at first, from the same start, as another one may lead to other last digits."""
         start = self.closed if self.start is None else self.start
         found = solve_cases(self.beam, self.factors, self.rule, start, self.varied, want)
         return np.where(status == Status.SOLVED, found["status"], status), found
@@ -113,7 +98,7 @@ class Asked(Record):
             return None
         at_nodes = WANTED[:3]
         if not set(at_nodes) <= set(known):
-            status, known = self.once_more(status, at_nodes)
+            status, known = self._once_more(status, at_nodes)
         return self.beam, self.rule, self.factors, self.varied, self.closed, status, tuple(known[name] for name in at_nodes)
 
     def certified(self, status: np.ndarray, known: dict[str, np.ndarray]) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -137,5 +122,5 @@ class Asked(Record):
         # Reactions of the engine's supports, which those of the scene are without laws, and if all of them can carry
         is_whole = set(WANTED) <= set(known) and not self.beam.has_laws and known["reaction"].shape[1] == self.beam.supports
         if not is_whole:
-            status, known = self.once_more(status, WANTED)
+            status, known = self._once_more(status, WANTED)
         return case_certificates(*about, status, self.varied, tuple(known[name] for name in WANTED)), known["reaction"]

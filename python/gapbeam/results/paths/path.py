@@ -205,19 +205,8 @@ class Path:
         """
         return Step(self._beam, factor, GIVEN, read_only(self.closed(segment)))
 
-    def end_on_curves(self, motion: np.ndarray) -> bool:
-        """End a path along polylines where the curves themselves still carry the load.
-
-        Parameters
-        ----------
-        motion : numpy.ndarray
-            Displacements of the nodes in the motion that begins at its end.
-
-        Returns
-        -------
-        bool
-            Whether they carry it anywhere: at the end, or next to a limit, which is noted.
-        """
+    def _end_on_curves(self, motion: np.ndarray) -> bool:
+        """End a path along polylines where the curves themselves carry the load: there, or next to a limit, which is noted."""
         last = self.segments[-1]
         for share in (0.0, *MISSING_OF_LIMIT.tolist()):
             stop = last.stop * (1.0 - share)
@@ -281,7 +270,7 @@ def follow(result: Result, rule: str, closed: np.ndarray) -> Path | None:
     path = Path(beam, solution.closed, stretches, solution.solves, perf_counter() - begin)
     if piece.status != NO_EQUILIBRIUM:
         return path
-    stands = not (beam.curves and path.segments) or path.end_on_curves(piece.motion)
+    stands = not (beam.curves and path.segments) or path._end_on_curves(piece.motion)
     if path.limits:
         result._refuse_limit(path)
     else:

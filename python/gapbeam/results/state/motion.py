@@ -66,36 +66,14 @@ def cause_of_fall(solution: Solution) -> Buckling | FallingGround | None:
     return FallingGround(solution.share) if solution.share < 1.0 else None
 
 
-def describe_buckling(found: Buckling) -> str:
-    """Say how a beam buckles.
-
-    Parameters
-    ----------
-    found : Buckling
-        How.
-
-    Returns
-    -------
-    str
-        For example "with these loads the beam bears 0.87 times its axial forces, and gives way most at x = 3".
-    """
+def _describe_buckling(found: Buckling) -> str:
+    """Say how a beam buckles."""
     k = int(np.abs(found.deflection).argmax())
     return f"with these loads the beam bears {found.share:.6g} times its axial forces, and gives way most at x = {found.x[k]:.6g}"
 
 
-def describe_falling_ground(found: FallingGround) -> str:
-    """Say what falling ground bears.
-
-    Parameters
-    ----------
-    found : FallingGround
-        How much.
-
-    Returns
-    -------
-    str
-        For example "the force of the ground falls, and bears no more than 0.87 times that load factor".
-    """
+def _describe_falling_ground(found: FallingGround) -> str:
+    """Say what falling ground bears."""
     if not found.share > 0.0:
         return "the force of the ground falls under the dead loads alone"
     return f"the force of the ground falls, and bears no more than {found.share:.12g} times that load factor"
@@ -122,9 +100,9 @@ def describe_fall(
     """
     at = f" {where}" if where else ""
     if isinstance(cause, Buckling):
-        return "buckles", f"buckles{at}: {describe_buckling(cause)}"
+        return "buckles", f"buckles{at}: {_describe_buckling(cause)}"
     if cause is not None:
-        return "no-equilibrium", f"no equilibrium{at}: {describe_falling_ground(cause)}"
+        return "no-equilibrium", f"no equilibrium{at}: {_describe_falling_ground(cause)}"
     slides = SLIDES_ON_GROUND if beam.is_on_axial_ground else SLIDES
     return "no-equilibrium", f"no equilibrium{at}: {slides if motion is None else describe_motion(beam, motion)}"
 
