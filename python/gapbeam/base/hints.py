@@ -58,6 +58,25 @@ def missing(owner: str, name: str, known: Iterable[str], meant: Mapping[str, str
     return words if near is None else f"{words}; did you mean {before}{near}?"
 
 
+def few(words: Iterable[str], most: int = 12) -> str:
+    """Join words, of many only the first.
+
+    Parameters
+    ----------
+    words : iterable of str
+        The words.
+    most : int
+        How many are told.
+
+    Examples
+    --------
+    >>> few(["a", "b", "c"]), few(["a", "b", "c", "d"], 2)
+    ('a, b, c', 'a, b and 2 more')
+    """
+    words = list(words)
+    return ", ".join(words[:most]) + (f" and {len(words) - most} more" if len(words) > most else "")
+
+
 class Named(dict):
     """A dict that says what it has, when it is asked for something else.
 
@@ -114,5 +133,4 @@ def no_such(noun: str, key: Any, known: Iterable[str], meant: Mapping[str, str] 
     near = meant.get(str(key).lower()) or nearest(str(key), [one for one in known if isinstance(one, str)])
     if near in known:
         return f"{words}; did you mean {near!r}?"
-    few = ", ".join(map(repr, known[:12])) + (f" and {len(known) - 12} more" if len(known) > 12 else "")
-    return f"{words}; there are {few}"
+    return f"{words}; there are {few(map(repr, known))}"

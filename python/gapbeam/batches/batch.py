@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..base.errors import SceneError
+from ..base.hints import few
 from ..results import formatting as fmt
 from ..results.state.arguments import whole
 from ..scene.reading import as_written, read_scene
@@ -132,7 +133,7 @@ class Batch(BatchVerbs):
         for name in names:
             if name not in self.columns:
                 near = get_close_matches(str(name), self.columns, n=1, cutoff=0.5)
-                hint = f"did you mean {shown(near[0])}?" if near else f"there are {', '.join(map(shown, self.columns[:12]))}"
+                hint = f"did you mean {shown(near[0])}?" if near else f"there are {few(map(shown, self.columns))}"
                 raise SceneError(str(self.path), f"has no column {shown(name)}; {hint}")
         for k in self._chunks:
             yield self._columns_of(k, names)

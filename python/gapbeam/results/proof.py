@@ -23,7 +23,7 @@ from ..scene.places import nearest, same_place
 from ..scene.reading import read_beam, read_scene
 from ..scene.structs import Scene
 from ..scene.temperature import as_curvatures
-from ..scene.wording import choice, shown
+from ..scene.wording import enumerated, shown
 from .result import Result
 from .state.step import Step
 from .stepping import solve
@@ -108,7 +108,7 @@ def _one_load(scene: Scene, combination: str | None) -> Scene:
     plan = plan_combinations(scene)
     name = plan.names[-1] if combination is None else combination
     if name not in plan.names:
-        raise SceneError("--combination", f"there is no {shown(name)}; there are {choice(map(shown, plan.names[:12]), 'and')}")
+        raise SceneError("--combination", f"there is no {shown(name)}; there are {enumerated(map(shown, plan.names))}")
     k = plan.names.index(name)
     if plan.scheme_of[k] is not None:
         raise SceneError("--combination", f"{shown(name)} takes the supports that act in another one, which is no state of its own")

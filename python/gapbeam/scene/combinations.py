@@ -21,7 +21,7 @@ from .sides import SIDES
 from .structs import Combination, Scene, Support
 from .tables import Table
 from .trains import joined, train_name
-from .wording import choice, key_of, number, shown
+from .wording import enumerated, key_of, number, shown
 
 MOST = 10_000
 """Combinations that patterns may make of those of a scene."""
@@ -188,7 +188,7 @@ def _check(i: int, combination: Combination, cases: dict[str, None], moving: set
     for key in (*combination.factors, *combination.expand):
         if key not in cases:
             where = f"{place}.{'factors' if key in combination.factors else 'expand'}.{key_of(key)}"
-            there = f"the cases are {choice(map(shown, cases), 'and')}" if cases else "the scene has no loads"
+            there = f"the cases are {enumerated(map(shown, cases))}" if cases else "the scene has no loads"
             raise SceneError(where, f"no load is of this case; {there}")
     for key, factor in combination.factors.items():
         if not isfinite(factor):
@@ -299,7 +299,7 @@ def _schemes(scene: Scene, names: list[str], origin: list[int]) -> tuple[int | N
             if wanted in heads:
                 first = next(name for name, k in zip(names, origin, strict=True) if heads[k] == wanted)
                 raise SceneError(place, f"{shown(wanted)} stands for several; name one of them, such as {shown(first)}")
-            raise SceneError(place, f"there is no combination {shown(wanted)}; there are {choice(map(shown, heads[:12]), 'and')}")
+            raise SceneError(place, f"there is no combination {shown(wanted)}; there are {enumerated(map(shown, heads))}")
         if scene.combinations[origin[numbers[wanted]]].scheme_of is not None:
             raise SceneError(place, f"{shown(wanted)} itself takes the scheme of another one; name that one")
         found.append(numbers[wanted])

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from ..base.errors import SceneError
-from ..base.hints import nearest
+from ..base.hints import few, nearest
 from .wording import key_of, shown
 
 S = TypeVar("S", bound=msgspec.Struct)
@@ -235,7 +235,7 @@ def _key(owner: Any, piece: str | int, place: str) -> str | int:
         if isinstance(k, int) and -len(owner) <= k < len(owner):
             return k % len(owner)
         known = [shown(name) for name in names if name is not None]
-        there = f"there are {len(owner)}" + (f", by name {', '.join(known[:12])}" if known else "")
+        there = f"there are {len(owner)}" + (f", by name {few(known)}" if known else "")
         raise SceneError(place, f"there is no entry {shown(piece)}; {there}")
     if isinstance(owner, Mapping):
         return piece

@@ -14,7 +14,7 @@ from ..base.characters import visible
 from ..base.errors import EngineError, SceneError
 from .structs import Scene
 from .tables import Table
-from .wording import choice, shown
+from .wording import enumerated, shown
 
 NAMED = ("supports", "foundation", "loads", "combinations")
 """Lists of a scene whose entries may have names."""
@@ -148,14 +148,8 @@ def find(items: Sequence[Any], key: str | int, place: str, noun: str) -> int:
         there = f"their numbers go from 0 to {len(items) - 1}" if len(items) else "there are none"
         raise SceneError(place, f"there is no {noun} {key}; {there}")
     known = [shown(name) for name in names if name is not None]
-    there = f"the names are {_few(known)}" if known else f"no {noun} has a name; give its number"
+    there = f"the names are {enumerated(known)}" if known else f"no {noun} has a name; give its number"
     raise SceneError(place, f"there is no {noun} {shown(key)}; {there}")
-
-
-def _few(words: Sequence[str], most: int = 12) -> str:
-    """Join words, of many only the first."""
-    more = len(words) - most
-    return choice(words, "and") if more <= 0 else ", ".join(words[:most]) + f" and {more} more"
 
 
 def check_names(scene: Scene) -> None:

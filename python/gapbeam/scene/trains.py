@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from ..base.errors import SceneError
 from ..engine.tolerances import END_TOLERANCE, POSITION_TOLERANCE
 from .structs import Scene, Train
-from .wording import choice, number, shown
+from .wording import enumerated, number, shown
 
 RIGHT, LEFT = "right", "left"
 """Directions in which a train goes."""
@@ -118,7 +118,7 @@ def _check_together(scene: Scene, train: Train, names: dict[str, int], place: st
         where = f"{place}.together[{k}]"
         _check_distance(f"{where}[1]", distance)
         if name not in names:
-            raise SceneError(f"{where}[0]", f"there is no train {shown(name)}; the names are {choice(map(shown, names), 'and')}")
+            raise SceneError(f"{where}[0]", f"there is no train {shown(name)}; the names are {enumerated(map(shown, names))}")
         if scene.trains[names[name]].together:
             problem = f"the train {shown(name)} is made of others itself; name trains that have axles"
             raise SceneError(f"{where}[0]", problem)

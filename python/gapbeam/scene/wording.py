@@ -14,6 +14,7 @@ import msgspec
 from msgspec import inspect
 
 from ..base.errors import SceneError
+from ..base.hints import few
 from .synonyms import meant_by_key, meant_by_value
 
 UNFAVOURABLE = (
@@ -182,6 +183,25 @@ def choice(words: Iterable[str], last: str = "or") -> str:
     """
     *head, tail = dict.fromkeys(words)
     return f"{', '.join(head)} {last} {tail}" if head else tail
+
+
+def enumerated(words: Iterable[str], most: int = 12) -> str:
+    """Join words to a list in a sentence, of many only the first.
+
+    Parameters
+    ----------
+    words : iterable of str
+        The words; equal ones count once.
+    most : int
+        How many are told.
+
+    Examples
+    --------
+    >>> enumerated(["a", "b", "c"]), enumerated(["a", "b", "c"], 2)
+    ('a, b and c', 'a, b and 1 more')
+    """
+    words = list(dict.fromkeys(words))
+    return few(words, most) if len(words) > most else choice(words, "and")
 
 
 def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneError:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.errors import SceneError
-from ...base.hints import nearest
+from ...base.hints import few, nearest
 from ...base.records import Pickled
 from ...engine.arrays import Columns
 from ...engine.beam import Beam
@@ -215,9 +215,8 @@ class Prepared(Pickled):
     @property
     def _loads(self) -> str:
         """Name the loads that factors are for, in their order."""
-        cases = [shown(case) for case in cases_of(self.scene.loads)[:12]]
-        more = f" and {len(self.scene.loads) - 12} more" if len(self.scene.loads) > 12 else ""
-        return f"; the loads are, by case, {', '.join(cases)}{more}" if cases else "; the scene has no loads"
+        cases = few(map(shown, cases_of(self.scene.loads)))
+        return f"; the loads are, by case, {cases}" if cases else "; the scene has no loads"
 
     def _checked(self, factors: ArrayLike | None) -> np.ndarray:
         count = len(self.scene.loads)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status, check_status
+from ...base.hints import few
 from ...base.records import Pickled
 from ...engine.beam import Beam
 from ...engine.combinations import Combined
@@ -151,8 +152,7 @@ class Combinations(Pickled, Mapping[str, Result]):
         return f"Combinations({self._few()})"
 
     def _few(self) -> str:
-        names = self._plan.names
-        return ", ".join(map(shown, names[:12])) + (f" and {len(names) - 12} more" if len(names) > 12 else "")
+        return few(map(shown, self._plan.names))
 
     def beam_of(self, k: int) -> Beam:
         """Make the beam of a combination, with its loads on it and its supports moved.

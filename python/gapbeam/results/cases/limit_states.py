@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...scene.wording import choice, shown
+from ...scene.wording import enumerated, shown
 
 if TYPE_CHECKING:
     from ..envelopes.envelope import Envelope
@@ -40,7 +40,7 @@ def members_of(name: str | None, limit_states: Sequence[str]) -> np.ndarray:
     found = np.array([one == name for one in limit_states], dtype=bool)
     if not (name and found.any()):
         there = list(dict.fromkeys(filter(None, limit_states)))
-        words = f"there is no {shown(name)}; there are {choice(map(shown, there), 'and')}" if there else (
+        words = f"there is no {shown(name)}; there are {enumerated(map(shown, there))}" if there else (
             'no combination has one; write for example limit_state = "ULS" into [[combinations]]')  # fmt: skip
         raise ValueError(f"limit_state: {words}")
     return found
