@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from ..base.errors import EngineError, SceneError
+from ..base.hints import few
 from ..results import formatting as fmt
 from ..results.answer import is_one_of_several
 from ..results.equilibrium import acting_axial_forces, axial_forces, feels_axial_force
@@ -178,8 +179,7 @@ def _values(result: Result, of: str) -> tuple[float, ...] | str:
 def _listed(values: tuple[float, ...] | str) -> str:
     if isinstance(values, str):
         return values
-    more = f" and {len(values) - MOST_MODES} more" if len(values) > MOST_MODES else ""
-    return ", ".join(fmt.number(value) for value in values[:MOST_MODES]) + more if values else "none"
+    return few(map(fmt.number, values), MOST_MODES) or "none"
 
 
 def _buckling_in_words(result: Result) -> str:

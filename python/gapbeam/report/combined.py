@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.characters import visible
+from ..base.hints import few
 from ..results import formatting as fmt
 from ..results.cases.limit_states import envelopes_to_tell
 from ..results.envelopes.envelope import AT_SUPPORTS
@@ -16,7 +17,7 @@ from ..results.views.extreme import IN_WORDS
 from ..scene.names import labels
 from ..scene.rotations import at_support, which_turn
 from .axial_force import write_modes_of_combinations
-from .ground import free_span_headings
+from .governing import rows_of_fields, write_governing_ground
 from .over_path import write_over_path
 from .signs import names_with_units, positive_fields, positive_reactions
 from .system import write_system
@@ -63,7 +64,7 @@ def write_combined(say: Writer, result: "CombinedResult", verbose: bool = False)
             of = f"{'all combinations' if name is None else visible(name)} {when}"
             _fields(say, result, envelope, of)
             _supports(say, result, envelope, of)
-            _foundations(say, result, envelope, of)
+            write_governing_ground(say, scene, envelope.foundations, f", {of}", ["combination"], _source)
         _factors_between(say, result)
         write_modes_of_combinations(say, result)
     write_over_path(say, result)
@@ -116,11 +117,10 @@ def _fallen(say: Writer, result: "CombinedResult") -> None:
         say.line("They are left out of what follows.")
 
 
-def _source(extreme: "Extreme | GroundExtreme") -> str:
+def _source(extreme: "Extreme | GroundExtreme") -> list[str]:
     """Name the combinations that an extreme comes from."""
     names = [visible(source.combination or "") for source in extreme.ties]
-    more = len(names) - 1 - MOST_TIES
-    return ", ".join(names[: 1 + MOST_TIES]) + (f" and {more} more" if more > 0 else "")
+    return [few(names, 1 + MOST_TIES)]
 
 
 def _reactions(say: Writer, result: "CombinedResult") -> None:
@@ -204,15 +204,10 @@ def _columns_of(reaction: np.ndarray, lifted: np.ndarray) -> list[int]:
 
 
 def _fields(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
-    scene, rows = result.scene, []
     say.heading(f"What governs, {of}")
-    for quantity, row in fmt.reported(envelope.extremes).items():
-        values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
-        for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
-            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
-            rows.append([name, words, fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS), _source(one)])
-    say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
-    say.line(f"{positive_fields(scene)} Combinations with equal values stand beside each other.", "dim")
+    rows = rows_of_fields(result.scene, envelope.extremes, _source)
+    say.table(["", "", "value", fmt.with_unit(result.scene, "x", "at x"), "combination"], rows, left=(0, 1, 4))
+    say.line(f"{positive_fields(result.scene)} Combinations with equal values stand beside each other.", "dim")
 
 
 def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
@@ -230,47 +225,17 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
         row = envelope.supports[k]
         for kind, words in IN_WORDS.items():
             one = row["reaction"][kind]
-            texts = [names[k] if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)]
+            texts = [names[k] if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(one)]
             if one_sided:
                 opening = row["opening"][kind]
                 far = fmt.shown(scene, at_support(scene, "opening", k), opening.value)
-                texts += [far, _source(opening) if opening.value else ""]
+                texts += [far, *(_source(opening) if opening.value else [""])]
             rows.append(texts)
     headings = ["", "", fmt.stacked(scene, "reaction"), "combination"]
     if one_sided:
         headings += [fmt.shown_column(scene, "opening", [])[0], "combination"]
     say.table(headings, rows, left=(0, 1, 3, 5), longest=len(rows))
     say.line(f"Reactions {positive_reactions(scene)} positive.", "dim")
-
-
-def _foundations(say: Writer, result: "CombinedResult", envelope: "Envelope", of: str) -> None:
-    """Tell what the foundations carry at most and at least, and where the beam hangs free."""
-    scene = result.scene
-    if not scene.foundation:
-        return
-    say.heading(f"Foundations, {of}")
-    names, found = fmt.numbered(scene.foundation), envelope.foundations
-    rows = []
-    for name, row in zip(names, found, strict=True):
-        for kind, words in IN_WORDS.items():
-            one = row["resultant"][kind]
-            rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), _source(one)])
-    say.table(["", "", fmt.stacked(scene, "resultant"), "combination"], rows, left=(0, 1, 3))
-    rows = []
-    for name, row in zip(names, found, strict=True):
-        for kind, one in row["free_span"].items():
-            if one is not None:
-                span = one.span
-                numbers = [fmt.number(value, 4) for value in (span.from_, span.to, span.to - span.from_)]
-                numbers.append(fmt.shown(scene, "sag", span.sag))
-                rows.append([name if kind == "longest" else "", kind, *numbers, _source(one)])
-    if not rows:
-        say.line(f"Resultants {positive_reactions(scene)} positive. There is no free span.", "dim")
-        return
-    say.line(f"Resultants {positive_reactions(scene)} positive.", "dim")
-    say.heading(f"Free spans, {of}")
-    say.table(["", "", *free_span_headings(scene), "combination"], rows, left=(0, 1, 6))
-    say.line("Clearance: largest distance between beam and ground.", "dim")
 
 
 def _factors_between(say: Writer, result: "CombinedResult") -> None:

@@ -1,4 +1,4 @@
-"""The ground in the report: the foundations, the zones in which they act, the stretches in which the beam hangs free."""
+"""The ground in the report: what there is, the zones in which it acts, where the beam hangs free, or slides along its axis."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -11,7 +11,7 @@ from ..results.state.ground import Contact, FreeSpan, joined, noun_of
 from ..scene.ground_tables import is_table, least_and_most
 from ..scene.names import label
 from .contact_history import symbol
-from .writer import LONGEST, Writer
+from .writer import LONGEST, Writer, left_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 24
 """Zones and free spans that are listed, a dozen of each; of more some in the middle are left out, and a summary stands below."""
+RIGID = float("inf")
 MOST_IN_A_ROW = 3
 """Zones whose ends are written out for every load step."""
 
@@ -58,7 +59,7 @@ def write_foundations(say: Writer, result: "Result", at: str) -> None:
         (fmt.stacked(scene, "length", "in contact"), fmt.column(touched, fmt.DIGITS)),
         (fmt.stacked(scene, "resultant"), fmt.column(carried, fmt.DIGITS)),
     ]
-    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left=(3,))
+    say.columns(columns, left=(3,))
     if not scene.supports:
         for line in balance_in_words(result, step):
             say.line(line, "dim")
@@ -96,7 +97,7 @@ def write_contact(say: Writer, result: "Result", at: str) -> None:
     if len(scene.foundation) > 1:
         columns.insert(0, ("foundation", [label(scene.foundation, item.foundation) for item in stretches]))
     left = next(k for k, (name, _) in enumerate(columns) if name == "state")
-    say.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), (left,), MOST_ROWS)
+    say.columns(columns, (left,), MOST_ROWS)
     if len(stretches) > MOST_ROWS:
         _summary(say, result, step)
     if any(free):
@@ -125,6 +126,41 @@ def write_contact_history(say: Writer, result: "Result") -> None:
     headings = ["load factor", fmt.stacked(result.scene, "length", "in contact"), fmt.stacked(result.scene, "resultant"),
                 clearance_heading(result.scene), fmt.stacked(result.scene, "x", "contact zones")]  # fmt: skip
     say.table(headings, [() if k in not_shown else next(texts) for k in range(len(steps))], left=(4,))
+
+
+def write_axial_ground(say: Writer, result: "Result", at: str) -> None:
+    """List the ground along the axis of the beam, and where the beam slides, or has slid last, over it.
+
+    Parameters
+    ----------
+    say, result, at
+        As for `write_foundations`.
+    """
+    scene, zones = result.scene, result.steps[-1].slip_zones
+    grounds = scene.axial_ground
+    if not grounds:
+        return
+    say.heading("Ground along the beam")
+    from_, to = zip(*(fmt.stretch(scene, item) for item in grounds), strict=True)
+    columns = [
+        ("", fmt.numbered(grounds)),
+        (fmt.stacked(scene, "x", "from"), fmt.column(from_, fmt.DIGITS)),
+        (fmt.stacked(scene, "x", "to"), fmt.column(to, fmt.DIGITS)),
+        (fmt.stacked(scene, "k", "stiffness"), ["rigid" if item.stiffness == RIGID else pair(item.stiffness) for item in grounds]),
+        (fmt.stacked(scene, "uniform", "limit"), ["none" if item.limit is None else pair(item.limit) for item in grounds]),
+    ]
+    say.columns(columns)
+    if not zones:
+        return
+    say.heading(f"Slip along the ground {at}")
+    rows = [
+        [fmt.number(one.from_, fmt.DIGITS), fmt.number(one.to, fmt.DIGITS), fmt.number(one.to - one.from_, fmt.DIGITS),
+         one.way, fmt.shown(scene, "reaction", one.friction)]
+        for one in zones[:LONGEST]
+    ]  # fmt: skip
+    say.table(["from", "to", "length", "way of the beam", fmt.shown_heading(scene, "reaction", "friction")], rows)
+    when = "Now, or last. " if all(one.stiffness == RIGID for one in grounds) else ""
+    say.line(f"{when}Friction on the beam: positive to the right.{left_out(len(zones))}", "dim")
 
 
 def _step_in_a_row(foundations: Sequence["Foundation"], step: "Step") -> tuple[float, float, float, str]:
@@ -177,12 +213,6 @@ def _place(item: Contact | FreeSpan) -> str:
 
 def _number(value: float) -> str:
     return fmt.number(value, 4)
-
-
-def free_span_headings(scene: "Scene") -> list[str]:
-    """Headings of a table of free spans: where, how long, how far above the ground."""
-    places = [fmt.stacked(scene, quantity, words) for quantity, words in (("x", "from"), ("x", "to"), ("length", "length"))]
-    return [*places, clearance_heading(scene)]
 
 
 def clearance_heading(scene: "Scene") -> str:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.characters import visible
+from ..base.hints import few
 from ..results import formatting as fmt
 from ..results.answer import has_cheap_envelope
 from ..results.envelopes.envelope import AT_SUPPORTS
@@ -12,6 +13,7 @@ from ..results.envelopes.hints import CLOSE
 from ..results.envelopes.over_path import is_followed
 from ..results.views.extreme import IN_WORDS
 from ..scene.rotations import at_support
+from .governing import rows_of_fields
 from .writer import Writer
 
 if TYPE_CHECKING:
@@ -53,7 +55,7 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
         return
     found = result.path_envelope()
     legs, beyond = len(scene.analysis.history) > 1, _beyond(found)
-    rows = _rows(result, found, legs)
+    rows = rows_of_fields(scene, found.extremes, lambda one: _where(one.source, legs))
     last = None if result.combinations else found.sources[-1]
     at_end = last is not None and all(one.source == last for row in found.extremes.values() for one in row.values())
     only_at_end = bool(at and at_end)
@@ -84,22 +86,9 @@ def write_over_path(say: Writer, result: "Result", at: str = "") -> None:
         say.line("All other supports have theirs at the start or at the end.", "dim")
     say.line(OVER[found.over], "dim")
     if found.missing:
-        factors = ", ".join(fmt.number(source.factor, 5) for source, _ in found.missing[:MOST_MISSING])
-        more = f" and {len(found.missing) - MOST_MISSING} more" if len(found.missing) > MOST_MISSING else ""
+        factors = few([fmt.number(source.factor, 5) for source, _ in found.missing], MOST_MISSING)
         why = visible(found.missing[0][1])
-        say.line(f"Not counted, since they could not be solved: load factor {factors}{more} ({why}).", "red")
-
-
-def _rows(result: "Result", found: "PathEnvelope", legs: bool) -> list[list[str]]:
-    """Rows of the values along the beam."""
-    scene, rows = result.scene, []
-    for quantity, row in fmt.reported(found.extremes).items():
-        values = fmt.without_noise(row[kind].value for kind in IN_WORDS)
-        for (kind, words), value in zip(IN_WORDS.items(), values, strict=True):
-            one, name = row[kind], fmt.shown_heading(scene, quantity) if kind == "max" else ""
-            where = [fmt.number(one.x, fmt.DIGITS), *_where(one.source, legs)]
-            rows.append([name, words, fmt.shown(scene, quantity, value), *where])
-    return rows
+        say.line(f"Not counted, since they could not be solved: load factor {factors} ({why}).", "red")
 
 
 def _chosen(found: "PathEnvelope", beyond: list[tuple[int, str, str]]) -> list[tuple[int, str, str]]:

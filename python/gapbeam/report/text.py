@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.characters import visible
+from ..base.hints import few
 from ..results import formatting as fmt
 from ..results.answer import MOST_LIMITS, answer, has_cheap_envelope, headline, known_envelope
 from ..results.envelopes.over_path import is_followed
@@ -21,10 +22,9 @@ from ..results.state.step import BOUNDED
 from ..scene.names import label, labels
 from ..scene.rotations import at_support, which_turn
 from .axial_force import axial_forces_in_words, some_of, write_axial_force
-from .axial_ground import write_axial_ground
 from .combined import bound_in_words, write_combined
 from .contact_history import contact_table, event_table, legend, merged, symbol
-from .ground import write_contact, write_contact_history, write_foundations
+from .ground import write_axial_ground, write_contact, write_contact_history, write_foundations
 from .over_path import write_over_path
 from .signs import positive_along, positive_fields, positive_reactions
 from .system import write_system
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 
 VALUES, VALUE_COLUMN = ("Largest ", "Axial displacement "), 20
 """How lines with the largest values begin, and where the values do."""
-MOST_EVENTS = 40
-"""Events that the report lists."""
+MOST_EVENTS, MOST_TOLD = 40, 10
+"""Events that the report lists, and supports that a sentence names."""
 
 
 def print_report(result: "Result", console: "Console | None" = None, verbose: bool = False) -> None:
@@ -119,8 +119,7 @@ def _answer(say: "Writer", result: "Result") -> None:
     rough = [segment.stop for segment in result.segments if not getattr(segment, "exact", True)]
     rough += [limit.factor for limit in result.limits if not limit.exact and limit.factor not in rough]
     if rough:
-        more = f" and {len(rough) - MOST_LIMITS} more" if len(rough) > MOST_LIMITS else ""
-        which = ", ".join(fmt.number(factor, 5) for factor in rough[:MOST_LIMITS]) + more
+        which = few([fmt.number(factor, 5) for factor in rough], MOST_LIMITS)
         say.line(f"Known on the polylines of the smooth laws only, to about one part in a hundred: load factor {which}.")
     for words in answer(result):
         say.line(_hanging(words, say.width), "red" if words.startswith(SIGN) or " EXCEEDED: " in words else "")
@@ -245,9 +244,8 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
     say.line(f"{signs}; {', '.join(f'{counts[state]:,} {state}' for state in sorted(counts))}.", "dim")
     along = {"right": positive_along(scene), "left": "upward" if upright else "to the left"}
     if slides := [f"{name} {along[way]}" for name, way in zip(labels(scene.supports), step.sliding, strict=True) if way in along]:
-        more = f" and {len(slides) - 10} more" if len(slides) > 10 else ""
         signs = f"Friction and slip: positive {positive_along(scene)}."
-        say.line(f"The beam slides over support {', '.join(slides[:10])}{more}. {signs}", "dim")
+        say.line(f"The beam slides over support {few(slides, MOST_TOLD)}. {signs}", "dim")
     _restraints_of_open_supports(say, result)
 
 
@@ -307,8 +305,7 @@ def _restraints_of_open_supports(say: "Writer", result: "Result") -> None:
         if state == "open" and support.rotation not in ("free", 0.0)
     ]
     if held:
-        more = f" and {len(held) - 10} more" if len(held) > 10 else ""
-        say.line(f"No contact, but the rotation is still held: support {', '.join(held[:10])}{more}.")
+        say.line(f"No contact, but the rotation is still held: support {few(held, MOST_TOLD)}.")
 
 
 def _extremes(say: "Writer", result: "Result", at: str) -> None:
@@ -364,10 +361,9 @@ def _doubts(say: "Writer", result: "Result") -> None:
         words = {False: "Reaction and opening are zero, so contact is undecided", True: "Exactly at a kink of its curve"}
         for with_law, what in words.items():
             which = [k for k in step.undecided if (result.scene.supports[k].law is not None) == with_law]
-            names = ", ".join(f"{label(result.scene.supports, k)} (x = {x[k]:g})" for k in which[:10])
-            more = f" and {len(which) - 10} more" if len(which) > 10 else ""
             if which:
-                say.line(f"{what}: support {names}{more}.")
+                names = few([f"{label(result.scene.supports, k)} (x = {x[k]:g})" for k in which], MOST_TOLD)
+                say.line(f"{what}: support {names}.")
 
 
 def _events(say: "Writer", result: "Result") -> None:

@@ -1,5 +1,6 @@
 """Trains in the report: what governs, then what happens to the supports on the way."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..results.trains.data import passing_trains
 from ..results.views.extreme import IN_WORDS
 from ..scene.rotations import at_support
 from ..scene.trains import LEFT
-from .ground import free_span_headings
+from .governing import rows_of_fields, write_governing_ground
 from .signs import names_with_units, positive_fields, positive_reactions
 from .writer import Writer, chosen
 
@@ -47,7 +48,8 @@ def write_trains(say: Writer, result: "Result") -> None:
         of = "" if name is None else f", {visible(name)}"
         _fields(say, result, envelope, of)
         _supports(say, result, envelope, of)
-        _foundations(say, result, envelope, of)
+        when, source = f" while trains pass{of}", partial(_source, result)
+        write_governing_ground(say, result.scene, envelope.foundations, when, _headings(result), source)
     _events(say, result)
 
 
@@ -66,16 +68,9 @@ def _headings(result: "Result") -> list[str]:
 
 
 def _fields(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
-    scene, rows = result.scene, []
+    scene = result.scene
     say.heading(f"What governs while trains pass, all other loads in full{of}")
-    for quantity, row in fmt.reported(envelope.extremes).items():
-        for kind, words in IN_WORDS.items():
-            one = row[kind]
-            if one is not None:
-                name = fmt.shown_heading(scene, quantity) if kind == "max" else ""
-                value, *_ = fmt.without_noise([one.value, *(other.value for other in row.values() if other is not None)])
-                texts = [fmt.shown(scene, quantity, value), fmt.number(one.x, fmt.DIGITS)]
-                rows.append([name, words, *texts, *_source(result, one)])
+    rows = rows_of_fields(scene, envelope.extremes, partial(_source, result))
     say.table(["", "", "value", fmt.with_unit(scene, "x", "at x"), *_headings(result)], rows, (0, 1, 4, 5))
     say.line("Positions are those of the first axle. Others: positions or trains with the same value. Where a field jumps the "
              f"larger side counts. {positive_fields(scene)}", "dim")  # fmt: skip
@@ -113,31 +108,6 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
     length, _ = fmt.shown_unit(scene, "opening")
     unit = f" in {length}" if length else ""
     say.line(f"Reactions {positive_reactions(scene)} positive; openings{unit} where there are any.", "dim")
-
-
-def _foundations(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str) -> None:
-    """What the foundations carry at most and at least, and where the beam hangs free."""
-    scene = result.scene
-    if not scene.foundation:
-        return
-    rows, spans = [], []
-    for name, row in zip(fmt.numbered(scene.foundation), envelope.foundations, strict=True):
-        for kind, words in IN_WORDS.items():
-            one = row["resultant"][kind]
-            if one is not None:
-                rows.append([name if kind == "max" else "", words, fmt.number(one.value, fmt.DIGITS), *_source(result, one)])
-        for kind, one in row["free_span"].items():
-            if one is not None:
-                ends = one.span.from_, one.span.to, one.span.to - one.span.from_
-                numbers = [*(fmt.number(value, 4) for value in ends), fmt.shown(scene, "sag", one.span.sag)]
-                spans.append([name if kind == "longest" else "", kind, *numbers, *_source(result, one)])
-    say.heading(f"Foundations while trains pass{of}")
-    say.table(["", "", fmt.stacked(scene, "resultant"), *_headings(result)], rows, (0, 1, 3, 4))
-    say.line(f"Resultants {positive_reactions(scene)} positive." + ("" if spans else " There is no free span."), "dim")
-    if spans:
-        say.heading(f"Free spans while trains pass{of}")
-        say.table(["", "", *free_span_headings(scene), *_headings(result)], spans, (0, 1, 6, 7))
-        say.line("Clearance: largest distance between beam and ground.", "dim")
 
 
 def _events(say: Writer, result: "Result") -> None:

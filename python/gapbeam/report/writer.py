@@ -55,11 +55,11 @@ class Writer:
         """
         shown, hidden = cut(rows, longest)
         columns = [list(texts) for texts in zip(headings, *shown, strict=True)]
-        for number, part in enumerate(parts_of_table(columns, self.width, whole)):
+        for number, part in enumerate(_parts_of_table(columns, self.width, whole)):
             if number:
                 self.line()
             table = Table(box=PLAIN if self.plain else box.SIMPLE_HEAD, show_edge=False, padding=(0, 1, 0, 0))
-            for k, width in zip(part, widths_of_columns([columns[k] for k in part], self.width), strict=True):
+            for k, width in zip(part, _widths_of_columns([columns[k] for k in part], self.width), strict=True):
                 justify = "left" if k in left else "right"
                 table.add_column(Text(headings[k]), justify=justify, overflow="fold", vertical="top", width=width)
             for index, row in enumerate(shown):
@@ -71,6 +71,12 @@ class Writer:
             self.line(
                 f"{hidden:,} rows in the middle are left out here; all are in the output of --json.", "italic"
             )
+
+    def columns(
+        self, columns: Sequence[tuple[str, Sequence[str]]], left: Sequence[int] = (), longest: int = LONGEST
+    ) -> None:  # fmt: skip
+        """Write a table as `table` does, given as columns: the heading and the texts of each."""
+        self.table([name for name, _ in columns], list(zip(*(texts for _, texts in columns), strict=True)), left, longest)
 
     def table_by_name(self, headings: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         """Write a table of numbers by name, with whole names: columns that do not fit stand below, by name again."""
@@ -90,31 +96,19 @@ class Writer:
 PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
 
 
-def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[int | None]:
-    """Choose widths that break no word, where all texts do not fit but all words do.
-
-    Parameters
-    ----------
-    columns : sequence of sequence of str
-        Heading and cells of each.
-    width : int
-        Of all of them.
-
-    Returns
-    -------
-    sequence of int or None
-        None: as the table has it by itself.
+def _widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[int | None]:
+    """Choose widths that break no word, where all texts do not fit but all words do; None: as the table has it by itself.
 
     Examples
     --------
-    >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 18)
+    >>> _widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 18)
     [8, 7]
-    >>> widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 80)
+    >>> _widths_of_columns([["reaction kN", "2.11"], ["slip mm", "0.5"]], 80)
     [None, None]
     """
     room = width - GAP * len(columns) + 1
-    wanted = widest_lines(columns)
-    least = widest_words(columns)
+    wanted = _widest_lines(columns)
+    least = _widest_words(columns)
     if sum(wanted) <= room or sum(least) > room:
         return [None] * len(columns)
     while sum(wanted) > room:  # the widest one that can gives way
@@ -123,42 +117,31 @@ def widths_of_columns(columns: Sequence[Sequence[str]], width: int) -> Sequence[
     return wanted
 
 
-def widest_lines(columns: Sequence[Sequence[str]]) -> list[int]:
+def _widest_lines(columns: Sequence[Sequence[str]]) -> list[int]:
     """Measure the widest line of every column."""
     return [max(cell_len(line) for text in texts for line in text.split("\n")) for texts in columns]
 
 
-def widest_words(columns: Sequence[Sequence[str]]) -> list[int]:
+def _widest_words(columns: Sequence[Sequence[str]]) -> list[int]:
     """Measure the widest word of every column."""
     return [max((cell_len(word) for text in texts for word in text.split()), default=0) for texts in columns]
 
 
-def parts_of_table(columns: Sequence[Sequence[str]], width: int, whole: bool = False) -> list[list[int]]:
+def _parts_of_table(columns: Sequence[Sequence[str]], width: int, whole: bool = False) -> list[list[int]]:
     """Divide the columns of a table whose words do not fit beside one another; the first one stands in every part.
 
-    Parameters
-    ----------
-    columns : sequence of sequence of str
-        Heading and cells of each. One with the heading of another one, such as ``from``, stands with the one before it.
-    width : int
-        Of the page.
-    whole : bool
-        Whether texts are not broken at blanks where columns may stand below instead.
-
-    Returns
-    -------
-    list of list of int
-        Numbers of columns.
+    One with the heading of another one, such as ``from``, stands with the one before it. Where `whole`, texts are not broken at
+    blanks if columns may stand below instead.
 
     Examples
     --------
-    >>> parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 18)
+    >>> _parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 18)
     [[0, 1], [0, 2]]
-    >>> parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 24)
+    >>> _parts_of_table([["support", "A"], ["reaction", "2.11"], ["slip", "0.5"]], 24)
     [[0, 1, 2]]
     """
-    wide = [one + GAP for one in widest_lines(columns)]
-    if not whole and sum(widest_words(columns)) + GAP * len(columns) - 1 <= width:
+    wide = [one + GAP for one in _widest_lines(columns)]
+    if not whole and sum(_widest_words(columns)) + GAP * len(columns) - 1 <= width:
         return [list(range(len(columns)))]
     often = Counter(heading for heading, *_ in columns)
     parts: list[list[int]] = [[0]]
