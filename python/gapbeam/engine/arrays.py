@@ -300,6 +300,11 @@ class Places(Record):
     support_nodes: np.ndarray
     levels: np.ndarray
 
+    def x_of(self, piece: np.ndarray, distance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Give the places at distances from the left ends of pieces, numbered from 0, and which of them are right ends."""
+        at_end = distance == self.pieces[piece, 0]
+        return np.where(at_end, self.point_x[piece + 1], self.point_x[piece] + distance), at_end
+
 
 def extended(closed: np.ndarray) -> np.ndarray:
     """Copy a scheme, with one entry more."""

@@ -6,15 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..base.errors import EngineError
-from ..scene.structs import Scene
+from ..scene.names import name_data
 from .envelopes.over_path import is_followed
 from .paths.branches import BranchPath
 from .paths.dissipation import dissipated
-from .paths.ground_path import GroundEvent
-from .paths.path import Event
 from .state.fields import Fields
 from .state.step import Step
-from .trains.data import trains_data
+from .trains.data import event_data, trains_data
 
 if TYPE_CHECKING:
     import numpy as np
@@ -101,7 +99,7 @@ def lifted_data(result: Result) -> list[dict[str, Any]]:
         Number and name of the support, its largest opening, and where that is from.
     """
     supports = result.scene.supports
-    return [{**one.to_dict(), **name_of(supports[one.support])} for one in result.lifted]
+    return [{**one.to_dict(), **name_data(supports[one.support])} for one in result.lifted]
 
 
 def limits_data(result: Result) -> dict[str, Any]:
@@ -144,46 +142,6 @@ def modes_data(result: Result) -> dict[str, Any]:
     return found
 
 
-def name_of(item: Any) -> dict[str, str]:
-    """Give the name of an entry of a scene as plain data.
-
-    Parameters
-    ----------
-    item : Support, Foundation or load
-        The entry.
-
-    Returns
-    -------
-    dict
-        Empty where it has none.
-    """
-    return {} if item.name is None else {"name": item.name}
-
-
-def event_data(event: Event | GroundEvent, scene: Scene) -> dict[str, Any]:
-    """Give an event as plain data.
-
-    Parameters
-    ----------
-    event : Event or GroundEvent
-        Of a support, or of a zone of contact with the ground.
-    scene : Scene
-        Knows their names.
-
-    Returns
-    -------
-    dict
-        ``support`` or ``foundation`` is there, the number of what changes; ``branch`` only beyond the first.
-    """
-    if event.support is not None:
-        what = {"support": event.support, **name_of(scene.supports[event.support])}
-    else:
-        what = {"foundation": event.foundation, **name_of(scene.foundation[event.foundation])}
-    branch = getattr(event, "branch", 1)
-    further = {"branch": branch} if branch != 1 else {}
-    return {"factor": event.factor, **what, "x": event.x, "event": event.event, **further}
-
-
 def limit_data(result: Result) -> dict[str, Any]:
     """Give the first limit of the load as plain data.
 
@@ -221,7 +179,7 @@ def _support_data(result: Result, step: Step, x: list[float], lost: np.ndarray |
     columns = (step.deflection, step.reaction, step.opening, step.couple, step.set)
     return [
         {
-            **name_of(support),
+            **name_data(support),
             "x": x[k],
             "side": support.side,
             "direction": support.direction,
@@ -258,7 +216,7 @@ def ground_data(result: Result, step: Step) -> dict[str, Any]:
     """
     if not result.scene.foundation:
         return {}
-    names = [name_of(item) for item in result.scene.foundation]
+    names = [name_data(item) for item in result.scene.foundation]
     return {
         "contact": [
             {

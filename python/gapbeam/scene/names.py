@@ -33,6 +33,22 @@ def names_of(items: Sequence[Any]) -> list[str | None]:
     return column_of(items, "name")
 
 
+def name_data(item: Any) -> dict[str, str]:
+    """Give the name of an entry of a scene as plain data, empty where it has none."""
+    return {} if item.name is None else {"name": item.name}
+
+
+def names_data(items: Sequence[Any]) -> list[dict[str, str]]:
+    """Give the names of entries as plain data, each empty where there is none.
+
+    Parameters
+    ----------
+    items : sequence
+        A list of a scene.
+    """
+    return [{} if name is None else {"name": name} for name in names_of(items)]
+
+
 def cases_of(items: Sequence[Any]) -> list[str]:
     """Give the cases of loads.
 

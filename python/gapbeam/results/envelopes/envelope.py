@@ -11,10 +11,9 @@ import numpy as np
 
 from ...base.records import Record
 from ...engine.quantities import FIELDS
-from ...scene.names import names_of
 from ..state.state_extremes import StateExtreme
 from ..views.extreme import Extreme, Extremes, Source
-from .ground_envelope import GroundExtreme, find_ground_extremes, ground_extremes_data
+from .ground_envelope import GroundExtreme, find_ground_extremes
 from .tables import curves_with_sources, support_places
 from .verbs import PartVerbs
 
@@ -105,6 +104,7 @@ class Curves(Record):
     smallest: dict[str, np.ndarray]
     largest_of: dict[str, np.ndarray]
     smallest_of: dict[str, np.ndarray]
+    _beside: ClassVar = {"max_of": "largest_of", "min_of": "smallest_of"}
 
     def columns(self) -> dict[str, np.ndarray]:
         """As columns of a table, for example for pandas.
@@ -118,6 +118,12 @@ class Curves(Record):
         for name in self.largest:
             found |= {f"{name}_max": self.largest[name], f"{name}_min": self.smallest[name]}
         return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data, in the form of the JSON output; None for what is no number."""
+        tables = {"max": self.largest, "min": self.smallest} | {key: getattr(self, name) for key, name in self._beside.items()}
+        fields = {name: {key: _numbers(of[name]) for key, of in tables.items()} for name in self.largest}
+        return {"x": self.x.tolist(), **fields}
 
 
 class SupportExtremes(Sequence):
@@ -316,39 +322,9 @@ class Envelope(PartVerbs):
         """
         return curves_with_sources(self.fields, self.sources, self._keys)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything as plain data, in the form of the JSON output.
 
-        Returns
-        -------
-        dict
-            Only numbers, strings, lists and dicts.
-        """
-        names = names_of(self.scene.supports)
-        curves = self.fields
-        return {
-            "supports": [
-                {
-                    **({} if names[k] is None else {"name": names[k]}),
-                    **{name: {kind: [one.value, one.to_dict()] for kind, one in row.items()} for name, row in support.items()},
-                }
-                for k, support in enumerate(self.supports)
-            ],
-            **({"foundations": ground_extremes_data(self)} if self.scene.foundation else {}),
-            "extremes": {
-                name: {kind: [one.value, one.x, one.to_dict()] for kind, one in row.items()} for name, row in self.extremes.items()
-            },
-            "fields": {
-                "x": curves.x.tolist(),
-                **{
-                    name: {
-                        "max": curves.largest[name].tolist(), "min": curves.smallest[name].tolist(),
-                        "max_of": curves.largest_of[name].tolist(), "min_of": curves.smallest_of[name].tolist(),
-                    }
-                    for name in self._fields
-                },
-            },
-        }  # fmt: skip
+def _numbers(values: np.ndarray) -> list[float | None]:
+    return [value if np.isfinite(value) else None for value in values.tolist()]
 
 
 def _joined(x: np.ndarray, best: np.ndarray, of: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -44,13 +44,18 @@ def envelope_of_one(result: Result, points: int, x: np.ndarray | None = None) ->
 def _curves(result: Result, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
     """Places along the beam, and the fields there."""
     if x is not None:
-        both = np.tile(x, 2)
-        return both, iter([(slice(0, 1), fields_on_sides(result, both, np.arange(len(both)) >= len(x))[None])])
+        x, left = on_both_sides(x)
+        return x, iter([(slice(0, 1), fields_on_sides(result, x, left)[None])])
     fields = result.fields(points=points).columns()
     values = np.full((1, len(fields["x"]), len(FIELDS)), np.nan)
     for name, column in result._beam.fields.items():
         values[0, :, column] = fields[name]
     return fields["x"], iter([(slice(0, 1), values)])
+
+
+def on_both_sides(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Give places twice, and which of them are meant from the left: those of the second half."""
+    return np.tile(x, 2), np.arange(2 * len(x)) >= len(x)
 
 
 def fields_on_sides(result: Result, x: np.ndarray, left: np.ndarray, state: Step | None = None) -> np.ndarray:

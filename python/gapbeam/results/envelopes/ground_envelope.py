@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...scene.names import names_of
 from ..state.ground import FreeSpan
 from ..views.extreme import Extreme
 
@@ -128,28 +127,3 @@ def _largest(of: Envelope, quantity: str, foundation: int, spans: Sequence[tuple
     which = np.flatnonzero(values >= values.max() - near).tolist()
     combinations = list(dict.fromkeys(spans[k][0] for k in which))
     return GroundExtreme(of, quantity, float(values[which[0]]), foundation, spans[which[0]][1], combinations)
-
-
-def ground_extremes_data(of: Envelope) -> list[dict[str, Any]]:
-    """Give the extremes of all foundations as plain data.
-
-    Parameters
-    ----------
-    of : Envelope
-        Whose they are.
-
-    Returns
-    -------
-    list of dict
-        Every value beside its source, as for supports.
-    """
-    return [
-        {
-            **({} if name is None else {"name": name}),
-            **{
-                quantity: {kind: [one.value, one.to_dict()] for kind, one in row.items() if one is not None}
-                for quantity, row in rows.items()
-            },
-        }
-        for name, rows in zip(names_of(of.scene.foundation), of.foundations, strict=True)
-    ]

@@ -18,11 +18,11 @@ from ...base.memory import refuse_beyond
 from ...base.records import read_only
 from ...engine.beam import SOLVED
 from ...engine.quantities import FIELDS
-from ...scene.names import names_of
+from ...scene.names import names_data
 from ..paths.branches import CURVE, BranchPath
 from ..views.extreme import Source
 from .envelope import AT_SUPPORTS, OF_SUPPORTS, Envelope
-from .full_load import fields_on_sides
+from .full_load import fields_on_sides, on_both_sides
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -187,14 +187,10 @@ class PathEnvelope(Envelope):
 
     def _curves(self, points: int, x: np.ndarray | None) -> tuple[np.ndarray, Iterator[tuple[slice, np.ndarray]]]:
         """Places along the beam, and the fields there of one state after the other."""
-        beam = self._results[0]._beam
         if x is not None:
-            x, left = np.tile(x, 2), np.arange(2 * len(x)) >= len(x)
+            x, left = on_both_sides(x)
         else:
-            piece, distance = self._results[0]._places_along(points)
-            lengths, points_x = beam.places.pieces[:, 0], beam.places.point_x
-            left = distance == lengths[piece]
-            x = np.where(left, points_x[piece + 1], points_x[piece] + distance)
+            x, left = self._results[0]._beam.places.x_of(*self._results[0]._places_along(points))
         return x, (
             (slice(k, k + 1), fields_on_sides(one, x, left, step)[None])
             for k, (one, step) in enumerate(zip(self._results, self._states, strict=True))
@@ -218,9 +214,9 @@ class PathEnvelope(Envelope):
         supports = [
             {
                 "support": k,
-                **({} if name is None else {"name": name}),
+                **name,
                 **{what: {kind: [one.value, one.source.to_dict()] for kind, one in row[what].items()} for what in OF_SUPPORTS},
             }
-            for k, (name, row) in enumerate(zip(names_of(self.scene.supports), self.supports, strict=True))
+            for k, (name, row) in enumerate(zip(names_data(self.scene.supports), self.supports, strict=True))
         ]
         return {"over": self.over, **fields, "supports": supports, **({"missing": missing} if missing else {})}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from ...scene.names import names_data
 from ..views.columns import Columns, one_of
 from ..views.labelled import Labelled, by_support
 from ..views.shown import Shown
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from ..result import Result
     from ..state.fields import Fields
     from ..trains.envelope import TrainEnvelope
+    from ..views.extreme import Extreme
     from .envelope import Curves, Envelope
 
 
@@ -97,6 +100,7 @@ class PartVerbs(Shown):
         return self._result.envelope(x=x).fields
 
     _kinds = ("supports", "fields")
+    _tells_what_is_not_solved = False  # in plain data, as an empty list
     meant: ClassVar = {"historyextremes": "extremes, which are those of the envelope", "steps": "the steps of the result"}
 
     def table(self, kind: str = "supports") -> Columns:
@@ -119,3 +123,28 @@ class PartVerbs(Shown):
         """
         ranges = self._ranges
         return Columns((ranges.supports if one_of(kind, self._kinds) == "supports" else ranges).columns())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data, in the form of the JSON output.
+
+        Returns
+        -------
+        dict
+            Only numbers, strings, lists and dicts.
+        """
+        scene = self.scene
+
+        def pairs(row: Mapping[str, Extreme | None], with_x: bool = False) -> dict[str, list[Any]]:
+            told = {kind: one for kind, one in row.items() if one is not None or self._tells_what_is_not_solved}
+            return {kind: [] if one is None else [one.value, *[one.x] * with_x, one.to_dict()] for kind, one in told.items()}
+
+        def rows(items: Sequence[Any], found: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+            named = zip(names_data(items), found, strict=True)
+            return [{**name, **{what: pairs(row) for what, row in one.items()}} for name, one in named]
+
+        return {
+            "supports": rows(scene.supports, self.supports),
+            **({"foundations": rows(scene.foundation, self.foundations)} if scene.foundation else {}),
+            "extremes": {name: pairs(row, with_x=True) for name, row in self.extremes.items()},
+            "fields": self.fields.to_dict(),
+        }

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ...scene.names import name_data
+
 if TYPE_CHECKING:
     from ...scene.structs import Scene
+    from ..paths.ground_path import GroundEvent
+    from ..paths.path import Event
     from ..result import Result
     from .trains import TrainResult
     from .traversals import TrainEvent
@@ -88,7 +92,7 @@ def train_data(train: TrainResult, scene: Scene, combination: str | None = None)
         "name": train.name,
         **({} if combination is None else {"combination": combination}),
         "case": train.train.case,
-        "events": [_event(event, scene) for event in train.events],
+        "events": [event_data(event, scene) for event in train.events],
         "gaps": [
             {"from": gap.from_, "to": gap.to, "status": gap.status, "reason": gap.reason, "direction": gap.direction}
             for gap in train.unstable_positions
@@ -97,12 +101,27 @@ def train_data(train: TrainResult, scene: Scene, combination: str | None = None)
     }
 
 
-def _event(event: TrainEvent, scene: Scene) -> dict[str, Any]:
-    """Give an event as plain data."""
-    of_support = event.support is not None
-    what, number = ("support", event.support) if of_support else ("foundation", event.foundation)
-    name = (scene.supports if of_support else scene.foundation)[number].name
-    return {
-        "position": event.position, what: number, **({} if name is None else {"name": name}),
-        "x": event.x, "event": event.event, **({} if event.branch == 1 else {"branch": event.branch}), "direction": event.direction,
-    }  # fmt: skip
+def event_data(event: Event | GroundEvent | TrainEvent, scene: Scene) -> dict[str, Any]:
+    """Give an event as plain data.
+
+    Parameters
+    ----------
+    event : Event, GroundEvent or TrainEvent
+        Of a support, or of a zone of contact with the ground.
+    scene : Scene
+        Knows their names.
+
+    Returns
+    -------
+    dict
+        ``factor``, or ``position`` and ``direction`` of a train; ``support`` or ``foundation`` is there, the number of what
+        changes; ``branch`` only beyond the first.
+    """
+    kind, items = ("support", scene.supports) if event.support is not None else ("foundation", scene.foundation)
+    number, branch = getattr(event, kind), getattr(event, "branch", 1)
+    found = {kind: number, **name_data(items[number]), "x": event.x, "event": event.event}
+    found |= {"branch": branch} if branch != 1 else {}
+    position = getattr(event, "position", None)
+    if position is None:
+        return {"factor": event.factor, **found}
+    return {"position": position, **found, "direction": event.direction}

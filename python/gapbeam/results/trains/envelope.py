@@ -13,7 +13,6 @@ import numpy as np
 
 from ...engine.beam import Beam
 from ...engine.tolerances import END_TOLERANCE, TRAIN_EQUAL
-from ...scene.names import names_of
 from ..envelopes.envelope import Curves
 from ..envelopes.tables import SupportRows, curves_with_sources
 from ..envelopes.verbs import PartVerbs
@@ -44,6 +43,7 @@ class TrainCurves(Curves):
 
     largest_at: dict[str, np.ndarray]
     smallest_at: dict[str, np.ndarray]
+    _beside: ClassVar = {"max_at": "largest_at", "min_at": "smallest_at"}
 
 
 class TrainEnvelope(PartVerbs):
@@ -77,6 +77,7 @@ class TrainEnvelope(PartVerbs):
         return self.unstable_positions
 
     renamed: ClassVar = {"members": "_members"}
+    _tells_what_is_not_solved = True
 
     def _curves_at(self, x: Any) -> TrainCurves:
         return TrainEnvelope(self._result, self._members, places_given(self._result._beam, x)).fields
@@ -175,59 +176,6 @@ class TrainEnvelope(PartVerbs):
         positions = {f"{name}_max_position": where for name, where in curves.largest_at.items()}
         positions |= {f"{name}_min_position": where for name, where in curves.smallest_at.items()}
         return curves_with_sources(curves, self._members, keys) | positions
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything as plain data, in the form of the JSON output.
-
-        Returns
-        -------
-        dict
-            Only numbers, strings, lists and dicts.
-        """
-        names, curves = names_of(self._result.scene.supports), self.fields
-        return {
-            "supports": [
-                {
-                    **({} if names[k] is None else {"name": names[k]}),
-                    **{name: {kind: _pair(one) for kind, one in row.items()} for name, row in support.items()},
-                }
-                for k, support in enumerate(self.supports)
-            ],
-            **({"foundations": self._foundations_data()} if self.foundations else {}),
-            "extremes": {
-                name: {kind: _pair(one, with_x=True) for kind, one in row.items()} for name, row in self.extremes.items()
-            },
-            "fields": {
-                "x": curves.x.tolist(),
-                **{
-                    name: {
-                        "max": _numbers(curves.largest[name]), "min": _numbers(curves.smallest[name]),
-                        "max_at": _numbers(curves.largest_at[name]), "min_at": _numbers(curves.smallest_at[name]),
-                    }
-                    for name in curves.largest
-                },
-            },
-        }  # fmt: skip
-
-    def _foundations_data(self) -> list[dict[str, Any]]:
-        names = names_of(self._result.scene.foundation)
-        return [
-            {
-                **({} if name is None else {"name": name}),
-                **{what: {kind: _pair(one) for kind, one in kinds.items()} for what, kinds in row.items()},
-            }
-            for name, row in zip(names, self.foundations, strict=True)
-        ]
-
-
-def _pair(extreme: TrainExtreme | None, with_x: bool = False) -> list[Any]:
-    if extreme is None:
-        return []
-    return [extreme.value, *([extreme.x] if with_x else []), extreme.to_dict()]
-
-
-def _numbers(values: np.ndarray) -> list[float | None]:
-    return [value if np.isfinite(value) else None for value in values.tolist()]
 
 
 def _merged(found: list[list[TrainExtreme]], i: int) -> TrainExtreme | None:
