@@ -61,10 +61,9 @@ class PlacedRecorder(Recorder):
             found = {"w": w, "m": m[:-1], "m_left": left}
         else:
             piece, distance = self.grid
-            lengths = self._beam.places.pieces[:, 0]
-            x = np.where(distance == lengths[piece], self.x[piece + 1], self.x[piece] + distance)
-            values = one.values(x, distance == lengths[piece])
-            moment, shear = self._of_axles(one, loads, piece, x, distance == lengths[piece])
+            x, at_end = self._beam.places.x_of(piece, distance)
+            values = one.values(x, at_end)
+            moment, shear = self._of_axles(one, loads, piece, x, at_end)
             found = {"w": values[0], "m": values[2] - moment, "v": values[3] - shear, "p": values[6]}
         rows = one.at_supports if self.with_reactions else ()
         return found | dict(zip(AT_SUPPORTS, rows if self.turning else rows[:1], strict=False))

@@ -119,7 +119,7 @@ class Verbs(Shown, States):
         if train is not None:
             raise ValueError("train: give its position too, as position = 0.0")
         if leg is None:
-            return super().at(x, step, side, factor)
+            return self.at_state(self._chosen(step, factor), x, side)
         if factor is None or step is not None:
             raise ValueError("leg: give the load factor on it too, as factor = 1.0, and no step")
         return self.at_state(self.state(factor, leg), x, side)

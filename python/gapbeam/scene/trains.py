@@ -40,6 +40,21 @@ class Course(NamedTuple):
     from_: float
     to: float
 
+    def acting(self, position: float, end: float, near: float) -> np.ndarray:
+        """Tell which axles act at a position on a beam of a length, those nearer to its ends than `near` included."""
+        x = position + self.offset
+        return (x >= -near) & (x <= end + near)
+
+    def loads(self, position: float, end: float, near: float, acts: np.ndarray) -> list[tuple[float, float, float]]:
+        """Give what acts at a position: place or left end, right end (0 of an axle), value."""
+        x = np.clip(position + self.offset[acts], 0.0, end)
+        found = [(place, 0.0, force) for place, force in zip(x.tolist(), self.force[acts].tolist(), strict=True)]
+        for q, low, high in self.uniform.tolist():
+            low, high = max(position + low, 0.0), min(position + high, end)
+            if q != 0.0 and high - low > near:
+                found.append((low, high, q))
+        return found
+
 
 def check_trains(scene: Scene) -> None:
     """Refuse trains that make no sense.

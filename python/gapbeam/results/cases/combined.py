@@ -19,6 +19,7 @@ from ...scene.reading import beam_of
 from ...scene.structs import Scene
 from ...scene.wording import key_of, shown
 from ..envelopes.envelope import AT_SUPPORTS, Envelope
+from ..envelopes.full_load import on_both_sides
 from ..envelopes.hints import Hint, find_hints
 from ..paths.compression import larger
 from ..result import Result
@@ -103,7 +104,7 @@ class CombinedResult(Result):
         begin = perf_counter()
         self._check_products()
         kind = AtOnce if scene.analysis.is_one_step and beam.beyond_one_search is None and not scene.trains else OneByOne
-        self._solver = kind(self._combinations, plan, beam, rule, start)
+        self._solver = kind(self._combinations)
         self._found, reasons = self._solver.solve(self._note_compression)
         self.statuses = tuple(reasons)
         self._combinations.take(self._found, self.statuses, self._beam.fields)
@@ -329,13 +330,10 @@ class CombinedResult(Result):
             piece, distance = map(
                 np.concatenate, zip(self._beam.find(x, False), self._beam.find(x, True), strict=True)
             )
-            x = np.tile(x, 2)
-            left = np.arange(len(x)) >= len(x) // 2
+            x, left = on_both_sides(x)
             return x, self._solver.fields_at(self._found, self.statuses, piece, distance, x, left)
         piece, distance = self._places_along(points)
-        places, lengths = self._beam.places, self._beam.places.pieces[:, 0]
-        at_end = distance == lengths[piece]
-        x = np.where(at_end, places.point_x[piece + 1], places.point_x[piece] + distance)
+        x, at_end = self._beam.places.x_of(piece, distance)
         return x, self._solver.fields_at(self._found, self.statuses, piece + np.int32(1), distance, x, at_end)
 
 

@@ -8,10 +8,8 @@ import numpy as np
 
 from ...base.errors import FALLEN, WITHOUT_ANSWER, EngineError, Status
 from ...base.records import Pickled
-from ...engine.beam import Beam
 from ...engine.combinations import Combined, all_combinations, solve_combinations
 from ...engine.quantities import FIELDS
-from ...scene.combinations import Plan
 from ..envelopes.full_load import at_full_load, fields_on_sides
 from ..paths.compression import WARNED
 from ..paths.struts import euler
@@ -25,18 +23,10 @@ class OneByOne(Pickled):
     ----------
     combinations : Combinations
         Results by number, each made when it is looked at.
-    plan : Plan
-        The combinations.
-    beam : Beam
-        Made of the plan's scene, nothing combined.
-    rule : {"block", "single"}
-        How contact states are found.
-    start : numpy.ndarray of int
-        Where every search starts.
     """
 
-    def __init__(self, combinations: Combinations, plan: Plan, beam: Beam, rule: str, start: np.ndarray):
-        self._combinations, self._plan, self._beam, self._rule, self._start = combinations, plan, beam, rule, start
+    def __init__(self, combinations: Combinations):
+        self._combinations, self._plan, self._beam = combinations, combinations._plan, combinations._beam
 
     def solve(self, note: Callable[[int], None]) -> tuple[Combined, list[str]]:
         """Solve all combinations at full load.
@@ -129,7 +119,7 @@ class AtOnce(OneByOne):
     def solve(self, note: Callable[[int], None]) -> tuple[Combined, list[str]]:
         """Solve all combinations, as `OneByOne.solve`."""
         plan = self._plan
-        found = all_combinations(self._beam, plan.factors, plan.settlements, self._rule, self._start)
+        found = all_combinations(self._beam, plan.factors, plan.settlements, self._combinations._rule, self._combinations._start)
         alone = self._in_states_of_others()
         for k in np.flatnonzero(found.status > max(FALLEN)).tolist():
             if k not in alone:
@@ -162,7 +152,7 @@ class AtOnce(OneByOne):
         plan, alone = self._plan, self._in_states_of_others()
         left_out = {*alone, *np.flatnonzero(found.status)}
         for part, there in solve_combinations(
-            self._beam, plan.factors, plan.settlements, self._rule, found.closed, piece, distance
+            self._beam, plan.factors, plan.settlements, self._combinations._rule, found.closed, piece, distance
         ):
             values = there.fields
             here = [k - part.start for k in left_out if part.start <= k < part.stop]

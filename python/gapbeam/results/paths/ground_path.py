@@ -15,7 +15,7 @@ from ...scene.ground_laws import any_falls
 from ..state.breakpoints import EVENTS
 from ..state.motion import FallingGround, cause_of_fall, describe_motion
 from ..state.step import Step
-from .path import Limit, Segment
+from .path import Limit, Path, Segment
 
 if TYPE_CHECKING:
     from ..result import Result
@@ -54,21 +54,13 @@ class GroundEvent:
     branch: int = 1
 
 
-class GroundPath:
-    """What acts along the load.
+class GroundPath(Path):
+    """What acts along the load on the ground; its attributes are those of `Path`, and these.
 
     Attributes
     ----------
     events : list of GroundEvent
         Every change above load factor 0.
-    segments : list of Segment
-        From 0 to 1, or to the factor above which there is no equilibrium; between events.
-    solves : int
-        Linear solves.
-    nodes : int
-        Always 0.
-    seconds : float
-        Time of these.
     limits : list of Limit
         The load factor that ground which yields can carry at most, if the path ends there.
     beyond : float
@@ -108,19 +100,10 @@ class GroundPath:
         """Give the scheme of the supports on a segment, as `Path.closed`."""
         return self._schemes[segment.changes]
 
-    def find(self, factor: float) -> Segment | None:
-        """Find the segment that a load factor belongs to, as `Path.find`."""
-        there = [segment for segment in self.segments if segment.start <= factor <= segment.stop]
-        return there[-1] if there else None
-
     def step(self, segment: Segment, factor: float) -> Step:
         """Give the state at a load factor on a segment, as `Path.step`."""
         # On curves the search finds the tangents anew
         return Step(self._beam, factor, self._rule if self._beam.curves else GIVEN, self.closed(segment))
-
-    def at(self, factor: float) -> np.ndarray:
-        """Give the scheme of the supports at a load factor, as `Path.at`."""
-        return self.closed([segment for segment in self.segments if segment.start <= max(factor, 0.0)][-1])
 
 
 def follow_on_ground(result: Result, rule: str, closed: np.ndarray) -> GroundPath | None:

@@ -143,7 +143,7 @@ class WithModes:
         return self.steps[-1].modes("vibration", count) if count else ()
 
     def mode(self, kind: str, number: int = 1) -> Mode:
-        """Find how the beam moves in a mode.
+        """Find how the beam moves in a mode at the end of the load, as `Step.mode` does of a step.
 
         Parameters
         ----------
@@ -155,12 +155,5 @@ class WithModes:
         Returns
         -------
         Mode
-
-        Raises
-        ------
-        ValueError
-            There is no such mode.
-        EngineError
-            Modes are not available for this beam.
         """
         return self.steps[-1].mode(kind, number)

@@ -257,35 +257,6 @@ class States(Pickled, WithModes):
             raise IndexError(f"step: expected a number from 0 to {count - 1}, or from -{count} to -1, got {shown(number)}")
         return self.steps[number]
 
-    def at(self, x: Any, step: int | None = None, side: str = "right", factor: float | None = None) -> Fields:
-        """Exact values anywhere along the beam.
-
-        Parameters
-        ----------
-        x : float or array_like
-            Places along the beam.
-        step : int, optional
-            Number of the load step; default the last.
-        side : {"right", "left"}
-            Which value is taken where a field jumps.
-        factor : float, optional
-            Any load factor instead of a step; solved for when asked.
-
-        Returns
-        -------
-        Fields
-            Arrays of the shape of `x`.
-
-        Raises
-        ------
-        ValueError
-            A place outside the beam, or something else than numbers; another side; both a step and a factor, or one that
-            is no number; no equilibrium at that factor.
-        IndexError
-            There is no such step.
-        """
-        return self.at_state(self._chosen(step, factor), x, side)
-
     def at_state(self, state: Step, x: Any, side: str = "right") -> Fields:
         """Exact values anywhere along the beam in a state of it, for example the landing of a limit.
 
@@ -294,7 +265,7 @@ class States(Pickled, WithModes):
         state : Step
             The state.
         x, side
-            As for `at`.
+            As for `Result.at`.
 
         Returns
         -------
@@ -304,7 +275,7 @@ class States(Pickled, WithModes):
         Raises
         ------
         ValueError
-            As for `at`.
+            As for `Result.at`.
         """
         x = np.array(numbers("x", x))
         piece, distance = find_places(self._beam, x.ravel(), side)
@@ -339,12 +310,11 @@ class States(Pickled, WithModes):
         """
         state = self._chosen(step)
         piece, distance = self._places_along(points)
-        lengths, places = self._beam.places.pieces[:, 0], self._beam.places
         if state.solution.ground is not None:
             piece, distance = with_ends_of_zones(piece, distance, self._beam, state.solution.ground)
         elif self._beam.is_on_axial_ground:
             piece, distance = with_ends_of_slip(piece, distance, state)
-        x = np.where(distance == lengths[piece], places.point_x[piece + 1], places.point_x[piece] + distance)
+        x, _ = self._beam.places.x_of(piece, distance)
         return self._fields(x, piece + np.int32(1), distance, state)
 
     def _places_along(self, points: int) -> tuple[np.ndarray, np.ndarray]:

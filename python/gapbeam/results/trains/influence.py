@@ -41,27 +41,7 @@ if TYPE_CHECKING:
 
 
 def influence_line(state: TrainState, what: str, x: float, chosen: np.ndarray, places: np.ndarray, side: str) -> np.ndarray:
-    """Give an influence line.
-
-    Parameters
-    ----------
-    state : TrainState
-        What acts.
-    what : str
-        A field of the engine, ``reaction`` or ``couple``.
-    x : float
-        Place on the beam.
-    chosen : numpy.ndarray of bool
-        The supports whose reactions or couples are meant.
-    places : numpy.ndarray
-        Where the unit force is.
-    side : {"right", "left"}
-        Which value is taken where it jumps at x.
-
-    Returns
-    -------
-    numpy.ndarray
-        What the force makes.
+    """Give an influence line, as `ExactTraversal.influence`; of pressures too.
 
     Raises
     ------

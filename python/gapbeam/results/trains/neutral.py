@@ -7,7 +7,6 @@ beam is held, and forces are those of a train on any other beam.
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
@@ -66,14 +65,8 @@ def loaded(scene: Scene, course: Course, near: float, position: float) -> Scene:
         Without trains.
     """
     end = float(scene.span_ends()[-1])
-    x = position + course.offset
-    acts = (x >= -near) & (x <= end + near)
-    places, forces = np.clip(x[acts], 0.0, end).tolist(), course.force[acts].tolist()
-    loads: list[Any] = [ForceLoad(x=place, F=force) for place, force in zip(places, forces, strict=True)]
-    for q, low, high in course.uniform.tolist():
-        low, high = max(position + low, 0.0), min(position + high, end)
-        if q != 0.0 and high - low > near:
-            loads.append(UniformLoad(q=q, from_=low, to=high))
+    found = course.loads(position, end, near, course.acting(position, end, near))
+    loads = [UniformLoad(q=value, from_=left, to=right) if right else ForceLoad(x=left, F=value) for left, right, value in found]
     return replace(scene, loads=[*scene.loads, *loads], trains=[], combinations=[])
 
 

@@ -95,19 +95,12 @@ class TrainLoads:
 
     def acting(self, position: float) -> np.ndarray:
         """Tell which axles act at a position, those at the ends of the beam included."""
-        x = position + self.course.offset
-        return (x >= -self.near) & (x <= self.beam.places.end + self.near)
+        return self.course.acting(position, self.beam.places.end, self.near)
 
     def loads(self, position: float, acts: np.ndarray) -> list[tuple[int, float, float, float]]:
         """Give the train as loads: kind, place or left end, right end, value."""
-        end, course = self.beam.places.end, self.course
-        x = np.clip(position + course.offset[acts], 0.0, end)
-        found = [(FORCE, place, 0.0, force) for place, force in zip(x.tolist(), course.force[acts].tolist(), strict=True)]
-        for q, low, high in course.uniform.tolist():
-            low, high = max(position + low, 0.0), min(position + high, end)
-            if q != 0.0 and high - low > self.near:
-                found.append((DISTRIBUTED, low, high, q))
-        return found
+        found = self.course.loads(position, self.beam.places.end, self.near, acts)
+        return [(DISTRIBUTED if right else FORCE, left, right, value) for left, right, value in found]
 
     def state(self, position: float, acts: np.ndarray | None = None) -> Placed:
         """Solve at a position.

@@ -43,7 +43,7 @@ from ..views.extreme import Extremes, Source
 from .envelope import TrainEnvelope, places_along, places_given
 from .members import Member, fields_of
 from .neutral import loaded
-from .sampled_traversal import SampledTraversal
+from .sampled import SampledTraversal
 from .train_verbs import TrainVerbs
 from .traversals import ExactTraversal, TrainEvent, UnstablePositions
 
