@@ -19,11 +19,10 @@ from ..scene.reading import read_written
 from ..scene.structs import Scene
 from ..scene.wording import shown
 from .job import Job
-from .outputs import Output, find_outputs
 from .paths import KeyPath
 from .scene_cases import LIMIT, SOLVED
 from .tables import Numbers
-from .wanted import cases_a_chunk, job_of
+from .wanted import Output, cases_a_chunk, find_outputs, job_of
 from .workers import cores
 
 LEAST = 500

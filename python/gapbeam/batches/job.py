@@ -17,8 +17,7 @@ from ..base.errors import GapbeamError
 from ..results.state.step import BOUNDED
 from ..results.views.extreme import KINDS
 from .paths import KeyPath, varies_by_case
-from .prepared import PreparedCases
-from .prepared_combinations import PreparedCombinations
+from .prepared import PreparedCases, PreparedCombinations
 from .scene_cases import AT_SUPPORTS, ERRORS, LIMIT, SOLVED, FolderCases, SceneCases
 from .tables import Rows
 

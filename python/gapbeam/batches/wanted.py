@@ -1,13 +1,17 @@
-"""Names of the results that are kept of every case, looked at once, and how many cases are solved at a time."""
+"""Names of the results that are wanted: of a batch, and of a function in the words of its columns."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
+from difflib import get_close_matches
+from typing import NamedTuple
 
 from ..base.errors import SceneError
 from ..engine.beam import Beam
 from ..engine.quantities import BENDING
+from ..results.formatting import UNITS
 from ..scene.combinations import plan_combinations
 from ..scene.names import labels
 from ..scene.structs import Scene
@@ -26,16 +30,8 @@ A_TRAIN = 30
 """States that a train counts for."""
 
 
-def known_results(scene: Scene, beam: Beam) -> tuple[str, ...]:
-    """Tell what can be kept of a case, but for values at places.
-
-    Parameters
-    ----------
-    scene : Scene
-        Checked.
-    beam : Beam
-        Its beam.
-    """
+def _known_results(scene: Scene, beam: Beam) -> tuple[str, ...]:
+    """Tell what can be kept of a case, but for values at places."""
     if scene.combinations or scene.trains:
         return ("input", "reaction", "opening", *BENDING)
     return ("input", *AT_SUPPORTS, *beam.fields, ERRORS, LIMIT)
@@ -63,7 +59,7 @@ def job_of(written: Scene, scene: Scene, beam: Beam, columns: Sequence[str], wan
         A column is no key path, or something is wanted that there is not.
     """
     data = scene_data(written)
-    wanted = check_wanted(want, known_results(scene, beam), WANTED, float(beam.node_x[-1]))
+    wanted = check_wanted(want, _known_results(scene, beam), WANTED, float(beam.node_x[-1]))
     is_followed = scene.analysis.follow == "events" or any(support.law is not None for support in scene.supports)
     if LIMIT in wanted and not is_followed:
         raise SceneError("want", f'{LIMIT} is found where the load is followed; set analysis.follow = "events" in the scene')
@@ -131,3 +127,84 @@ def cases_a_chunk(job: Job, scene: Scene, beam: Beam) -> int:
     most = max(min(SECONDS / seconds, NUMBERS / numbers), 1.0)
     power = 10 ** (len(str(int(most))) - 1)
     return int(most / power) * power
+
+
+LIFTED = "lifted"
+NUMBERED = re.compile(r"([a-z_]+)(?:\[(\d+)\]|\.(\d+))(\.max|\.min)?")
+
+
+class Output(NamedTuple):
+    """A result that is asked for.
+
+    Attributes
+    ----------
+    name : str
+        As it was given.
+    column : str
+        Of the results of a batch.
+    want : str
+        What is kept of a case for it.
+    quantity : str
+        For its unit; empty where it has none.
+    is_lifted : bool
+        Whether it tells if there is an opening.
+    """
+
+    name: str
+    column: str
+    want: str
+    quantity: str
+    is_lifted: bool = False
+
+    @property
+    def plain_unit(self) -> str:
+        """Its unit where it is no quantity of results."""
+        return "rad" if self.quantity == "rotation" else ""
+
+
+def find_outputs(scene: Scene, beam: Beam, names: Sequence[str]) -> tuple[Output, ...]:
+    """Find the columns that outputs are.
+
+    Parameters
+    ----------
+    scene : Scene
+        Checked.
+    beam : Beam
+        Its beam.
+    names : sequence of str
+        Of the outputs.
+
+    Raises
+    ------
+    SceneError
+        There is no such output.
+    """
+    known = [name for name in (*_known_results(scene, beam), LIFTED) if name != "input"]
+    supports = labels(scene.supports)
+    return tuple(_output(scene, supports, name, known) for name in names)
+
+
+def _output(scene: Scene, supports: Sequence[str], name: str, known: Sequence[str]) -> Output:
+    column, quantity = name.strip(), re.split(r"[.@\[]", name.strip(), maxsplit=1)[0]
+    numbered = NUMBERED.fullmatch(column)
+    if numbered and quantity in (*AT_SUPPORTS, LIFTED):
+        k = int(numbered[2] or numbered[3])
+        if numbered[2] or numbered[3] not in supports:  # a name goes before a number
+            if k >= len(supports):
+                raise SceneError("outputs", f"{shown(name)}: there is no support {k}; the scene has {len(supports)}, 0 to "
+                                 f"{len(supports) - 1}")  # fmt: skip
+            column = f"{quantity}.{supports[k]}{numbered[4] or ''}"
+    if column == LIMIT and LIMIT in known:
+        return Output(name, column, LIMIT, "")
+    if quantity not in known or quantity == LIMIT:
+        near = get_close_matches(quantity, known, n=1, cutoff=0.6)
+        hint = f"did you mean {near[0]}?" if near else f"results are {choice(known, 'and')}"
+        raise SceneError("outputs", f"there is no {shown(name)}; {hint}")
+    if quantity == LIFTED:
+        end = ".max" if scene.combinations or scene.trains else ""
+        return Output(name, f"opening{column.removeprefix(LIFTED).removesuffix('.max')}{end}", "opening", "", True)
+    if "@" in column:
+        return Output(name, column, column.removesuffix(".max").removesuffix(".min"), quantity)
+    kind = column.partition(".")[2]
+    of = "x" if kind.endswith("_x") and quantity not in AT_SUPPORTS else kind if quantity == ERRORS else quantity
+    return Output(name, column, quantity, of if of in UNITS else "")

@@ -13,14 +13,15 @@ import numpy as np
 
 from ..base.characters import visible
 from ..base.errors import GapbeamError
+from ..engine.quantities import QUANTITIES
 from ..results import formatting as fmt
 from ..results.answer import answer, has_cheap_envelope, holds_values
 from ..results.envelopes.over_path import PathEnvelope
 from ..results.event_words import state_in_words
 from ..scene.axial_ground import places_of_marks
-from .geometry import foundations_data, panels_data, units_data
+from ..scene.names import label
 from .hand_check import sums_data
-from .states import packed, stands
+from .states import SIDES, packed, stands
 from .tables import tables_of
 from .three_moments import three_moments_data
 from .ways import Of, collect_ways
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.step import Step
     from ..results.trains.envelope import TrainEnvelope
+    from ..scene.structs import Scene
 
 TEMPLATES = Path(__file__).parent / "templates"
 MOST_POINTS, FEWER_POINTS, FEWEST_POINTS = 400, 160, 60
@@ -95,11 +97,11 @@ def html_page(result: Result, source: Source | None = None) -> str:
         "version": version("gapbeam"),
         "sha256": hashlib.sha256(source.data).hexdigest(),
         "result": whole,
-        "panels": panels_data(result._beam.fields),
-        "units": units_data(scene), "upright": scene.beam.direction == "down",
+        "panels": _panels_data(result._beam.fields),
+        "units": _units_data(scene), "upright": scene.beam.direction == "down",
         "beams": collected.beams, "supports": collected.supports, "loads": collected.loads, "words": collected.words,
         "said": list(map(state_in_words, collected.words)),
-        "foundations": foundations_data(scene), "along": places_of_marks(scene),
+        "foundations": _foundations_data(scene), "along": places_of_marks(scene),
         "envelope": _curves(result, whole, envelope, points),
         "ways": collected.ways,
     }  # fmt: skip
@@ -153,7 +155,7 @@ def _curves(
     result: Result, whole: dict[str, Any], envelope: Envelope | TrainEnvelope | None, points: int
 ) -> dict[str, Any] | None:  # fmt: skip
     """Largest and smallest values along the beam, where there are several states; taken out of the envelope of the result."""
-    names = [one["name"] for one in panels_data(result._beam.fields)]
+    names = [one["name"] for one in _panels_data(result._beam.fields)]
     if "envelope" in whole:
         columns = whole["envelope"].pop("fields")
         pairs = {name: (columns[name]["max"], columns[name]["min"]) for name in names if name in columns}
@@ -232,3 +234,24 @@ def _checked(state: Chosen) -> dict[str, Any] | None:
     of = state.result, state.step
     return {"words": state.words, "sums": sums_data(*of), "three": three_moments_data(*of), "bounds": bounds_in_words(*of),
             "left_out": left_out(state.result)}  # fmt: skip
+
+
+def _foundations_data(scene: Scene) -> list[dict[str, Any]]:
+    """Give the foundations as they are drawn."""
+    found = []
+    for k, one in enumerate(scene.foundation):
+        from_, to = fmt.stretch(scene, one)
+        found.append({"name": label(scene.foundation, k), "from": from_, "to": to, "side": SIDES[one.side]})
+    return found
+
+
+def _units_data(scene: Scene) -> dict[str, list[Any]]:
+    """Give the unit that is shown of every quantity, and how many of it are one of the scene."""
+    names = [one.name for one in QUANTITIES] + ["x", "opening", "reaction", "couple", "set", "friction", "slip"]
+    names += ["uniform", "sag", "resultant"]
+    return {name: list(fmt.shown_unit(scene, name)) for name in names}
+
+
+def _panels_data(fields: dict[str, int]) -> list[dict[str, Any]]:
+    """Give the fields that are drawn, each in a panel of its own: name, words, and whether positive values are drawn downward."""
+    return [{"name": one.name, "words": one.panel, "down": one.downward} for one in QUANTITIES if one.name in fields and one.panel]

@@ -10,12 +10,14 @@ import numpy as np
 from ..engine.beam import SOLVED
 from ..engine.quantities import FIELDS
 from ..scene.loads import AxialUniformLoad
-from .geometry import places_on_ground
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.state.step import Step
 
+MOST_PLACES, FEWER_PLACES = 240, 120
+"""Places along a beam on the ground at which its states are given; while trains pass, of which there are more states."""
+SIDES = {"below": 1, "both": 0, "above": -1}
 ROW = {name: k for k, name in enumerate(FIELDS)}
 OF_SUPPORTS = ("reaction", "opening", "deflection", "couple", "set", "friction", "slip")
 ALWAYS = 3
@@ -45,6 +47,25 @@ def packed(values: np.ndarray) -> str:
     'AACAPwAAIMA='
     """
     return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode()
+
+
+def places_on_ground(result: Result) -> tuple[np.ndarray, np.ndarray]:
+    """Choose the places at which states on the ground are given: there they are no polynomials.
+
+    Parameters
+    ----------
+    result : Result
+        Of one load.
+
+    Returns
+    -------
+    piece : numpy.ndarray of int
+        Piece of every place, from 0.
+    distance : numpy.ndarray
+        Distance from its left end.
+    """
+    most = FEWER_PLACES if result.scene.trains else MOST_PLACES
+    return result._places_along(max(1, most // len(result.scene.beam.spans)))
 
 
 class Recorder:

@@ -5,16 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..base.characters import visible
 from ..results import formatting as fmt
-from .geometry import beam_data, loads_data, supports_data
+from ..scene.ground_tables import at_both_ends
+from ..scene.movements import number_of_moved
+from ..scene.names import DEAD, labels
+from ..scene.rotations import turns
+from ..scene.temperature import as_curvatures
 from .load_ways import count_numbers, way_of_load
+from .states import SIDES, places_on_ground
 from .train_ways import MOST_NUMBERS, way_of_train
 
 if TYPE_CHECKING:
     from ..results.envelopes.envelope import Envelope
     from ..results.result import Result
     from ..results.trains.envelope import TrainEnvelope
+    from ..scene.structs import Scene
 
 Of = tuple[str | None, str | None, str | None]
 """Names of a combination and of a train, and which way that goes; None for what there is not."""
@@ -60,10 +68,10 @@ class Collected:
         if way.get("intervals") == []:  # no position has a unique answer
             reason = next((one["words"] for one in way.get("lost", ())), "no state can be drawn")
             way = {"motion": [], "reason": visible(reason), "axis": "motion"}
-        supports = supports_data(result.scene, result._beam.places.levels)
+        supports = _supports_data(result.scene, result._beam.places.levels)
         shared = {
-            "beam": _number(self.beams, beam_data(result)), "supports": _number(self.supports, supports),
-            "loads": _number(self.loads, loads_data(result.scene)),
+            "beam": _number(self.beams, _beam_data(result)), "supports": _number(self.supports, supports),
+            "loads": _number(self.loads, _loads_data(result.scene)),
         }  # fmt: skip
         self.ways.append({"of": list(of), "title": title, **shared, **way})
 
@@ -144,3 +152,67 @@ def _ways_of(
         alone = "without trains" if traversals else "as far as it stands" if result.motion else ""
         title = ": ".join(part for part in (name, alone) if part)
         found.add((of, None, None), title, result, way_of_load(result, found.words, together))
+
+
+def _beam_data(result: Result) -> dict[str, Any]:
+    """Give joints, pieces (length, and flexibility in bending and shear) and loads between the joints."""
+    places = result._beam.places
+    forces = np.zeros((len(places.point_x), 2))
+    forces[places.node_points] = places.force
+    with np.errstate(divide="ignore"):
+        flexibility = 1.0 / places.pieces[:, 1:]
+    found: dict[str, Any] = {
+        "x": places.point_x.tolist(),
+        "pieces": np.column_stack((places.pieces[:, 0], flexibility)).tolist(),
+        "dead": places.dead[:, [0, 1, 2, 5]].tolist(),
+        "live": places.live[:, [0, 1, 2, 5]].tolist(),
+        "forces": forces.tolist(),
+        "hinges": [*map(float, result.scene.beam.hinges), *result.scene.positions(result.scene.hinges).tolist()],
+    }
+    if result._beam.in_stretches:
+        piece, distance = places_on_ground(result)
+        found["grid"] = {"piece": piece.tolist(), "x": (places.point_x[piece] + distance).tolist()}
+    return found
+
+
+def _supports_data(scene: Scene, levels: np.ndarray) -> list[dict[str, Any]]:
+    """Give the supports as they are drawn, with the deflections at which they begin to act."""
+    rows = zip(scene.supports, labels(scene.supports), scene.positions(scene.supports).tolist(), levels.tolist(), strict=True)
+    return [
+        {
+            "name": name, "x": x, "side": SIDES.get(one.side, 0), "level": level, "gap": one.gap or 0.0,
+            "axial": one.direction == "axial", "elastic": one.law is not None or bool(np.isfinite(one.stiffness)),
+            "turning": 0 if one.rotation == "free" else 2 if one.rotation == "fixed" else 1,
+        } | ({"turns": True} if turns(one) else {})
+        for one, name, x, level in rows
+    ]  # fmt: skip
+
+
+def _loads_data(scene: Scene) -> list[dict[str, Any]]:
+    """Give the loads as they are drawn; those that move supports with their places and ways, those of the ground with its ends."""
+    nodes, found = scene.span_ends(), []
+    at = scene.positions(scene.supports).tolist()
+    for k, (load, given) in enumerate(zip(as_curvatures(scene).loads, scene.loads, strict=True)):
+        kind = load.__struct_config__.tag
+        one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
+        if kind == "movement":
+            which = number_of_moved(scene, k, load)
+            if load.foundation is not None:
+                from_, to = fmt.stretch(scene, scene.foundation[which])
+                one |= {"way": "ground", "x": (from_ + to) / 2, "moves": np.broadcast_to(load.value, 2).tolist()}
+            else:
+                support = scene.supports[which]
+                turned = turns(support) or load.rotation is not None
+                one |= {"way": "turn" if turned else "along" if support.direction == "axial" else "across", "x": at[which],
+                        "moves": [load.value if load.rotation is None else load.rotation]}  # fmt: skip
+        elif kind in ("force", "moment", "axial"):
+            one["x"] = float(nodes[load.node]) if load.node is not None else load.x
+            one["value"] = load.M if kind == "moment" else load.F
+        else:
+            from_, to = fmt.stretch(scene, load)
+            ends = list(at_both_ends(load.kappa if kind == "curvature" else load.q))
+            if not any(ends) and getattr(given, "dT", 0.0):  # it lengthens only
+                one["type"], ends = "temperature", 2 * [given.dT]
+            one |= {"from": from_, "to": to, "ends": ends}
+        found.append(one)
+    return found

@@ -15,9 +15,8 @@ from ..results.envelopes.verbs import PartVerbs
 from ..results.result import Result
 from ..scene.wording import choice, shown
 from .excel import write_excel
-from .many import batch_answer, cases_answer, cases_summary
+from .many import batch_answer, cases_answer, cases_summary, part_answer, part_report
 from .notebook import html_of, html_of_lines
-from .parts import part_answer, part_report
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

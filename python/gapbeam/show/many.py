@@ -1,4 +1,4 @@
-"""Answers of many cases: those of a prepared beam, and those of a batch."""
+"""Answers of what is no whole result: an envelope, one of its trains, many cases, a batch."""
 
 from __future__ import annotations
 
@@ -12,10 +12,16 @@ from ..base.errors import Status
 from ..batches.batch import Batch
 from ..batches.summary import Summary, distribution
 from ..results import formatting as fmt
+from ..results.answer import holds_values, values_in_words
 from ..results.cases.solved_cases import Cases
-from ..results.envelopes.lifted import Lifted
+from ..results.contact import contact_in_words
+from ..results.envelopes.lifted import Lifted, carrying_supports
+from ..results.envelopes.verbs import PartVerbs
+from ..results.trains.trains import TrainResult
+from ..results.views.columns import Columns
 from ..scene.rotations import at_support
 from ..scene.structs import Scene
+from .notebook import SHOWN
 
 MOST_NAMED = 8
 """Supports without contact that are named."""
@@ -116,3 +122,43 @@ def cases_summary(cases: Cases) -> Summary:
     columns = {name: distribution(np.asarray(values, dtype=float)) for name, values in table.items()}
     units = {name: fmt.shown_unit(cases.scene, name.partition(".")[0]) for name in columns}
     return Summary(len(cases), len(cases), statuses, reasons, columns, units)
+
+
+def part_answer(part: PartVerbs) -> list[str]:
+    """Give the answer of a part of a result in a few lines.
+
+    Parameters
+    ----------
+    part : PartVerbs
+        An envelope, or a train.
+
+    Returns
+    -------
+    list of str
+        What it is of and its outcome, contact, largest values.
+    """
+    result, ranges = part._result, part._ranges
+    what = f"train {part.name}" if isinstance(part, TrainResult) else "largest and smallest values"
+    lines = [f"{fmt.title(part.scene)}: {what}"]
+    if part.reason is not None:
+        lines.append(fmt.sentence(part.reason))
+    if holds_values(ranges):
+        lines += contact_in_words(result, part.lifted, carrying_supports(ranges)) + values_in_words(result, ranges)
+    return lines
+
+
+def part_report(part: PartVerbs) -> str:
+    """Write the report of a part of a result: its answer, and its tables but that along the beam.
+
+    Parameters
+    ----------
+    part : PartVerbs
+        An envelope, or a train.
+    """
+    lines = part_answer(part)
+    supports = part.table("supports")
+    if supports.count:
+        lines += ["", "Supports", repr(Columns({name: supports[name] for name in SHOWN if name in supports}))]
+    if "events" in part._kinds and (events := part.table("events")).count:
+        lines += ["", "Events", repr(events)]
+    return "\n".join([*lines, ""])

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine.axial_ground import least_tensions
 from ...engine.beam import SOLVED, Beam
 from ...engine.combinations import Varied, solve_combinations
+from ...engine.ground import least_tensions
 from ...engine.quantities import FIELDS
 from ...scene.loads import AxialUniformLoad
 from .branches import BranchPath

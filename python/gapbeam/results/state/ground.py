@@ -1,16 +1,20 @@
-"""Zones in which the ground acts on the beam, and free spans above it."""
+"""Zones in which the ground acts on the beam, free spans above it, and where the beam slides over ground along its axis."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ...engine.beam import Beam
-from ...engine.ground import ground_runs
+from ...engine.ground import ground_runs, parts_that_slide
 from ...engine.states import Ground
 from ...engine.units import scaled
+
+if TYPE_CHECKING:
+    from .step import Step
 
 TOUCHING = "touching"
 """State of a zone of contact that has no length."""
@@ -238,21 +242,13 @@ def with_ends_of_zones(piece: np.ndarray, distance: np.ndarray, beam: Beam, grou
     """
     of = ground.values[0].astype(piece.dtype) - 1
     inside = np.append(of[1:] == of[:-1], False)
-    return with_places(piece, distance, of[inside], scaled(ground.values[2, inside], beam.units.length))
+    return _with_places(piece, distance, of[inside], scaled(ground.values[2, inside], beam.units.length))
 
 
-def with_places(
+def _with_places(
     piece: np.ndarray, distance: np.ndarray, other_piece: np.ndarray, other_distance: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Put places among others, unless they are there.
-
-    Parameters
-    ----------
-    piece, distance
-        As for `with_ends_of_zones`.
-    other_piece, other_distance : numpy.ndarray
-        Those to put among them.
-    """
+    """Put places among others, unless they are there; pieces from 0 ascend, and distances in each."""
     piece, distance = np.append(piece, other_piece), np.append(distance, other_distance)
     order = np.lexsort((distance, piece))
     piece, distance = piece[order], distance[order]
@@ -269,3 +265,68 @@ def _name(run: Run) -> str:
     if run.law_pieces:
         return f"branch {run.acts}"
     return "closed" if run.side else "bilateral"
+
+
+WAYS = {1: "right", -1: "left"}
+JOINED = 1e-12
+"""Ends of parts nearer than this share of the beam are one place."""
+
+
+class SlipZone(NamedTuple):
+    """A stretch over which the beam slides one way; over ground that is rigid up to its limit, or has slid last.
+
+    Attributes
+    ----------
+    from_, to : float
+        Its ends.
+    way : {"right", "left"}
+        Which way the beam goes, or went.
+    friction : float
+        Force of the ground on the beam along it, positive to the right.
+    """
+
+    from_: float
+    to: float
+    way: str
+    friction: float
+
+
+def slip_zones(step: Step) -> tuple[SlipZone, ...]:
+    """Find the slip zones of a state.
+
+    Parameters
+    ----------
+    step : Step
+        The state.
+
+    Returns
+    -------
+    tuple of SlipZone
+        From left to right; none without ground along the beam.
+    """
+    if not step._beam.is_on_axial_ground:
+        return ()
+    places, ways, forces = parts_that_slide(step.solution)
+    near, found = JOINED * float(step._beam.places.point_x[-1]), []
+    for a, b, way, force in zip(*places.tolist(), map(WAYS.__getitem__, ways.tolist()), forces.tolist(), strict=True):
+        if found and found[-1].way == way and a - found[-1].to <= near:
+            last = found.pop()
+            a, force = last.from_, last.friction + force
+        if b - a > near:
+            found.append(SlipZone(a, b, way, force))
+    return tuple(found)
+
+
+def with_ends_of_slip(piece: np.ndarray, distance: np.ndarray, step: Step) -> tuple[np.ndarray, np.ndarray]:
+    """Add the ends of the slip zones to places along a beam, where the axial force has kinks.
+
+    Parameters
+    ----------
+    piece, distance : numpy.ndarray
+        Pieces from 0, from left to right, and distances from their left ends.
+    step : Step
+        The state.
+    """
+    ends = np.array([x for zone in step.slip_zones for x in (zone.from_, zone.to)])
+    pieces, distances = step._beam.find(ends, left=False)
+    return _with_places(piece, distance, (pieces - 1).astype(piece.dtype), distances)

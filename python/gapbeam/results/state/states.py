@@ -25,11 +25,10 @@ from ...scene.wording import shown
 from ..views.extreme import Extremes
 from .arguments import finite, numbers, whole
 from .fields import Fields, find_places
-from .ground import with_ends_of_zones
+from .ground import with_ends_of_slip, with_ends_of_zones
 from .modes import WithModes
 from .motion import FallingGround, describe_fall, describe_motion
 from .schemes import starting_scheme
-from .slip_zones import with_ends_of_slip
 from .step import Step, solve_step
 from .steps import LoadSteps, MovedSteps, Steps
 from .system import System, system_of

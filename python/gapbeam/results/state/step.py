@@ -23,9 +23,8 @@ from ...scene.places import nearest
 from ...scene.wording import number
 from ..views.extreme import Extremes, Source
 from .breakpoints import piece_of
-from .ground import Contact, FreeSpan, Run, find_contact, find_free_spans, find_runs
+from .ground import Contact, FreeSpan, Run, SlipZone, find_contact, find_free_spans, find_runs, slip_zones
 from .modes import StepModes
-from .slip_zones import SlipZone, slip_zones
 from .state_extremes import extremes_of_state
 
 SLIDING = {0: "sticks", 1: "right", -1: "left"}

@@ -346,7 +346,7 @@ def test_of_many_names_the_first_are_told_and_how_many_there_are_more():
     made = scene([1.0], [at(0), at(1)], [uniform(1.0)])
     made["combinations"] = [{"name": f"c{k}", "factors": {"live": 1.0}} for k in range(15)]
     made["combinations"][0]["scheme_of"] = "warm"
-    with pytest.raises(gapbeam.SceneError, match='there are "c0", .*, "c11" and 3 more$'):
+    with pytest.raises(gapbeam.SceneError, match=r'there are "c0", .*, "c11" and 3 more$'):
         gapbeam.read_scene(made)
 
 
