@@ -7,7 +7,7 @@ of doubles is that of their bits, so counting the first 16 bits tells where it l
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -22,7 +22,7 @@ from .verbs import SummaryVerbs
 if TYPE_CHECKING:
     from .batch import Batch
 
-SHARES = (0.01, 0.5, 0.99)
+SHARES, BINS = (0.01, 0.5, 0.99), 40
 DIGIT = 16
 """Bits that are counted at a time."""
 SIGN = np.uint64(2**63)
@@ -114,7 +114,7 @@ class Summary(SummaryVerbs):
 
 def summarize(
     batch: Batch, names: Iterable[str] | None = None, *, shares: Sequence[float] = SHARES,
-    limits: Mapping[str, float | Sequence[float]] | None = None, bins: int = 40,
+    limits: Mapping[str, float | Sequence[float]] | None = None, bins: int = BINS,
 ) -> Summary:  # fmt: skip
     """Tell how results are distributed, of the cases that are done so far.
 
@@ -148,41 +148,46 @@ def summarize(
             raise ValueError(f"shares: expected numbers from 0 to 1, got {share:g}")
     bins = whole("bins", bins, least=1)
     counters = {name: _Counter(wanted.get(name, []), [float(share) for share in shares], bins) for name in names}
-    for part in batch.chunks(names):
-        for name, counter in counters.items():
-            if np.isinf(part[name]).any():
-                raise SceneError(str(batch.path), f"column {shown(name)} holds infinite numbers, which have no distribution")
-            counter.range(part[name])
-    for counter in counters.values():
-        counter.divide()
-    for digit in range(64 // DIGIT):
+
+    def parts() -> Iterator[dict[str, np.ndarray]]:
         for part in batch.chunks(names):
-            for name, counter in counters.items():
-                counter.count_digit(part[name], digit)
-        for counter in counters.values():
-            counter.choose_digit()
+            for name in counters:
+                if np.isinf(part[name]).any():
+                    raise SceneError(str(batch.path), f"column {shown(name)} holds infinite numbers, which have no distribution")
+            yield part
+
+    _count(counters, parts)
     columns = {name: counter.found() for name, counter in counters.items()}
     units = {name: found for name in columns if (found := batch.unit(name)) is not None}
     return Summary(batch.cases, batch.done, batch.statuses(), batch.reasons(), columns, units)
 
 
-def distribution(values: np.ndarray, shares: Sequence[float] = SHARES, bins: int = 40) -> Distribution:
+def distribution(values: np.ndarray) -> Distribution:
     """Tell how numbers are distributed; what is not a number does not count.
 
     Parameters
     ----------
     values : numpy.ndarray
         The numbers.
-    shares, bins
-        As for `summarize`.
     """
-    counter = _Counter([], list(shares), bins)
-    counter.range(values)
-    counter.divide()
-    for digit in range(64 // DIGIT):
-        counter.count_digit(values, digit)
-        counter.choose_digit()
+    counter = _Counter([], list(SHARES), BINS)
+    _count({"": counter}, lambda: [{"": values}])
     return counter.found()
+
+
+def _count(counters: dict[str, _Counter], parts: Callable[[], Iterable[Mapping[str, np.ndarray]]]) -> None:
+    """Go through all numbers in rounds: once for their range, then once for every digit."""
+    for part in parts():
+        for name, counter in counters.items():
+            counter.range(part[name])
+    for counter in counters.values():
+        counter.divide()
+    for digit in range(64 // DIGIT):
+        for part in parts():
+            for name, counter in counters.items():
+                counter.count_digit(part[name], digit)
+        for counter in counters.values():
+            counter.choose_digit()
 
 
 class _Counter:

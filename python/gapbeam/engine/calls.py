@@ -239,6 +239,25 @@ def parts(count: int) -> Iterator[slice]:
         yield slice(first, min(first + PART, count))
 
 
+def short_parts(count: int, nodes: int, most: int | None = None) -> Iterator[slice]:
+    """Cut many cases into parts, so that what is done with each takes about `SECONDS`, by what the one before took.
+
+    Parameters
+    ----------
+    count, nodes : int
+        Cases, and nodes of each.
+    most : int, optional
+        Cases of a part at most.
+    """
+    most = count if most is None else most
+    some, first = min(max(NODES_AT_A_TIME // nodes, 1), most), 0
+    while first < count:
+        part, begin = slice(first, min(first + some, count)), perf_counter()
+        yield part
+        some = min(max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1), most)
+        first = part.stop
+
+
 def _on_ground(beam: Handle, stretches: int) -> int:
     """Count the stretches of a solution on the ground, as far as they are short work."""
     return SHORT if beam.has_curves else stretches
@@ -340,11 +359,6 @@ def gbcase(
     if cases * nodes < FEW_NODES:
         _short_cases(beam, room, factors, supports, spans, rule, *results)
         return
-    some, first = max(NODES_AT_A_TIME // nodes, 1), 0
-    while first < cases:
-        part = slice(first, min(first + some, cases))
-        begin = perf_counter()
+    for part in short_parts(cases, nodes):
         given = factors[:, part], *(one if one.shape[1] == 1 else one[..., part] for one in (supports, spans))
         _long_cases(beam, room, *given, rule, *(values[..., part] for values in results))
-        some = max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
-        first = part.stop

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from time import perf_counter
-
 import numpy as np
 
 from ..base.errors import check_ended
@@ -28,15 +26,8 @@ def case_certificates(
 
     Parameters
     ----------
-    beam : Beam
-    rule : {"block", "single"}
-        How contact states are found.
-    factors : numpy.ndarray
-        Factor of every load, cases by loads.
-    closed, status : numpy.ndarray of int
-        Contact states, cases by supports of the engine; 0 where a case is solved.
-    varied : Varied
-        Numbers that differ from case to case.
+    beam, rule, factors, closed, status, varied
+        As for `case_extremes`, moduli as well.
     solutions : tuple of numpy.ndarray or None
         Deflection, moments left and right of the nodes, reactions, as `solve_cases` gives them; None where each case has to be
         solved once more.
@@ -61,16 +52,11 @@ def case_certificates(
     w, left, right, reaction = solutions or (np.zeros((cases, 1)),) * 3 + (np.zeros((cases, beam.supports)),)
     nodes = [np.ascontiguousarray(one) for one in (w, left, right)]
     forces = np.column_stack((reaction, np.zeros(cases)))
-    some, first = max(_engine.NODES_AT_A_TIME // (beam.links + 1), 1), 0
-    while first < cases:
-        part = slice(first, min(first + some, cases))
-        begin = perf_counter()
+    for part in _engine.short_parts(cases, beam.links + 1):
         _engine.gbccrt(
             beam.handle, shares[part].T, *varied.part(part), RULES[rule], given, schemes[part].T, *(one[part].T for one in nodes),
             forces[part].T, numbers[part].T, known[part], state[part],
         )  # fmt: skip
-        some = max(int(some * min(max(_engine.SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1)
-        first = part.stop
     check_ended(state)
     found = dict(zip(NUMBERS, numbers.T, strict=True))
     for name in ("nodes", "deflection", "rotation"):

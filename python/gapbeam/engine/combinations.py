@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from time import perf_counter
 
 import numpy as np
 
@@ -14,9 +13,6 @@ from . import calls as _engine
 from .beam import RULES, Beam
 from .quantities import FIELDS
 
-NODES_AT_A_TIME = 20_000
-"""Nodes of all combinations in the first call; later calls take about `SECONDS`, by what the one before took."""
-SECONDS = 0.1
 NUMBERS_AT_A_TIME = 4_000_000
 """Values at places in one call."""
 
@@ -43,6 +39,10 @@ class Varied(Record):
     def is_nothing(self) -> bool:
         """Whether all stay."""
         return self.supports is self.spans is self.moduli is None
+
+    def of(self, which: slice | np.ndarray) -> Varied:
+        """Give those of some combinations."""
+        return Varied(*(None if one is None else one[which] for one in (self.supports, self.spans, self.moduli)))
 
     def part(self, which: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Take the numbers of some combinations, as GBCOMB does."""
@@ -125,15 +125,12 @@ def solve_combinations(
     schemes = np.zeros((count, beam.supports + 1), dtype=np.int32)
     schemes[:, :-1] = closed
     most = max(NUMBERS_AT_A_TIME // (len(FIELDS) * (len(piece) + 1)), 1)
-    some, first = min(max(NODES_AT_A_TIME // (beam.links + 1), 1), most), 0
-    while first < count:
-        part = slice(first, min(first + some, count))
+    for part in _engine.short_parts(count, beam.links + 1, most):
         shares, moves = (
-            np.column_stack((rows[part], np.zeros(part.stop - first))).T for rows in (factors, settlements)
+            np.column_stack((rows[part], np.zeros(part.stop - part.start))).T for rows in (factors, settlements)
         )
         own = (varied or Varied()).part(part)
         scheme = np.asfortranarray(schemes[part].T)
-        begin = perf_counter()
         values, largest, places, fields_at, solves, status = _engine.gbcomb(
             beam.handle, len(FIELDS), len(FIELDS) if extremes else 0, np.asfortranarray(shares), np.asfortranarray(moves), *own,
             RULES[rule], scheme, *about,
@@ -142,8 +139,6 @@ def solve_combinations(
         yield part, Combined(
             status, scheme.T[:, :-1], values.T[:, :, :-1], largest.T, places.T, fields_at.T[:, :-1], solves
         )
-        some = min(max(int(some * min(max(SECONDS / (perf_counter() - begin), 0.25), 4.0)), 1), most)
-        first = part.stop
 
 
 def all_combinations(

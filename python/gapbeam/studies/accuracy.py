@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isnan, nan
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from msgspec import structs
@@ -34,7 +34,6 @@ from .methods import (
     KERNEL,
     KERNEL_REFINED,
     Measured,
-    Method,
     compare,
     from_scene,
     front,
@@ -43,9 +42,6 @@ from .methods import (
 from .page import literal_markdown, markdown_table
 from .page import to_csv as csv_text
 from .truth import solve_exactly, solve_one_span
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 WORDS = (
     "The largest error of deflections, moments and reactions at all nodes, relative to the largest true value of its",
@@ -119,7 +115,7 @@ FAMILIES = {
 """The built-in families and their numbers of elements."""
 
 
-def families(names: Sequence[str] = (), largest: int = 10**6, chosen: Sequence[Method] | None = None) -> Iterator[Comparison]:
+def families(names: Sequence[str] = (), largest: int = 10**6) -> Iterator[Comparison]:
     """Compare the methods on the built-in families.
 
     Parameters
@@ -128,8 +124,6 @@ def families(names: Sequence[str] = (), largest: int = 10**6, chosen: Sequence[M
         Some of `FAMILIES`; default all.
     largest : int
         Finer meshes are left out.
-    chosen : sequence of Method, optional
-        Default: all.
 
     Yields
     ------
@@ -143,7 +137,7 @@ def families(names: Sequence[str] = (), largest: int = 10**6, chosen: Sequence[M
     >>> by_name["condensed mixed"].error < 1e-14 < 1e-9 < by_name["displacement"].error
     True
     """
-    chosen = methods() if chosen is None else chosen
+    chosen = methods()
     for name in names or FAMILIES:
         make, sizes = FAMILIES[name]
         for elements in sizes:
@@ -359,7 +353,7 @@ def to_markdown(comparisons: Sequence[Comparison], picture: str = "", remark: st
     return "\n".join(lines) + "\n"
 
 
-def print_comparisons(comparisons: Sequence[Comparison], remark: str = "", console: Console | None = None) -> None:
+def print_comparisons(comparisons: Sequence[Comparison], remark: str = "") -> None:
     """Print the tables.
 
     Parameters
@@ -368,14 +362,12 @@ def print_comparisons(comparisons: Sequence[Comparison], remark: str = "", conso
         From `families` or `scene_comparisons`.
     remark : str
         From `scene_comparisons`.
-    console : rich.console.Console, optional
-        Where to print; default standard output.
     """
     from rich.console import Console
 
     from ..report.writer import Writer
 
-    say = Writer(console or Console(highlight=False))
+    say = Writer(Console(highlight=False))
     say.line("Error against run time", "bold")
     for line in (*WORDS, *METHODS):
         say.line(line, "dim")

@@ -14,7 +14,7 @@ import numpy as np
 from ...base.errors import Status, UnsolvedError
 from ...base.hints import no_such
 from ...base.records import read_only
-from ...engine.combinations import Combined, Varied
+from ...engine.combinations import Combined
 from ...scene.names import labels
 from ..envelopes.envelope import AT_SUPPORTS
 from ..envelopes.lifted import Lifted, least_openings, lifted_in_cases
@@ -152,8 +152,7 @@ class CaseVerbs(Shown):
             raise IndexError(f"there is no case {key}; {there}" if one else f"cases: {error}; {there}") from None
         single, rows = np.ndim(rows) == 0, np.atleast_1d(rows)
         states = [replace(there, **{one.name: getattr(there, one.name)[rows] for one in fields(there)}) for there in asked.states]
-        varied = Varied(*(None if (part := getattr(asked.varied, one.name)) is None else part[rows] for one in fields(Varied)))
-        part = replace(asked, factors=asked.factors[rows], closed=asked.closed[rows], varied=varied, states=states)
+        part = replace(asked, factors=asked.factors[rows], closed=asked.closed[rows], varied=asked.varied.of(rows), states=states)
         return self._made({name: getattr(self, name)[rows] for name in self._wanted}, part, single)
 
     @property
@@ -181,8 +180,7 @@ class CaseVerbs(Shown):
         return self
 
     def _about(self, asked: Any, k: int) -> tuple[Any, ...]:
-        varied = Varied(*(None if (part := getattr(asked.varied, one.name)) is None else part[k : k + 1] for one in fields(Varied)))
-        return self.scene, asked.beam, asked.rule, asked.factors[k], varied
+        return self.scene, asked.beam, asked.rule, asked.factors[k], asked.varied.of(slice(k, k + 1))
 
     def result(self, case: int | None = None) -> Result:
         """Solve one case with all that `gapbeam.solve` gives: fields, extremes, certificate, report.
