@@ -150,10 +150,6 @@ class Draws:
     ----------
     cases : int
         Number of rows.
-    names : tuple of str
-        Of the columns.
-    digest : str
-        Hexadecimal; other draws have another one.
     """
 
     cases: int

@@ -200,12 +200,7 @@ class BatchVerbs(ManyVerbs):
         Returns
         -------
         Columns
-            Columns by name; ``to_pandas()`` makes a DataFrame of them.
-
-        Raises
-        ------
-        ValueError
-            There is no such table.
+            As of `Shown.table`.
         """
         return Columns(self.read()) if one_of(kind, self._kinds) == "cases" else self.summary().table()
 
@@ -287,12 +282,7 @@ class SummaryVerbs(ManyVerbs):
         Returns
         -------
         Columns
-            Columns by name; ``to_pandas()`` makes a DataFrame of them.
-
-        Raises
-        ------
-        ValueError
-            There is no such table.
+            As of `Shown.table`.
         """
         one_of(kind, self._kinds)
         ones = {name: one for name, one in self.columns.items() if one.count}

@@ -50,6 +50,15 @@ STATE = {
 }
 """Keys of a state. Those that end in ? may be left out."""
 
+NAME = {"name?": ("string", "Its name, where it has one.")}
+ENDS = {"from": ("number", "Left end (length)."), "to": ("number", "Right end (length).")}
+FOUNDATION = {"foundation": ("integer", "Number of the foundation, from 0.")}
+OF = {
+    "support?": ("integer", "Number of the support, from 0; or"),
+    "foundation?": ("integer", "number of the foundation."),
+} | NAME  # fmt: skip
+"""Keys that several tables have."""
+
 MOTION = "Mechanism of an unstable beam, or the mode in which it buckles: position and deflection, in any scale."
 MODES = {
     "buckling?": ("[number]", "Factors by which all axial forces N must be multiplied for the beam to buckle as it stands at the "
@@ -80,8 +89,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "left_out": ("[string]", "What this scene does not need, such as shear."),
         "compression?": ("Compression", "Largest compression; only where the beam is compressed."),
     }),
-    "SupportState": ("A support in one state, in the order of the scene.", {
-        "name?": ("string", "Its name, where it has one."),
+    "SupportState": ("A support in one state, in the order of the scene.", NAME | {
         "x": ("number", "Position (length, from the left end of the beam)."),
         "side": ("Side", "Side on which it holds the beam, as in the scene."),
         "direction": ("Normal", "Direction, as in the scene."),
@@ -109,25 +117,16 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "moment": ("number", "Moment there (force*length), sagging."),
         "rotation": ("number", "Rotation left of it less that right of it (rad): moment over stiffness."),
     }),
-    "SlipZone": ("A length of the beam that slides over ground along its axis; where that is rigid, or has slid last.", {
-        "from": ("number", "Left end (length)."),
-        "to": ("number", "Right end (length)."),
+    "SlipZone": ("A length of the beam that slides over ground along its axis; where that is rigid, or has slid last.", ENDS | {
         "way": ("string", "Which way the beam goes, or went: right or left."),
         "friction": ("number", "Force of the ground on the beam along it (force), positive to the right."),
     }),
-    "ContactZone": ("A length of the beam in contact with the ground.", {
-        "foundation": ("integer", "Number of the foundation, from 0."),
-        "name?": ("string", "Its name, where it has one."),
-        "from": ("number", "Left end (length)."),
-        "to": ("number", "Right end (length)."),
+    "ContactZone": ("A length of the beam in contact with the ground.", FOUNDATION | NAME | ENDS | {
         "state": ("string", "closed, bilateral, or the segment of the ground's curve: branch 1, ..."),
         "resultant": ("number", "Total reaction of the ground there (force), positive upward. A point force of rigid ground has "
                                 "from equal to to."),
     }),
-    "FreeSpan": ("A length of the beam above the ground without contact.", {
-        "foundation": ("integer", "Number of the foundation, from 0."),
-        "from": ("number", "Left end (length)."),
-        "to": ("number", "Right end (length)."),
+    "FreeSpan": ("A length of the beam above the ground without contact.", FOUNDATION | ENDS | {
         "sag": ("number", "Largest clearance above the ground (length)."),
     }),
     "Certificate": ("Residuals and error bounds, each relative to the largest value of its kind.", {
@@ -144,18 +143,14 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
     "StepState": ("One state of the beam.", STATE),
     "Event": ("A change of the contact state at its exact load factor.", {
         "factor": ("number", "Load factor."),
-        "support?": ("integer", "Number of the support, from 0; or"),
-        "foundation?": ("integer", "number of the foundation."),
-        "name?": ("string", "Its name, where it has one."),
+        **OF,
         "x": ("number", "Position (length)."),
         "event": ("string", f"{_names(OF_SUPPORTS)}; of the ground {_names(OF_ZONES)}."),
         "branch?": ("integer", "Number of the equilibrium branch, from 2 on."),
     }),
     "TrainEvent": ("A change of the contact state at the exact position of a train.", {
         "position": ("number", "Position of the first axle (length)."),
-        "support?": ("integer", "Number of the support, from 0; or"),
-        "foundation?": ("integer", "number of the foundation."),
-        "name?": ("string", "Its name, where it has one."),
+        **OF,
         "x": ("number", "Position of the change (length)."),
         "event": ("string", "As for load factors."),
         "branch?": ("integer", "Number of the equilibrium branch, from 2 on."),
@@ -241,8 +236,7 @@ TABLES: dict[str, tuple[str, dict[str, tuple[str, str]]]] = {
         "deflection?": ("Range", "Deflection (length), positive downward."),
         "couple?": ("Range", "Moment of its rotational restraint (force*length), positive clockwise."),
     }),
-    "FoundationRange": ("Largest and smallest values of a foundation.", {
-        "name?": ("string", "Its name, where it has one."),
+    "FoundationRange": ("Largest and smallest values of a foundation.", NAME | {
         "resultant": ("Range", "Total reaction of the ground (force), positive upward."),
         "free_span": ("SpanRange", "Spans without contact."),
     }),

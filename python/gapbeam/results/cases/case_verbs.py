@@ -253,12 +253,7 @@ class CaseVerbs(Shown):
         Returns
         -------
         Columns
-            Columns by name; ``to_pandas()`` makes a DataFrame of them.
-
-        Raises
-        ------
-        ValueError
-            There is no such table.
+            As of `Shown.table`.
         """
         if one_of(kind, self._kinds) == "cases":
             return Columns(self._rows())

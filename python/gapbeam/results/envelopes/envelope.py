@@ -201,12 +201,6 @@ class Envelope(PartVerbs):
     ----------
     sources : list of Source
         Where values may come from: the combinations.
-    extremes : dict
-        By field ``{"max": Extreme, "min": Extreme}``: exact values along the whole beam.
-    supports : sequence of dict
-        For every support by quantity (``reaction``, ``opening``, ``deflection``) the same.
-    foundations : list of dict
-        For every foundation ``{"resultant": {"max": ..., "min": ...}, "free_span": {"longest": ..., "deepest": ...}}``.
     limit_state : str or None
         The limit state whose combinations count; None: all.
     """
@@ -278,7 +272,7 @@ class Envelope(PartVerbs):
 
     @cached_property
     def supports(self) -> SupportExtremes:
-        """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
+        """Extremes at every support, in the order of the scene: reaction, opening and deflection, each by ``max`` and ``min``."""
         return SupportExtremes(self)
 
     @cached_property

@@ -21,17 +21,7 @@ if TYPE_CHECKING:
 
 
 class PartVerbs(Shown):
-    """What is asked of a part of a result in the words of results; values are the largest and the smallest ones.
-
-    Attributes
-    ----------
-    scene : Scene
-        What was solved.
-    status : str
-        That of the result.
-    reason : str or None
-        That of the result.
-    """
+    """What is asked of a part of a result in the words of results; values are the largest and the smallest ones."""
 
     _result: Result
 
@@ -114,12 +104,7 @@ class PartVerbs(Shown):
         Returns
         -------
         Columns
-            Columns by name; ``to_pandas()`` makes a DataFrame of them.
-
-        Raises
-        ------
-        ValueError
-            There is no such table.
+            As of `Shown.table`.
         """
         ranges = self._ranges
         return Columns((ranges.supports if one_of(kind, self._kinds) == "supports" else ranges).columns())

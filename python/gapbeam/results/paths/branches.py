@@ -89,16 +89,12 @@ class BranchPath(Pickled):
         What happens to the supports, in the order of the path.
     segments : list of BranchSegment
         The stretches of the path that count; what is passed in a jump does not.
-    limits : list of Limit
-        Where the load could not go on.
     ending : str
         How the path ended: empty at the last factor, ``ended``, ``mechanism``, or ``cut off``.
     motion : numpy.ndarray or None
         Displacements of the nodes in the mechanism in which it ended.
-    solves, nodes : int
-        Linear solves of the whole beam, all in quadruple precision; 0.
-    seconds : float
-        Time of these.
+    solves, nodes, seconds
+        As of `Path`; all solves are in quadruple precision.
     """
 
     def __init__(self, scene: Scene, followed: Followed):

@@ -55,11 +55,6 @@ class TrainEnvelope(PartVerbs):
 
     Attributes
     ----------
-    extremes : dict
-        ``{"moment": {"max": TrainExtreme, "min": TrainExtreme}, ...}`` of the whole beam, exact in place and position; None
-        where nothing is solved.
-    supports : list of dict
-        The same of reaction, opening, deflection, couple of every support; its `columns` are a table.
     unstable_positions : list of (Member, UnstablePositions)
         Positions that are not in it, as the beam is unstable there.
     """
@@ -88,7 +83,7 @@ class TrainEnvelope(PartVerbs):
 
     @cached_property
     def extremes(self) -> Extremes:
-        """Exact extremes of every field, by ``max`` and ``min``."""
+        """Extremes of every field, exact in place and position, by ``max`` and ``min``; None where nothing is solved."""
         return Extremes(self._find_extremes)
 
     def _find_extremes(self) -> dict[str, dict[str, TrainExtreme | None]]:
@@ -99,11 +94,7 @@ class TrainEnvelope(PartVerbs):
 
     @cached_property
     def foundations(self) -> list[dict[str, dict[str, TrainExtreme | None]]]:
-        """Extremes of every foundation, in the order of the scene, as those of combinations.
-
-        ``resultant`` by ``max`` and ``min``, ``free_span`` by ``longest`` and ``deepest`` (None where the beam lies on the
-        foundation everywhere and always).
-        """
+        """Extremes of every foundation, in the order of the scene, as `Envelope.foundations`."""
         return [
             {
                 name: {kind: _merged([one.of_foundations(k, what, i) for one in self._members], i) for kind, what, i in kinds}
@@ -114,7 +105,7 @@ class TrainEnvelope(PartVerbs):
 
     @cached_property
     def supports(self) -> SupportRows:
-        """Extremes at every support, in the order of the scene, by quantity and by ``max`` and ``min``."""
+        """Extremes of reaction, opening, deflection and couple at every support, by ``max`` and ``min``; `columns` make a table."""
         rows = [
             {
                 name: {kind: _merged([one.of_supports(k, name, i) for one in self._members], i) for i, kind in enumerate(KINDS)}

@@ -124,12 +124,7 @@ What was at(7.3) is state(7.3)
         Returns
         -------
         Columns
-            Columns by name; ``to_pandas()`` makes a DataFrame of them.
-
-        Raises
-        ------
-        ValueError
-            There is no such table.
+            As of `Shown.table`.
         """
         if kind == "events":
             return Columns(event_columns(self.scene, [(None, self.name, event) for event in self.events], of_trains=True))
