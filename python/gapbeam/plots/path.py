@@ -308,7 +308,7 @@ def _mark_events(axes: Axes, result: Result, alike: list[int], factors: np.ndarr
 
 def _frame(axes: Axes, width: float, words: str, last: bool) -> None:
     axes.set_ylabel(words, fontsize=9)
-    axes.yaxis.set_label_coords(-0.8 / width, 0.5)
+    axes.yaxis.set_label_coords(-0.74 / width, 0.5)
     axes.tick_params(labelsize=8, labelbottom=last)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.axhline(0.0, color="black", linewidth=0.8)

@@ -36,7 +36,7 @@ from .table import kind_of
 from .tables import Table
 from .tapers import Taper, ends_of
 from .temperature import check_beam, effect_of
-from .wording import number, shown
+from .wording import number, shown, unequal_to_spans
 
 BY_X = -1
 """Instead of a node: the place is given by x."""
@@ -86,8 +86,7 @@ def columns(scene: Scene) -> Columns:
     for row, key in enumerate(("EI", "GA", "EA", "N", "mass"), 1):
         values = np.asarray(getattr(beam, key), dtype=float)
         if values.ndim and len(values) != spans and spans:
-            count = f"has {len(values)} values for {spans} spans"
-            raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
+            raise unequal_to_spans(key, len(values), spans)
         if key != "mass" or with_masses:
             span[row, :spans] = values if spans else np.inf
     check_beam(beam)

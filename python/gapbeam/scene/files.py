@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..base.errors import SceneError
+from ..base.errors import SceneError, SceneFileError
+from .lines import line_of, lines_of_keys, path_of
 from .typed import TOO_DEEP
 from .wording import key_of, out_of_range, shown
 
@@ -158,7 +159,9 @@ def _parse(text: str, kind: str, name: str) -> Written:
     except ValueError:
         raise SceneError(name, f"a number has more than {sys.get_int_max_str_digits()} digits") from None
     if far:
-        raise SceneError(_place(data, far[0]) or name, out_of_range(far[0].word, far[0].value))
+        lines = lines_of_keys(text)
+        found = [(_place(data, one), out_of_range(one.word, one.value)) for one in far]
+        raise SceneFileError(name, [(line_of(lines, path_of(place, data)), place, problem) for place, problem in found])
     if not isinstance(data, dict):
         raise SceneError(name, f"expected a table with beam, supports and loads, got {shown(data)}")
     return Written(data, name, text)

@@ -12,7 +12,7 @@ from ..base.errors import SceneError
 from .loads import CurvatureLoad, TemperatureLoad
 from .structs import Beam, Scene
 from .table import kind_of
-from .wording import number
+from .wording import number, unequal_to_spans
 
 
 def check_beam(beam: Beam) -> None:
@@ -31,8 +31,7 @@ def check_beam(beam: Beam) -> None:
     for key, least, expected in (("alpha", -np.inf, "a finite number"), ("depth", 0.0, "a finite number above 0")):
         value = getattr(beam, key)
         if isinstance(value, list) and len(value) != len(beam.spans):
-            count = f"has {len(value)} values for {len(beam.spans)} spans"
-            raise SceneError(f"beam.{key}", f"{count}; give one number, or one per span")
+            raise unequal_to_spans(key, len(value), len(beam.spans))
         for i, one in enumerate(value if isinstance(value, list) else [] if value is None else [value]):
             if not (isfinite(one) and one > least):
                 place = f"beam.{key}[{i}]" if isinstance(value, list) else f"beam.{key}"

@@ -204,6 +204,11 @@ def enumerated(words: Iterable[str], most: int = 12) -> str:
     return few(words, most) if len(words) > most else choice(words, "and")
 
 
+def unequal_to_spans(key: str, count: int, spans: int) -> SceneError:
+    """Make the error of a key of the beam that has another number of values than there are spans."""
+    return SceneError(f"beam.{key}", f"has {count} value{'s' * (count != 1)} for {spans} spans; give one number, or one per span")
+
+
 def explain(error: msgspec.ValidationError, source: Any, struct: type) -> SceneError:
     """Reword what msgspec says about a wrong key or type.
 

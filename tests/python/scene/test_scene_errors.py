@@ -162,7 +162,7 @@ N = nan -> beam.N: expected a finite number, tension positive, got nan
 N = [1.0, inf, 0.0] -> beam.N[1]: expected a finite number, tension positive, got inf
 mass = -1.0 -> beam.mass: expected a finite number, 0 or more, got -1
 mass = [0.0, nan, 1.0] -> beam.mass[1]: expected a finite number, 0 or more, got nan
-mass = [1.0] -> beam.mass: has 1 values for 3 spans; give one number, or one per span
+mass = [1.0] -> beam.mass: has 1 value for 3 spans; give one number, or one per span
 width = 0.0 -> beam.width: expected a finite number above 0, got 0; give the width on the ground
 width = -1.5 -> beam.width: expected a finite number above 0, got -1.5; give the width on the ground
 width = nan -> beam.width: expected a finite number above 0, got nan; give the width on the ground
@@ -619,6 +619,16 @@ def test_numbers_too_small_for_a_double(tmp_path, name, text, place):
     (tmp_path / name).write_text(text)
     with pytest.raises(SceneError, match=re.escape(place) + ".* is nearer to zero than any number of double precision, 4.9e-324; "):
         read_scene(tmp_path / name)
+
+
+def test_numbers_that_no_double_holds_are_all_told_with_their_lines(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text("[beam]\nEI = 1e400\nspans = [6.0, 1e-400]\n")
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    first, second = str(caught.value).split("\n")
+    assert first.startswith(f"{path}:2: beam.EI: 1e400 is beyond")
+    assert second.startswith(f"{path}:3: beam.spans[1]: 1e-400 is nearer to zero")
 
 
 def test_other_files(tmp_path):

@@ -121,7 +121,7 @@ def test_cases_in_a_table_vary_the_gradient(tmp_path):
     ([{"gradient": float("inf")}], {}, "loads[0].gradient: expected a finite number, got inf"),
     ([{"dT": float("nan")}], {}, "loads[0].dT: expected a finite number, got nan"),
     ([{"gradient": 1.0}], {"alpha": [1e-5, 2e-5]}, "loads[0]: beam.alpha changes along it, at x = 6; give a load for each part"),
-    ([], {"alpha": [1e-5]}, "beam.alpha: has 1 values for 2 spans"),
+    ([], {"alpha": [1e-5]}, "beam.alpha: has 1 value for 2 spans"),
     ([], {"depth": 0.0}, "beam.depth: expected a finite number above 0, got 0"),
     ([], {"depth": [1.0, -1.0]}, "beam.depth[1]: expected a finite number above 0, got -1"),
 ])  # fmt: skip
