@@ -1,4 +1,4 @@
-"""A result as plain data, in the form of the JSON output."""
+"""Results as plain data, in the form of the JSON output."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from .trains.data import event_data, trains_data
 if TYPE_CHECKING:
     import numpy as np
 
+    from .cases.combined import CombinedResult
     from .result import Result
 
 SCHEMA = "gapbeam-result 1"
@@ -51,31 +52,19 @@ def result_data(
     """
     scene = result.scene
     columns = fields(result.fields(points=points)) if result.steps else {}
-    data: dict[str, Any] = {
-        "schema": SCHEMA,
-        "title": scene.title,
-        "units": {"force": scene.units.force, "length": scene.units.length},
-        "status": result.status,
-        "system": result.system.to_dict(),
-        "steps": steps(step_data(result)),
-    }
-    if result.status != "solved":
-        data["reason"] = result.reason
-        data["motion"] = None if result.motion is None else [list(pair) for pair in result.motion]
+    data = _head(result) | {"system": result.system.to_dict(), "steps": steps(step_data(result)), **_unsolved(result)}
     if result.limits:
-        data["limit"] = limit_data(result)
+        data["limit"] = _limit_data(result)
     if result.remarks:
         data["remarks"] = result.remarks
     if scene.analysis.follow == "events":
         data["events"] = [event_data(event, scene) for event in result.events]
     if result.steps:
-        data["lifted"] = lifted_data(result)
-        data |= limits_data(result)
+        data["lifted"] = _lifted_data(result)
+        data |= _limits_data(result)
         data |= modes_data(result)
         data["fields"] = columns
-        data["extremes"] = {
-            name: {which: list(pair) for which, pair in row.items()} for name, row in result._pairs_of_extremes().items()
-        }
+        data["extremes"] = _extremes_data(result)
     if is_followed(result):
         data["history_extremes"] = result.path_envelope().to_history()
     if scene.trains:
@@ -85,36 +74,98 @@ def result_data(
     return data
 
 
-def lifted_data(result: Result) -> list[dict[str, Any]]:
-    """Give the supports without contact as plain data.
+def combined_data(result: CombinedResult, points: int = 20, combinations: Callable[[Iterator], Any] = list) -> dict[str, Any]:
+    """Everything as plain data.
 
     Parameters
     ----------
-    result : Result
-        Of one load or of combinations.
-
-    Returns
-    -------
-    list of dict
-        Number and name of the support, its largest opening, and where that is from.
-    """
-    supports = result.scene.supports
-    return [{**one.to_dict(), **name_data(supports[one.support])} for one in result.lifted]
-
-
-def limits_data(result: Result) -> dict[str, Any]:
-    """Give how far the limits of the scene are used, as plain data.
-
-    Parameters
-    ----------
-    result : Result
-        Of one load or of combinations.
+    result : CombinedResult
+        What `gapbeam.solve` returned.
+    points : int
+        Divisions of each span in the curves of the envelope.
+    combinations : callable
+        What becomes of the combinations, which come one by one, each made when its turn comes: a list unless given.
 
     Returns
     -------
     dict
-        Empty where the scene has no limits.
+        Only numbers, strings, lists and dicts.
     """
+    data = _head(result)
+    if result.reason is not None:
+        data["reason"] = result.reason
+    if result.remarks:
+        data["remarks"] = result.remarks
+    if result.compression is not None:
+        data["compression"] = result.compression.to_dict()
+    data["combinations"] = combinations(_combinations(result))
+    data |= trains_data(result)
+    if is_followed(result):
+        data["history_extremes"] = result.path_envelope().to_history()
+    data["lifted"] = _lifted_data(result)
+    data |= _limits_data(result)
+    if result.has_envelope:
+        data["envelope"] = result.envelope(points).to_dict()
+        if names := [name for name in result.limit_states if result._has_envelope_of(name)]:
+            data["envelopes"] = {name: result.envelope(points, limit_state=name).to_dict() for name in names}
+    return data
+
+
+def _combinations(result: CombinedResult) -> Iterator[dict[str, Any]]:
+    """Give the combinations as plain data, each made when its turn comes."""
+    for k, name in enumerate(result.names):
+        limit_state = result._plan.limit_states[k]
+        yield {"name": name, **({"limit_state": limit_state} if limit_state else {}), **_combination(result.combinations[k])}
+
+
+def _combination(result: Result) -> dict[str, Any]:
+    """Give one of them."""
+    data: dict[str, Any] = {"status": result.status, **_unsolved(result)}
+    if result.without_trains is not None:
+        data["without_trains"] = result.without_trains
+    if result.limits:
+        data["limit"] = _limit_data(result)
+    if result.scene.analysis.follow == "events":
+        data["events"] = [event_data(event, result.scene) for event in result.events]
+    if result.compression is not None:
+        data["compression"] = result.compression.to_dict()
+    if not result.steps:
+        return data
+    steps = list(step_data(result))
+    data |= steps[-1] if len(steps) == 1 else {"steps": steps, "supports": steps[-1]["supports"]}
+    data |= _ground_data(result, result.steps[-1])
+    data |= {name: values for name, values in modes_data(result).items() if name != "remarks"}
+    data["extremes"] = _extremes_data(result)
+    return data
+
+
+def _head(result: Result | CombinedResult) -> dict[str, Any]:
+    """What comes first."""
+    units = {"force": result.scene.units.force, "length": result.scene.units.length}
+    return {"schema": SCHEMA, "title": result.scene.title, "units": units, "status": result.status}
+
+
+def _unsolved(result: Result) -> dict[str, Any]:
+    """Why there is no answer, and how the beam moves."""
+    if result.status == "solved":
+        return {}
+    return {"reason": result.reason, "motion": None if result.motion is None else [list(pair) for pair in result.motion]}
+
+
+def _extremes_data(result: Result) -> dict[str, Any]:
+    """Extremes of every field, with their places."""
+    found = result._pairs_of_extremes().items()
+    return {name: {which: list(pair) for which, pair in row.items()} for name, row in found}
+
+
+def _lifted_data(result: Result) -> list[dict[str, Any]]:
+    """Give the supports without contact as plain data."""
+    supports = result.scene.supports
+    return [{**one.to_dict(), **name_data(supports[one.support])} for one in result.lifted]
+
+
+def _limits_data(result: Result) -> dict[str, Any]:
+    """Give how far the limits of the scene are used, as plain data."""
     used = result.utilisations
     return {"utilisations": {name: one.to_dict() for name, one in used.items()}} if used else {}
 
@@ -142,19 +193,8 @@ def modes_data(result: Result) -> dict[str, Any]:
     return found
 
 
-def limit_data(result: Result) -> dict[str, Any]:
-    """Give the first limit of the load as plain data.
-
-    Parameters
-    ----------
-    result : Result
-        One with a limit.
-
-    Returns
-    -------
-    dict
-        In the form of the JSON output.
-    """
+def _limit_data(result: Result) -> dict[str, Any]:
+    """Give the first limit of the load as plain data."""
     limit = result.limits[0]
     landing = limit.landing
     x = result.scene.positions(result.scene.supports).tolist()
@@ -199,21 +239,8 @@ def _support_data(result: Result, step: Step, x: list[float], lost: np.ndarray |
     ]
 
 
-def ground_data(result: Result, step: Step) -> dict[str, Any]:
-    """Give contact with the ground and free spans of a state as plain data.
-
-    Parameters
-    ----------
-    result : Result
-        What `gapbeam.solve` returned.
-    step : Step
-        The state.
-
-    Returns
-    -------
-    dict
-        Empty without foundations.
-    """
+def _ground_data(result: Result, step: Step) -> dict[str, Any]:
+    """Give contact with the ground and free spans of a state as plain data."""
     if not result.scene.foundation:
         return {}
     names = [name_data(item) for item in result.scene.foundation]
@@ -225,7 +252,7 @@ def ground_data(result: Result, step: Step) -> dict[str, Any]:
             }
             for c in step.contact
         ],
-        "free_spans": [{"foundation": f.foundation, "from": f.from_, "to": f.to, "sag": f.sag} for f in step.free_spans],
+        "free_spans": [{"foundation": span.foundation, **span.to_dict()} for span in step.free_spans],
     }
 
 
@@ -258,7 +285,7 @@ def step_data(result: Result) -> Iterator[dict[str, Any]]:
             "seconds": step.seconds,
             "supports": _support_data(result, step, x, None if lost is None else lost[k]),
             **({"hinges": [one._asdict() for one in step.hinges]} if result.scene.hinges else {}),
-            **ground_data(result, step),
+            **_ground_data(result, step),
             **({"slip_zones": [
                 {"from": one.from_, "to": one.to, "way": one.way, "friction": one.friction} for one in step.slip_zones
             ]} if result._beam.is_on_axial_ground else {}),

@@ -18,6 +18,7 @@ from ...scene.names import label
 from ...scene.reading import beam_of
 from ...scene.structs import Scene
 from ...scene.wording import key_of, shown
+from ..data import combined_data
 from ..envelopes.envelope import AT_SUPPORTS, Envelope
 from ..envelopes.full_load import on_both_sides
 from ..envelopes.hints import Hint, find_hints
@@ -30,7 +31,6 @@ from ..trains.members import Member, Standing
 from ..views.extreme import Extremes, Source
 from ..views.labelled import Labelled, by_support
 from .combinations import Combinations
-from .combined_data import combined_data
 from .combined_solver import AtOnce, OneByOne
 from .limit_states import members_of, without_others
 from .parts import place_parts

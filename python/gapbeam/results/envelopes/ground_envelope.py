@@ -53,7 +53,7 @@ class GroundExtreme(Extreme):
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data: the free span, its source, and all that tie with it."""
-        span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
+        span = {} if self.span is None else self.span.to_dict()
         ties = {"ties": [one.to_dict() for one in self.ties[1:]]} if len(self.ties) > 1 else {}
         return {**span, **self.source.to_dict(), **ties}
 

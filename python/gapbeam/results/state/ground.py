@@ -64,6 +64,10 @@ class FreeSpan:
     to: float
     sag: float
 
+    def to_dict(self) -> dict[str, float]:
+        """Ends and sag as plain data."""
+        return {"from": self.from_, "to": self.to, "sag": self.sag}
+
 
 @dataclass(frozen=True, slots=True)
 class Run:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..result import Result
     from ..state.ground import FreeSpan
     from ..state.step import Step
+    from .sampled import SampledTraversal
     from .trains import TrainResult
     from .traversals import ExactTraversal, UnstablePositions
 
@@ -82,7 +83,7 @@ class TrainExtreme(Extreme):
     def to_dict(self) -> dict[str, Any]:
         """Where it comes from, all that tie with it, and the concurrent values, as plain data."""
         ties = [({"x": tie.x} if tie.support is tie.foundation is None else {}) | tie.source.to_dict() for tie in self.ties]
-        span = {} if self.span is None else {"from": self.span.from_, "to": self.span.to, "sag": self.span.sag}
+        span = {} if self.span is None else self.span.to_dict()
         return {**span, **self.source.to_dict(), **({"ties": ties} if ties else {}), "concurrent": self.concurrent}
 
 
@@ -125,12 +126,8 @@ class Member:
         raise NotImplementedError
 
     def seen_states(self) -> Iterator[tuple[str, ...]]:
-        """Go through the states of all supports: those between the events."""
-        of = self._traversal
-        ends = [of.course.from_, of.course.to, *(end for gap in of.unstable_positions for end in (gap.from_, gap.to))]
-        for before, after in pairwise(sorted({*ends, *(event.position for event in of.events)})):
-            with suppress(EngineError, ValueError):  # the beam does not stand there
-                yield self._train.state((before + after) / 2, self.direction).state
+        """Go through the states of all supports."""
+        raise NotImplementedError
 
     def fields(self, extreme: TrainExtreme) -> dict[str, float]:
         """Give all fields in that state at the place of an extreme value."""
@@ -149,25 +146,27 @@ class Passing(Member):
     ----------
     train : TrainResult
         The train.
-    traversal : ExactTraversal
+    traversal : ExactTraversal or SampledTraversal
         One of its traversals.
     combination : str, optional
         Name of the combination.
     """
 
-    def __init__(self, train: TrainResult, traversal: ExactTraversal, combination: str | None = None):
+    def __init__(self, train: TrainResult, traversal: ExactTraversal | SampledTraversal, combination: str | None = None):
         super().__init__(combination)
         self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
         self._train, self._traversal = train, traversal
-        self._fields, self._supports = traversal.extremes
+
+    def _extremes(self) -> tuple[Extremes, list[Extremes]]:
+        return self._traversal.extremes
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
-        return self._ties(self._fields, quantity, BENDING.index(quantity), i, None)
+        return self._ties(self._extremes()[0], quantity, BENDING.index(quantity), i, None)
 
     def of_supports(self, support: int, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_supports`."""
-        return self._ties(self._supports[support], quantity, OF_SUPPORTS.index(quantity), i, support)
+        return self._ties(self._extremes()[1][support], quantity, OF_SUPPORTS.index(quantity), i, support)
 
     def _ties(self, found: Extremes, quantity: str, k: int, i: int, support: int | None) -> list[TrainExtreme]:
         count = int(found.count[i, k])
@@ -181,6 +180,14 @@ class Passing(Member):
         """As `Member.curves`."""
         engine = self._traversal.engine
         return engine.curves(*_found(engine.beam, x, left))
+
+    def seen_states(self) -> Iterator[tuple[str, ...]]:
+        """As `Member.seen_states`: those between the events."""
+        of = self._traversal
+        ends = [of.course.from_, of.course.to, *(end for gap in of.unstable_positions for end in (gap.from_, gap.to))]
+        for before, after in pairwise(sorted({*ends, *(event.position for event in of.events)})):
+            with suppress(EngineError, ValueError):  # the beam does not stand there
+                yield self._train.state((before + after) / 2, self.direction).state
 
     def state_of(self, extreme: TrainExtreme) -> Step:
         """As `Member.state_of`: where the beam tips at a position, that before or that after it, whichever has the value."""
@@ -209,10 +216,11 @@ class Neutral(Passing):
     """
 
     def __init__(self, train: TrainResult, traversal: ExactTraversal, combination: str | None, held: Traversal):
-        Member.__init__(self, combination)
-        self.train, self.direction = train.name, traversal.course.direction
-        self._train, self._traversal, self._held = train, traversal, held
-        self._fields, self._supports = held.extremes()
+        super().__init__(train, traversal, combination)
+        self.unstable_positions, self._held, self._of_held = [], held, held.extremes()
+
+    def _extremes(self) -> tuple[Extremes, list[Extremes]]:
+        return self._of_held
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""

@@ -21,7 +21,7 @@ from ..paths.compression_check import tensions
 from ..state.breakpoints import EVENTS
 from ..state.ground import FreeSpan
 from .influence import influence_line
-from .members import Member, TrainExtreme, fields_of
+from .members import Passing, TrainExtreme, fields_of
 from .states import TrainLoads
 from .traversals import TrainEvent, UnstablePositions, word_of
 
@@ -106,23 +106,8 @@ class SampledTraversal:
     influence = staticmethod(influence_line)
 
 
-class SampledMember(Member):
-    """A train that goes over the beam in one direction, known at positions near to each other.
-
-    Parameters
-    ----------
-    train : TrainResult
-        The train.
-    traversal : SampledTraversal
-        One of its traversals.
-    combination : str or None
-        Name of the combination.
-    """
-
-    def __init__(self, train: TrainResult, traversal: SampledTraversal, combination: str | None):
-        super().__init__(combination)
-        self.train, self.direction, self.unstable_positions = train.name, traversal.course.direction, traversal.unstable_positions
-        self._train, self._traversal = train, traversal
+class SampledMember(Passing):
+    """A train that goes over the beam in one direction, known at positions near to each other; made as `Passing`."""
 
     def of_fields(self, quantity: str, i: int) -> list[TrainExtreme]:
         """As `Member.of_fields`."""
