@@ -13,7 +13,6 @@ from ..scene.ground_tables import at_both_ends
 from ..scene.movements import number_of_moved
 from ..scene.names import DEAD, labels
 from ..scene.rotations import turns
-from ..scene.temperature import as_curvatures
 from .load_ways import count_numbers, way_of_load
 from .states import SIDES, places_on_ground
 from .train_ways import MOST_NUMBERS, way_of_train
@@ -192,7 +191,7 @@ def _loads_data(scene: Scene) -> list[dict[str, Any]]:
     """Give the loads as they are drawn; those that move supports with their places and ways, those of the ground with its ends."""
     nodes, found = scene.span_ends(), []
     at = scene.positions(scene.supports).tolist()
-    for k, (load, given) in enumerate(zip(as_curvatures(scene).loads, scene.loads, strict=True)):
+    for k, load in enumerate(scene.loads):
         kind = load.__struct_config__.tag
         one: dict[str, Any] = {"type": kind, "dead": load.case == DEAD}
         if kind == "movement":
@@ -209,10 +208,11 @@ def _loads_data(scene: Scene) -> list[dict[str, Any]]:
             one["x"] = float(nodes[load.node]) if load.node is not None else load.x
             one["value"] = load.M if kind == "moment" else load.F
         else:
-            from_, to = fmt.stretch(scene, load)
-            ends = list(at_both_ends(load.kappa if kind == "curvature" else load.q))
-            if not any(ends) and getattr(given, "dT", 0.0):  # it lengthens only
-                one["type"], ends = "temperature", 2 * [given.dT]
-            one |= {"from": from_, "to": to, "ends": ends}
+            one["from"], one["to"] = fmt.stretch(scene, load)
+            if kind == "temperature":
+                one["changes"] = {name: value for name, value in (("dT", load.dT), ("gradient", load.gradient)) if value}
+                one["ends"] = [0.0, 0.0]
+            else:
+                one["ends"] = list(at_both_ends(load.kappa if kind == "curvature" else load.q))
         found.append(one)
     return found

@@ -232,6 +232,16 @@ def test_along_a_path_all_that_is_drawn_is_exact(browser, look_at, more):
         assert found["words"] == list(step.state)
 
 
+def test_temperatures_are_named_as_they_are_given_and_curvatures_with_their_unit(browser, look_at):
+    loads = [gapbeam.TemperatureLoad(gradient=-40.0), gapbeam.TemperatureLoad(dT=5.0, gradient=2.0, to=3.0),
+             gapbeam.TemperatureLoad(dT=7.0), gapbeam.CurvatureLoad(kappa=2e-4)]  # fmt: skip
+    look_at(gapbeam.Scene(units=gapbeam.Units(force="kN", length="m"), loads=loads,
+                          beam=gapbeam.Beam(spans=[6.0, 6.0], EI=1e4, alpha=1e-5, depth=0.3),
+                          supports=[gapbeam.Support(node=k, side="below" if k else "both") for k in range(3)]))  # fmt: skip
+    told = {one.text for one in browser.find_elements(By.CSS_SELECTOR, "text.load")}
+    assert told == {"gradient \N{MINUS SIGN}40", "dT 5, gradient 2", "dT 7", "\N{GREEK SMALL LETTER KAPPA} 0.0002 1/m"}
+
+
 def test_trains_are_drawn_by_their_polynomials(browser, look_at):
     """With the seven digits of single precision; uniform loads, shear, hinges, springs and both directions included."""
     result = look_at(train())

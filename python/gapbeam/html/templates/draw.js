@@ -138,12 +138,18 @@ function along(state, scale, from, to, below) {
   });
 }
 
-/* What stands before the values of loads without a unit. */
-const UNITLESS = { curvature: "\u03ba ", temperature: "dT " };
-
 /* Loads over a stretch that act neither down nor up: imposed curvatures, temperatures that lengthen, and loads along the beam. */
 function isFlat(load) {
-  return load.type in UNITLESS || load.type === "axial_uniform";
+  return ["curvature", "temperature", "axial_uniform"].includes(load.type);
+}
+
+/* What a load over a stretch is, with its unit; temperatures have none. */
+function bandText(one, factor) {
+  if (one.changes) return Object.entries(one.changes).map(([name, value]) => `${name} ${number(factor * value, 4)}`).join(", ");
+  const along = one.type === "axial_uniform", bends = one.type === "curvature";
+  const [from, to] = one.ends.map((q) => number(along ? Math.abs(factor * q) : factor * q, 4));
+  const sign = bends ? "\u03ba " : !along ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
+  return `${sign}${from === to ? from : `${from} to ${to}`} ${DATA.units[bends ? "curvature" : "uniform"][0]}`;
 }
 
 function drawLoads(state, scale, y, axis) {
@@ -156,10 +162,7 @@ function drawLoads(state, scale, y, axis) {
       const [a, b] = one.ends.map((q) => (isFlat(one) ? 5 : (Math.abs(factor * q) / scale.uniform) * 14));
       const left = scale.x(one.from), right = scale.x(one.to), foot = top - MODEL.level * one.level;
       parts.push(path([[left, foot], [left, foot - a], [right, foot - b], [right, foot]], isFlat(one) ? "band bent" : "band", true));
-      const [from, to] = one.ends.map((q) => number(one.type === "axial_uniform" ? Math.abs(factor * q) : factor * q, 4));
-      const unit = one.type in UNITLESS ? "" : ` ${DATA.units.uniform[0]}`;
-      const sign = one.type in UNITLESS ? UNITLESS[one.type] : one.type !== "axial_uniform" ? "" : factor * one.ends[0] < 0 ? "\u2190 " : "\u2192 ";
-      const text = `${sign}${from === to ? from : `${from} to ${to}`}${unit}`;
+      const text = bandText(one, factor);
       const half = halfOf(text), middle = Math.min(Math.max((left + right) / 2, 4 + half), WIDTH - 4 - half);
       if (label) parts.push(words(middle, foot - Math.max(a, b) - 3, text, "load"));
     } else if (one.type === "movement") parts.push(drawMovement(one, factor, scale, y(one.x, false), label && taken));
