@@ -279,7 +279,7 @@ def _run(arguments: argparse.Namespace) -> int:
         raise SceneError("--limits", "the scene has no [limits] that could be exceeded; give some, or leave the option out")
     if scene.combinations and "--path" in outputs:
         raise SceneError("--path", "draws the way of one load, and the scene has combinations; leave it out, or draw that of one "
-                         "of them in Python (gapbeam.plots.plot_path)")  # fmt: skip
+                         'of them in Python: gapbeam.solve(SCENE).combinations[NAME].plot("path")')  # fmt: skip
     with shown_progress("solving", not arguments.quiet):
         result = solve(scene)
     solved = result.status == "solved"

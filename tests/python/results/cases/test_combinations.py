@@ -415,7 +415,9 @@ def test_the_command_writes_all_of_it(tmp_path, monkeypatch, capsys):
     assert main(["check", "rack.json"]) == 0
     assert "3 loads; 3 combinations" in capsys.readouterr().out
     assert main(["run", "rack.json", "--path", "path.svg"]) == 2
-    assert "--path: draws the way of one load" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "--path: draws the way of one load" in told
+    assert told.endswith(': gapbeam.solve(SCENE).combinations[NAME].plot("path")\n')
     made["combinations"].append({"name": "storm", "factors": {"wind": -3.0}})
     (tmp_path / "rack.json").write_text(json.dumps(made))
     assert main(["run", "rack.json", "--quiet", "--csv", "all.csv"]) == 1
