@@ -18,7 +18,6 @@ from typing import Any
 
 import msgspec
 
-from ..base.characters import visible
 from ..base.errors import SceneError
 from ..scene.combinations import VALUES
 from ..scene.edited import unquoted
@@ -70,19 +69,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
     dict
         Lists of supports, loads and so on are lists of dicts, however they were given.
     """
-    listed = msgspec.structs.replace(scene, **{key: list(getattr(scene, key)) for key in HEADS if key != "beam"})
-    try:
-        return plain(listed)
-    except UnicodeEncodeError:  # halves of characters, which files cannot hold
-        return _written_out(msgspec.to_builtins(listed, str_keys=False))
-
-
-def _written_out(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {_written_out(key): _written_out(one) for key, one in data.items()}
-    if isinstance(data, list | tuple):
-        return [_written_out(one) for one in data]
-    return visible(data) if isinstance(data, str) else data
+    return plain(msgspec.structs.replace(scene, **{key: list(getattr(scene, key)) for key in HEADS if key != "beam"}))
 
 
 def find_paths(scene: Scene, names: Sequence[str]) -> tuple[KeyPath, ...]:

@@ -68,9 +68,12 @@ def plain(struct: msgspec.Struct) -> dict[str, Any]:
     Returns
     -------
     dict
-        By its keys.
+        By its keys; halves of characters, which files cannot hold, are written out.
     """
-    return msgspec.msgpack.decode(_packed(struct), strict=False)
+    try:
+        return msgspec.msgpack.decode(_packed(struct), strict=False)
+    except UnicodeEncodeError:
+        return _written_out(msgspec.to_builtins(struct, enc_hook=_simple, str_keys=False))
 
 
 def _packed(struct: msgspec.Struct) -> bytearray:
@@ -105,7 +108,7 @@ def _written_out(data: Any) -> Any:
     """All texts of plain data without halves of characters."""
     if isinstance(data, dict):
         return {_written_out(key): _written_out(value) for key, value in data.items()}
-    if isinstance(data, list):
+    if isinstance(data, list | tuple):
         return [_written_out(item) for item in data]
     return visible(data) if isinstance(data, str) else data
 
