@@ -218,7 +218,8 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
     one_sided = any(support.side != "both" for support in scene.supports)
     rows, names = [], names_with_units(scene)
     lifted = np.flatnonzero(envelope.supports.values("opening", "max") > 0.0).tolist()
-    for k in chosen(len(names), lifted, MOST_ROWS):
+    which = chosen(len(names), lifted, MOST_ROWS)
+    for k in which:
         if k is None:
             rows.append(["..."] * (6 if one_sided else 4))
             continue
@@ -235,6 +236,7 @@ def _supports(say: Writer, result: "CombinedResult", envelope: "Envelope", of: s
     if one_sided:
         headings += [fmt.shown_column(scene, "opening", [])[0], "combination"]
     say.table(headings, rows, left=(0, 1, 3, 5), longest=len(rows))
+    say.supports_left_out(which, len(names), lifted, "stay")
     say.line(f"Reactions {positive_reactions(scene)} positive.", "dim")
 
 

@@ -227,14 +227,10 @@ def _supports(say: "Writer", result: "Result", at: str) -> None:
             break  # numbers are shortened rather than broken
     left = (2, 3) if names == [str(k) for k in range(len(names))] else (0, 2, 3)
     rows = list(zip(*(texts for _, texts in columns), strict=True))
-    which = chosen(len(rows), (k for k, state in enumerate(step.state) if state == "open"))
-    which = [k for k in which if k is None or not turning[k]]
+    lifted = [k for k, state in enumerate(step.state) if state == "open" and not turning[k]]
+    which = [k for k in chosen(len(rows), lifted) if k is None or not turning[k]]
     say.table([name for name, _ in columns], [rows[k] if k is not None else ["..."] * len(columns) for k in which], left=left)
-    if None in which:
-        kept = {k for k in which if k is not None}
-        lost = [k for k in range(len(rows)) if step.state[k] == "open" and k not in kept]
-        words = f"; no contact at {fmt.ranges(lost)}" if lost else "; all of them are in contact"
-        say.line(f"{len(rows) - len(kept):,} supports are left out here{words}. All are in the output of --json.", "italic")
+    say.supports_left_out(which, int((~turning).sum()), lifted, "are")
     for line in balance_in_words(result, step):
         say.line(line, "dim")
     counts = Counter(state_in_words(state) for state, turned in zip(step.state, turning, strict=True) if not turned)

@@ -100,11 +100,7 @@ def _supports(say: Writer, result: "Result", envelope: "TrainEnvelope", of: str)
             rows.append(["", "opening", far, *_source(result, opening)])
     say.heading(f"Supports while trains pass{of}")
     say.table(["", "", fmt.stacked(scene, "reaction"), *_headings(result)], rows, (0, 1, 3, 4), len(rows))
-    if None in which:
-        lost = sorted(set(lifted) - set(which))
-        words = f"; no contact at {fmt.ranges(lost)}" if lost else "; all of them stay in contact"
-        count = len(names) - sum(k is not None for k in which)
-        say.line(f"{count:,} supports are left out here{words}. All are in the output of --json.", "italic")
+    say.supports_left_out(which, len(names), lifted, "stay")
     length, _ = fmt.shown_unit(scene, "opening")
     unit = f" in {length}" if length else ""
     say.line(f"Reactions {positive_reactions(scene)} positive; openings{unit} where there are any.", "dim")

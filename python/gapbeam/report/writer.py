@@ -9,6 +9,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..results.formatting import ranges
+
 #: Tables with more rows than this are cut
 LONGEST = 40
 #: Between two columns of a table
@@ -81,6 +83,14 @@ class Writer:
     def table_by_name(self, headings: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
         """Write a table of numbers by name, with whole names: columns that do not fit stand below, by name again."""
         self.table(headings, rows, left=[0], whole=True)
+
+    def supports_left_out(self, which: Sequence[int | None], count: int, lifted: Sequence[int], verb: str) -> None:
+        """Say how many supports a table leaves out that shows some of `count` (from `chosen`), and which of them lift off."""
+        if None in which:
+            lost = sorted(set(lifted).difference(which))
+            words = f"no contact at {ranges(lost)}" if lost else f"all of them {verb} in contact"
+            hidden = count - len(set(which) - {None})
+            self.line(f"{hidden:,} supports are left out here; {words}. All are in the output of --json.", "italic")
 
     def pairs(self, rows: Sequence[tuple[str, str]]) -> None:
         """Write names and what there is to say of them."""

@@ -122,6 +122,18 @@ def test_long_tables_are_cut_and_say_so(long_result):
         assert "left out here" not in text
 
 
+def test_supports_that_are_left_out_are_counted_in_tables_of_their_own():
+    """Restraints of rotations have another table; combinations say what they leave out, too."""
+    made = many(59)
+    made["supports"][20]["rotation"] = {"slack": 0.001, "stiffness": 5e4}
+    told = " ".join(report_text(gapbeam.solve(made)).split())
+    shown = len(re.findall(r"(?:^| )\d+ \d+ (?:both|below) ", told.partition("Supports at")[2].partition("Rotations at")[0]))
+    assert f" {60 - shown} supports are left out here; " in told
+    made["combinations"] = [{"name": "all", "factors": {"live": 1.0}}]
+    told = " ".join(report_text(gapbeam.solve(made)).split())
+    assert re.search(r"\d+ supports are left out here; (no contact at|all of them stay)", told.partition("Supports, all")[2])
+
+
 def test_no_support_without_contact_is_cut():
     """Two of a thousand supports beside a heavy load."""
     spans = 1000
@@ -234,7 +246,7 @@ def test_where_the_axis_alone_carries(tmp_path):
     texts = [text.get_text() for axes in result.plot().axes for text in axes.texts]
     assert len([text for text in texts if text.endswith("0.3 at 0")]) == 1
     result.to_html(tmp_path / "page.html")
-    assert re.search(r'"type": ?"temperature".*"ends": ?\[30.0, ?30.0\]', (tmp_path / "page.html").read_text())
+    assert re.search(r'"type": ?"temperature".*"changes": ?{"dT": ?30.0}', (tmp_path / "page.html").read_text())
 
 
 def test_tables_that_are_too_wide_are_divided_and_break_no_word():
