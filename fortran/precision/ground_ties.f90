@@ -203,9 +203,10 @@ contains
         real(wp) :: force, way, modulus
 
         call size_of_loads(ground, real(factor, wp), force, way, modulus)
-        least = no_tied_force*max(force, maxval(sum(abs(carried), 1)), real(maxval([0.0_qp, abs(work%reaction)]), wp), &
-                                  real(maxval([0.0_qp, abs(ground%beam%supports%force)]), wp), &
-                                  real(sum(ground%pieces%length), wp)*modulus*way)
+        least = real(no_tied_force, wp)*max(force, maxval(sum(abs(carried), 1)), &
+                                            real(maxval([0.0_qp, abs(work%reaction)]), wp), &
+                                            real(maxval([0.0_qp, abs(ground%beam%supports%force)]), wp), &
+                                            real(sum(ground%pieces%length), wp)*modulus*way)
     end function least_force
 
     !> A beam without loads on which nothing pushes has no forces: what is left of them is rounding, of which none is left beside it

@@ -91,11 +91,11 @@ contains
         !> As for deflection_at
         real(wp), intent(in) :: deflection(0:)
         real(wp), allocatable :: found(:)
-        integer, allocatable :: numbers(:)
         integer :: j
 
-        numbers = smooth_supports(assembled)
-        found = [(deflection_at(assembled, deflection, numbers(j)), j=1, size(numbers))]
+        associate (numbers => smooth_supports(assembled))
+            found = [(deflection_at(assembled, deflection, numbers(j)), j=1, size(numbers))]
+        end associate
     end function deflections_at_curves
 
     !> The largest deflection of the beam at its nodes, either way
