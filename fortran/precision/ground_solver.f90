@@ -315,7 +315,7 @@ contains
         end if
         call take_rounded(fine, factor, zones, grounded, closed, work, solution)
         outcome = outcome_type(status=found%status)
-        call stands_on_edge(fine, factor, zones, grounded, work, stands)
+        call stands_on_edge(fine, factor, zones, grounded, closed, work, stands)
         settled = .not. stands
         if (stands) then
             ! So it tips over the edge

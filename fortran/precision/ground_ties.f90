@@ -12,6 +12,7 @@ module gapbeam_ground_ties
     use gapbeam_model_quad, only: beam_type, last_place
     use gapbeam_turning_quad, only: turn_with
     use gapbeam_law, only: both
+    use gapbeam_polyline_quad, only: piece_that_acts
     use gapbeam_law_kinematics_quad, only: leaves_all
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_kinematics_quad, only: free_motions, motion_type
@@ -23,17 +24,20 @@ contains
 
     !> Does a zone of no length carry what none can: a force, as under a load at the very end of the ground, or a couple; or is the
     !> beam pressed into the ground there, which is so where it turns over an edge without end
-    pure subroutine stands_on_edge(ground, factor, zones, grounded, work, stands)
+    pure subroutine stands_on_edge(ground, factor, zones, grounded, closed, work, stands)
         !> The beam and its ground, and the load factor
         type(ground_type), intent(in) :: ground
         real(qp), intent(in) :: factor
         !> The zones that its solution asks for, and the beam on those before, as many
         type(zones_type), intent(in) :: zones
         type(grounded_type), intent(in) :: grounded
+        !> States of the supports
+        logical, intent(in) :: closed(:)
         type(workspace_type), intent(in) :: work
         logical, intent(out) :: stands
-        real(qp) :: length, rounding
+        real(qp) :: length, rounding, slope
         real(wp) :: force, way, modulus
+        logical :: acts
         integer :: i
 
         length = sum(ground%pieces%length)
@@ -43,6 +47,11 @@ contains
         associate (supports => grounded%beam%supports)
             do i = 1, size(supports)
                 if (supports(i)%node > size(zones%piece) .or. .not. abs(work%reaction(i)) > 0.0_qp) cycle
+                if (supports(i)%breakpoint > 0) then
+                    ! However far the beam goes along a level piece, that is no size
+                    call piece_that_acts(supports, closed, i, acts, slope)
+                    if (.not. (acts .and. abs(slope) > 0.0_qp)) cycle
+                end if
                 way = max(way, real(abs(work%answers(supports(i)%node)%deflection), wp))
             end do
         end associate

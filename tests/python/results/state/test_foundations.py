@@ -148,6 +148,21 @@ def test_moduli_that_add_up_to_a_constant(F):
     assert [zone.foundation for zone in result.steps[-1].contact] == [0, 1]
 
 
+@pytest.mark.parametrize("side", ["both", "above"])
+@pytest.mark.parametrize(("F", "status"), [(1.3, "solved"), (1.4, "no-equilibrium"), (20.0, "no-equilibrium")])
+def test_a_tie_that_yields_holds_a_beam_on_an_edge_up_to_its_force(side, F, status):
+    """About the edge of the ground F has a lever of 3, and the tie, which takes 2 at most, one of 2."""
+    made = {"beam": {"spans": [4.0, 2.0], "EI": 4000.0}, "foundation": [{"from": 4.0, "to": 4.5, "k": 1000.0, "side": "below"}],
+            "supports": [{"node": 2, "side": side, "law": [[0.002, 2.0], [0.004, 2.0]]}],
+            "loads": [{"type": "force", "x": 1.0, "F": F}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.status == status
+    if status == "solved":
+        assert result.reactions[0] == -2.0
+    else:
+        assert "tips about x = 4: its left end goes down, its right end goes up" in result.reason
+
+
 def test_a_part_of_a_beam_on_an_edge():
     """A load at the very end of the ground tips the part up to the first hinge; the part behind the next one lies on the ground."""
     made = {"beam": {"spans": [6.0], "EI": 2850.0, "hinges": [1.7, 2.3]}, "foundation": [{"k": 196.0, "side": "below"}],
