@@ -72,7 +72,7 @@ contains
             n%deflection = n%deflection + lost_digits*maxval(s%deflection)
             n%rotation = n%rotation + lost_digits*maxval(s%rotation)
             n%moment = n%moment + lost_digits*maxval([s%moment, whole*taken])
-            n%shear = n%shear + lost_digits*maxval([s%shear, taken])
+            n%shear = n%shear + lost_digits*maxval([s%shear, s%moment/whole, taken])
         end associate
         i = 1
         do j = 0, size(ground%pieces)

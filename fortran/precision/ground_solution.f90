@@ -130,6 +130,8 @@ contains
             solution%undecided(k) = .false.
             if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
             solution%undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
+            ! What begins to act there has no force; a later piece of a law begins with one
+            if (abs(grounded%beam%supports(k)%force) > 0.0_qp) cycle
             if (closed(k) .and. abs(margin(k)) <= ground_fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         solution%deflection(:) = real(work%answers([grounded%node, (i, i=m + 1, ubound(work%answers, 1))])%deflection, wp)

@@ -320,8 +320,7 @@ contains
                         ! In a zone on rigid ground the beam is not past the ground either
                         if (now%away(side) >= 0.0_wp .and. .not. (layer%rigid .and. side == 1)) cycle
                         call breakpoint_terms(layer, ground%laws, breakpoint, wsize, steepness, terms_of_it)
-                        if (layer%rigid) terms_of_it = terms_of_it + least%deflection
-                        terms_of_it = terms_of_it + merge(ground%pieces(j)%length*abs(change), displaced, at_end)
+                        terms_of_it = terms_of_it + least%deflection + merge(ground%pieces(j)%length*abs(change), displaced, at_end)
                         if (steepness > 0.0_wp) then
                             call note(ledger, of_contact, beyond, now%away(side)/steepness, terms_of_it/steepness, j, place)
                         else

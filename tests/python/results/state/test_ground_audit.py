@@ -42,3 +42,31 @@ def test_a_long_and_a_short_beam_are_integrated():
         made["loads"].append({"type": "uniform", "q": 1.0, "case": "dead"})
         step = gapbeam.solve(made).steps[-1]
         assert 0.0 < max(step.residuals.values()) < 1e-14
+
+
+@pytest.mark.parametrize(
+    "where",
+    [
+        # Between two supports nothing bends the beam but the rounding of two couples that cancel; ground touches it there
+        {"beam": {"spans": [6.0], "EI": 4000.0, "hinges": [2.0]}, "supports": [{"x": 2.0}, {"x": 3.0}]},
+        # Left of a spring nothing is left but that
+        {"beam": {"spans": [6.0], "EI": 4000.0}, "supports": [{"x": 3.0, "law": [[0.005, 5.0], [0.01, 20.0]]}]},
+    ],
+)
+def test_what_rounding_leaves_of_couples_that_cancel_stands(where):
+    couples = [{"type": "moment", "x": 6.0, "M": 20.0}, {"type": "moment", "x": 3.0, "M": -20.0}]
+    where = {**where, "foundation": [{"k": 1000.0, "side": "above"}], "loads": couples}
+    result = gapbeam.solve({**where, "analysis": {"follow": "events"}})
+    assert result.status == "solved"
+    assert abs(result.steps[-1].reaction).max() < 1e-28
+
+
+def test_a_support_at_a_knee_of_its_law_has_its_force():
+    """At a quarter of the couple that is left the spring has just come back to its knee."""
+    result = gapbeam.solve({
+        "beam": {"spans": [6.0], "EI": 4000.0, "hinges": [2.0]}, "foundation": [{"k": 1000.0, "side": "above"}],
+        "supports": [{"x": 2.0}, {"x": 3.0, "law": [[0.005, 5.0], [0.01, 20.0]]}], "analysis": {"follow": "events"},
+        "loads": [{"type": "moment", "x": 6.0, "M": 20.0, "case": "dead"}, {"type": "moment", "x": 3.0, "M": -20.0}],
+    })  # fmt: skip
+    assert [(round(event.factor, 12), event.support, event.event) for event in result.events] == [(0.75, 1, "unloads")]
+    assert result.state(0.75).reaction.tolist() == [-5.0, 5.0]
