@@ -51,7 +51,7 @@ module gapbeam_tolerances
     real(wp), parameter :: splitter = 2.0_wp**((digits(1.0_wp) + 1)/2) + 1
 
     !> Positions whose difference is at most this share of the larger one are the same place: sums of some sixty spans may be so
-    !> far off. Read by moving_load/train, moving_load/train_on_beam, response/query, scene/assemble_laws,
+    !> far off. Read by moving_load/train, moving_load/train_on_beam, response/query, response/smooth_tangents, scene/assemble_laws,
     !> scene/assemble_supports, scene/axial_force, scene/check, scene/check_foundations, scene/check_rigid_ground, scene/stations
     !> and, through the engine, by gapbeam.scene.places
     real(wp), parameter :: position_tolerance = 64*epsilon(1.0_wp)

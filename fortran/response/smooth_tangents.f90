@@ -1,7 +1,7 @@
 !> Tangents in place of smooth laws of supports: where they are put, and whether another one changes nothing.
 module gapbeam_smooth_tangents
     use gapbeam_kinds, only: wp
-    use gapbeam_tolerances, only: settled_on_laws
+    use gapbeam_tolerances, only: settled_on_laws, position_tolerance
     use gapbeam_laws, only: begins_steep, law_displacement, law_force, law_scale
     use gapbeam_polyline, only: node_support_type
     use gapbeam_assembled_model, only: assembled_type
@@ -145,9 +145,27 @@ contains
                 call force_and_slope(s, p%past, force, slope)
                 ! So flat that it changes no digit of the force, or of the state
                 if (slope*p%past <= flat_slope*force .or. slope < least) slope = 0.0_wp
+                ! Where another support holds the beam a curve that begins steep carries nothing
+                if (slope > huge(slope)) slope = merge(0.0_wp, slope, is_held_beside(assembled, numbers(j), p%deflection, lines))
                 call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, lines)
             end associate
         end do
     end subroutine put_tangents
+
+    !> Does another support at the place of one hold the beam rigidly at a deflection
+    pure function is_held_beside(assembled, number, deflection, lines) result(held)
+        type(assembled_type), intent(in) :: assembled
+        !> The support, and the deflection there
+        integer, intent(in) :: number
+        real(wp), intent(in) :: deflection
+        !> The beam's supports
+        type(node_support_type), intent(in) :: lines(:)
+        logical :: held
+        real(wp) :: contact(size(lines))
+
+        contact(:) = scale(lines%contact, assembled%units%deflection)
+        held = any(lines%node == lines(assembled%beam_support(number))%node .and. assembled%normal /= number &
+                   .and. lines%stiffness > huge(deflection) .and. abs(contact - deflection) <= position_tolerance*abs(deflection))
+    end function is_held_beside
 
 end module gapbeam_smooth_tangents

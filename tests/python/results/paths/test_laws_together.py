@@ -240,3 +240,13 @@ def test_supports_that_take_all_of_a_load_beside_laws():
     supports = [{"x": 0, "rotation": {"law": yields}}, {"x": 1, "rotation": keeps}]
     scene = {"beam": {"spans": [10], "EI": 2e4}, "supports": supports, "loads": [{"type": "force", "x": 0, "F": 70}]}
     assert gapbeam.solve({**scene, "analysis": {"follow": "events"}}).steps[-1].reaction[:2].tolist() == [70.0, 0.0]
+
+
+@pytest.mark.parametrize("n", [0.33, 0.9])
+@pytest.mark.parametrize("held", [{}, {"side": "below"}, {"law": [[0, 50], [0.01, 60]]}])
+@pytest.mark.parametrize("analysis", [{}, {"follow": "events"}])
+def test_a_curve_that_begins_steep_takes_nothing_where_another_support_holds(n, held, analysis):
+    curve = {"type": "power", "d0": 0.01, "limit": 36, "n": n}
+    supports = [{"x": 0}, {"x": 2, "law": curve}, {"x": 2, **held}, {"x": 6}]
+    scene = {"beam": {"spans": [6], "EI": 1e4}, "supports": supports, "loads": [{"type": "force", "x": 4, "F": 32}]}
+    assert gapbeam.solve({**scene, "analysis": analysis}).reactions == pytest.approx([-8, 0, 28, 12], abs=1e-13)
