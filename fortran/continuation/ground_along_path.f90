@@ -41,6 +41,7 @@ contains
         allocate (history%along%on_ground(16))
         leg = -1
         way = 0.0_wp
+        at = 0.0_wp
         do k = 1, history%number
             associate (s => history%stretches(k))
                 if (.not. s%skipped .and. abs(s%to - s%from) > 0.0_wp) then
@@ -53,9 +54,9 @@ contains
                         call set_loads(assembled, merge(1, 2, leg == 0), way, ground)
                     end if
                 end if
-                at = s%from
-                if (s%skipped) at = s%to
-                call pass(assembled, k, way, s%to, at, ground, history%along, lost, error)
+                ! The load of a beam that jumps stays as it is
+                if (.not. s%skipped) at = s%from
+                call pass(assembled, k, way, merge(at, s%to, s%skipped), at, ground, history%along, lost, error)
                 if (allocated(error)) return
                 if (.not. lost) cycle
                 call end_path(history, k, at)

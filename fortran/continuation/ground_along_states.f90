@@ -30,7 +30,7 @@ contains
         type(ground_along_type) :: ground
         type(rates_type) :: rates
         real(wp), allocatable :: longer(:)
-        real(wp) :: way, gone
+        real(wp) :: at, way, gone
         integer :: first(size(beam%axial%limit) + 1), i, k, idle
         logical :: settled
 
@@ -44,7 +44,12 @@ contains
             end do
             ground = known(k)%ground
             way = abs(factor - known(k)%factor)
-            if (known(k)%stretch < stretch .or. s%skipped) way = 0.0_wp
+            at = factor
+            ! While the beam jumps nothing changes along it
+            if (known(k)%stretch < stretch .or. s%skipped) then
+                way = 0.0_wp
+                at = known(k)%factor
+            end if
         end associate
         ! As the path itself goes: a part may end by rounding; what does not get there the audit tells
         idle = 0
@@ -57,7 +62,7 @@ contains
         associate (axial => beam%axial)
             state%displacement(:) = ground%displacement
             state%tension(:) = least_forces(ground)
-            state%axial_reaction(:) = -axial%force(1, :) - factor*axial%force(2, :)
+            state%axial_reaction(:) = -axial%force(1, :) - at*axial%force(2, :)
             first(:) = first_parts(ground)
             associate (reaction => state%axial_reaction(0:), n => size(ground%limit))
                 reaction(2:) = reaction(2:) + ground%parts(first(2:) - 1)%force &
@@ -65,7 +70,7 @@ contains
                 reaction(:n) = reaction(:n) - ground%parts(first(:n))%force
             end associate
             allocate (longer(size(axial%limit)), source=0.0_wp)
-            if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + factor*axial%elongation(2, :)
+            if (allocated(axial%elongation)) longer(:) = axial%elongation(1, :) + at*axial%elongation(2, :)
             call refuse_misfit(misfit(ground, longer, state%axial_reaction), slip_audited, factor, error)
         end associate
         state%along_ground = ground

@@ -252,3 +252,22 @@ def test_under_trains_it_is_refused():
     made["analysis"] = {"first_order": True}
     with pytest.raises(gapbeam.SceneError, match="ground along the beam"):
         gapbeam.solve(made)
+
+
+@pytest.mark.parametrize(
+    ("at_limit", "slack"), [("stop", {"rotation": {"slack": 0.002}}), ("jump", {"rotation": {"slack": 0.002}})]
+)
+def test_what_jumps_is_set_free_as_without_ground_along_the_beam(at_limit, slack):
+    """While it jumps nothing changes along it, though the path that tells what is set free goes to other load factors."""
+    falls = [[0.002, 10.0], [0.006, 5.0], [0.01, 5.0]]
+    made = {
+        "beam": {"spans": [3.0], "EI": 1000.0, "EA": 1e5}, "analysis": {"follow": "events", "at_limit": at_limit},
+        "supports": [{"node": 1}, {"x": 1.0, "law": falls}, {"x": 1.5, "law": [[0.002, 4.0], [0.006, 2.0], [0.01, 2.0]], **slack},
+                     {"node": 1, "direction": "axial"}],
+        "loads": [{"type": "force", "x": 1.0, "F": 20.0}, {"type": "axial", "x": 0.75, "F": 30.0}],
+    }  # fmt: skip
+    alone, held = (gapbeam.solve({**made, **ground}) for ground in ({}, {"axial_ground": [{"limit": 1.0}]}))
+    assert len(alone.limits) == len(held.limits) == 1
+    assert held.limits[0].released == pytest.approx(alone.limits[0].released, rel=1e-12)
+    assert held.limits[0].factor == alone.limits[0].factor
+    assert held.at(3.0, side="left").axial_force == pytest.approx(3.0 - 30.0 * held.steps[-1].factor, rel=1e-12)
