@@ -67,12 +67,13 @@ contains
             if (allocated(solution%push)) sizes_of(i)%rotation = sizes_of(i)%rotation &
                 + sizes_of(i)%deflection/solution%stretches(i)%length
         end do
-        ! Rigid parts pass rounding on, that of what supports take at their places too
+        ! Rounding of forces is passed on from stretch to stretch, that of what supports take at their places too; by rigid parts
+        ! that of deflections as well
         associate (s => sizes_of, n => least_of, taken => abs(solution%reaction))
             n%deflection = n%deflection + lost_digits*maxval(s%deflection)
             n%rotation = n%rotation + lost_digits*maxval(s%rotation)
-            n%moment = n%moment + lost_digits*maxval([s%moment, whole*taken])
-            n%shear = n%shear + lost_digits*maxval([s%shear, s%moment/whole, taken])
+            n%moment = maxval(n%moment) + lost_digits*maxval([s%moment, whole*taken])
+            n%shear = maxval(n%shear) + lost_digits*maxval([s%shear, s%moment/whole, taken])
         end associate
         i = 1
         do j = 0, size(ground%pieces)
