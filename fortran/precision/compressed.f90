@@ -183,7 +183,7 @@ contains
         type(ground_start_type) :: start
         logical :: first(size(closed)), last_closed(size(closed)), reached
         real(wp) :: share, step
-        integer :: number, solves
+        integer :: search, number, solves
 
         first(:) = closed
         if (present(near)) then
@@ -198,29 +198,35 @@ contains
         if (allocated(error) .or. outcome%status /= gapbeam_solved) return
         last_closed(:) = closed
         share = 0.0_wp
-        ! All at once where that changes next to nothing
-        step = 1.0_wp
         reached = .false.
-        do number = 1, most_compressions
+        do search = 1, 2
+            ! All at once where that changes next to nothing
+            step = merge(1.0_wp, 1.0_wp/least_compressions, search == 1)
+            do number = 1, most_compressions
+                call start_from(last, last_closed, start)
+                closed(:) = last_closed
+                call solve_on_ground(under_share(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, &
+                                     outcome, error, start, only_near=search == 1)
+                solves = solves + solution%solves
+                if (has_ended(error)) return
+                if (is_solved(outcome, error)) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
+                if (reached .and. step >= 1.0_wp) reached = all(closed .eqv. last_closed)
+                if (reached .and. share + step >= 1.0_wp) exit
+                if (reached) then
+                    reached = .false.
+                    share = share + step
+                    last = solution
+                    last_closed(:) = closed
+                    if (step < 1.0_wp/least_compressions) step = 2*step
+                else
+                    step = min(step/2, 1.0_wp/least_compressions)
+                    if (step <= same_compression*max(share, least_share)) exit
+                end if
+            end do
+            if (reached) exit
+            ! Only where it does not give way the search for zones from anew, long where there are none, may lead on
             call start_from(last, last_closed, start)
-            closed(:) = last_closed
-            call solve_on_ground(under_share(ground, min(1.0_wp, share + step)), detail, factor, rule, closed, solution, outcome, &
-                                 error, start)
-            solves = solves + solution%solves
-            if (has_ended(error)) return
-            if (is_solved(outcome, error)) reached = .not. jumps(last, solution, merge(next_to_nothing, 1.0_wp, step >= 1.0_wp))
-            if (reached .and. step >= 1.0_wp) reached = all(closed .eqv. last_closed)
-            if (reached .and. share + step >= 1.0_wp) exit
-            if (reached) then
-                reached = .false.
-                share = share + step
-                last = solution
-                last_closed(:) = closed
-                if (step < 1.0_wp/least_compressions) step = 2*step
-            else
-                step = min(step/2, 1.0_wp/least_compressions)
-                if (step <= same_compression*max(share, least_share)) exit
-            end if
+            if (gives_way(ground, last, start, share)) exit
         end do
         solution%solves = solves
         solution%unique = .false.

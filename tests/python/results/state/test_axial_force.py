@@ -200,6 +200,16 @@ def test_hopeless_compression_is_cut_no_finer_than_what_the_beam_bears(N, ground
         assert float(share) * N == pytest.approx(-((math.pi / 6) ** 2), rel=1e-5)
 
 
+@pytest.mark.parametrize("N", [-215.0, -300.0, -1000.0])
+def test_a_beam_without_loads_buckles_off_ground_that_presses_it(N):
+    """Beyond that no zones are in equilibrium; to look for some anew at every share once took minutes."""
+    ground = {"k": 300.0, "side": "above", "gap": -0.001}
+    result = gapbeam.solve({"beam": {"spans": [9.0], "EI": 4000.0, "N": N}, "supports": [{"x": 3.0}], "foundation": [ground]})
+    assert result.status == "buckles"
+    (share,) = re.findall("bears (.*) times", result.reason)
+    assert float(share) * N == pytest.approx(-210.147, rel=1e-5)
+
+
 @pytest.mark.parametrize("N", [-60.0, -150.0])
 def test_ground_that_yields_lets_a_rail_buckle(N):
     """At the limit load of 400 Hermite elements, 4 points each, followed by the deflection in the middle: 53.64458."""
