@@ -160,7 +160,8 @@ contains
         path%segment(path%segments)%from = from
         select type (held)
         type is (held_type)
-            allocate (path%segment(path%segments)%closed, source=held%closed)
+            ! What has been taken back may have been here
+            path%segment(path%segments)%closed = held%closed
         end select
     end subroutine add_segment
 
