@@ -242,6 +242,9 @@ contains
             associate (i => beam%turning(j))
                 work%shear_size(n + j) = max(work%couple_size(j), work%shear_size(i)/2 &
                                               *maxval(beam%links(max(1, i):min(i + 1, n))%length))
+                ! So the turn of a spring
+                if (work%nodes(n + j)%stiffness > 0.0_wp) work%deflection_size(n + j) = &
+                    max(work%deflection_size(n + j), work%shear_size(n + j)/work%nodes(n + j)%stiffness)
             end associate
         end do
         call share_forces(beam%supports, beam%order, beam%first, acting, [n + 1, n + size(beam%turning)], work%nodes, &

@@ -288,3 +288,22 @@ def test_refused_on_rigid_ground():
              "loads": [{"type": "uniform", "q": 1.0}], "hinges": [{"x": 2.0, "slack": 0.1}]}  # fmt: skip
     with pytest.raises(gapbeam.SceneError, match="not available over rigid ground; give the ground a stiffness"):
         gapbeam.solve(scene)
+
+
+@pytest.mark.parametrize("M", [-1.0, -4.0, -5.0, -5.1])
+@pytest.mark.parametrize("side", ["sagging", "hogging"])
+def test_a_part_without_load_beyond_a_joint_that_holds_one_way_is_free(M, side):
+    """Rounding of the couples far from the joint says nothing of its state: it carries nothing in either."""
+    made = {
+        "beam": {"spans": [3.0, 6.0], "EI": 10000.0}, "sections": [{"to": 1.5, "EI": 20000.0}],
+        "hinges": [{"x": 6.3, "stiffness": 1000.0, "side": side}], "foundation": [{"to": 4.5, "k": 50.0}],
+        "supports": [{"node": 1, "rotation": 10000.0}, {"x": 1.5, "stiffness": 1000.0, "rotation": 1000.0}],
+        "loads": [{"type": "moment", "x": 0.3, "M": M}, {"type": "moment", "x": 3.0, "M": 10.0, "case": "dead"}],
+    }  # fmt: skip
+    both = gapbeam.solve({**made, "hinges": []})
+    for follow in ("steps", "events"):
+        result = gapbeam.solve({**made, "analysis": {"follow": follow}})
+        assert result.status == "solved"
+        assert result.steps[-1].indifferent
+        assert result.steps[-1].reaction[:2] == pytest.approx(both.steps[-1].reaction, rel=1e-13)
+        assert abs(result.steps[-1].reaction[2]) < 1e-25
