@@ -173,8 +173,8 @@ contains
             call axial_fields(assembled, factor, displacement, tension, piece(i), distance(i), all_of_them(of_axial_force), &
                               all_of_them(of_axial_displacement), along_ground)
             if (assembled%model%stretching .and. present(ground) .and. any(quantities == of_axial_displacement)) then
-                all_of_them(of_axial_displacement) = displacement_in(assembled, ground, displacement, piece(i), &
-                                                                     scale(distance(i), -assembled%units%length))
+                all_of_them(of_axial_displacement) = displacement_in(assembled, ground, factor, displacement, tension, &
+                                                                     piece(i), scale(distance(i), -assembled%units%length))
             end if
             found(:, i) = all_of_them(quantities)
             k = findloc(abs(scale(found(:, i), powers)) <= huge(factor), .false., 1)
@@ -284,7 +284,8 @@ contains
         integer, intent(in) :: quantities(:)
         real(wp), intent(out) :: value(:, :), x(:, :)
         type(error_type), allocatable, intent(out) :: error
-        real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count), at(2)
+        real(wp) :: found(2, quantity_count), places(2, quantity_count), bent(2, bending_count), distance(2, bending_count), &
+            at(2), nodal(2)
         integer :: piece(2, bending_count), powers(size(quantities)), of_force(2), i, k
 
         found(:, :) = 0.0_wp
@@ -311,6 +312,8 @@ contains
                 found(:, of_axial_displacement) = [maxval(displacement), minval(displacement)]
                 places(:, of_axial_displacement) = [point_x(assembled, point(maxloc(displacement, 1) - 1)), &
                                                     point_x(assembled, point(minloc(displacement, 1) - 1))]
+                nodal = found(:, of_axial_displacement)
+                at = places(:, of_axial_displacement)
             end associate
             if (allocated(assembled%axial%along_bar) .or. allocated(state%along_ground)) then
                 call extremes_along(assembled, state%factor, state%displacement, state%tension, &
@@ -318,8 +321,10 @@ contains
                                     places(:, of_axial_force:of_axial_displacement), state%along_ground)
             end if
             if (assembled%model%stretching .and. any(quantities == of_axial_displacement)) then
-                call extremes_of_displacement(assembled, state%ground, state%displacement, found(:, of_axial_displacement), &
-                                              places(:, of_axial_displacement))
+                found(:, of_axial_displacement) = nodal
+                places(:, of_axial_displacement) = at
+                call extremes_of_displacement(assembled, state%ground, state%factor, state%displacement, state%tension, &
+                                              found(:, of_axial_displacement), places(:, of_axial_displacement))
             end if
         end if
         powers = units_of_fields(assembled, quantities)

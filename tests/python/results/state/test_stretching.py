@@ -169,3 +169,30 @@ def test_what_is_refused(keys, words):
     if "analysis" in keys:
         assert isinstance(caught.value, SceneError)
         assert caught.value.place == "analysis.stretching"
+
+
+@pytest.mark.parametrize("keys", [
+    {"loads": [force(0.3, 4.0), {"type": "axial_uniform", "q": 5.0}]},
+    {"loads": [force(0.3, 4.0)], "sections": [{"from": 0.25, "to": 0.75, "EA": [5e3, 2e4]}]},
+])  # fmt: skip
+def test_displacements_along_the_axis_where_its_elongation_changes(keys):
+    """One more node changes nothing, and between nodes it is the integral of N/EA - w'**2/2."""
+    made = simple(**keys)
+    result = gapbeam.solve(made)
+    x = np.array([0.1, 0.375, 0.625, 0.9])
+    along = result.at(x).axial_displacement
+    cut = gapbeam.solve({**made, "loads": [*made["loads"], *(force(place, 0.0) for place in x)]})
+    np.testing.assert_allclose(cut.at(x).axial_displacement, along, rtol=1e-12)
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    for start, stop, value in ((0.25, 0.3, 0.3), (0.3, 0.375, 0.375), (0.375, 0.7, 0.7)):
+        there = result.at((start + stop) / 2 + (stop - start) / 2 * nodes)
+        EA = 5e3 + (there.x - 0.25) * 3e4 if "sections" in made else 1e4
+        change = (stop - start) / 2 * weights @ (there.axial_force / EA - there.rotation**2 / 2)
+        ends = result.at([start, value]).axial_displacement
+        assert ends[1] - ends[0] == pytest.approx(change, rel=1e-11, abs=1e-17)
+    extremes = result.extremes["axial_displacement"]
+    sampled = result.at(np.linspace(0.0, 1.0, 2001)).axial_displacement
+    for way, found in (("max", sampled.max()), ("min", sampled.min())):
+        assert extremes[way].value == pytest.approx(float(result.at(extremes[way].x).axial_displacement), rel=1e-12, abs=1e-20)
+        assert abs(extremes[way].value) >= abs(found) * (1 - 1e-14)
+        assert extremes[way].value == pytest.approx(found, rel=1e-4)
