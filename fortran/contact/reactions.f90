@@ -125,26 +125,35 @@ contains
         integer, intent(in) :: range(2)
         type(workspace_type), intent(inout) :: work
         type(interval_type) :: neighbour
-        real(wp) :: moment, turn, flexibility, length, of_stretch
+        real(wp) :: moment, turn, flexibility, length, of_stretch, of_levels
         integer :: i, last
-        logical :: stretches
+        logical :: stretches, levels
 
         do i = range(1), range(2)
             work%reach_own(i) = interval_type(work%load_size(i), abs(work%answers(i)%deflection))
         end do
         stretches = by_stretches .and. work%refined .and. range(1) == 0 .and. range(2) == size(beam%links) &
             .and. .not. allocated(beam%ground)
+        levels = allocated(beam%ground) .and. range(1) == 0 .and. range(2) == size(beam%links)
         last = 0
         of_stretch = 0.0_wp
+        of_levels = 0.0_wp
         do i = max(range(1), 1), min(range(2) + 1, size(beam%links))
             if (stretches .and. i > last) then
                 last = end_of_stretch(work, i)
                 of_stretch = shear_of_stretch(beam, work, i, last)
+            else if (levels .and. i > last) then
+                last = end_of_stretch(work, i)
+                of_levels = 0.0_wp
+                if (any(beam%links(i:last)%bending > 0.0_wp)) of_levels = (work%level(i - 1) + work%level(last)) &
+                    /sum(beam%links(i:last)%length)/sum(beam%links(i:last)%bending)
             end if
             associate (link => beam%links(i), a => work%answers(i - 1), b => work%answers(i))
-                ! Also the moments that imposed rotations and contact levels would make if they were held fast
-                turn = work%turn_size(i) + (work%level(i) + work%level(i - 1))*link%inverse
-                moment = max(abs(a%moment_right), abs(b%moment_left), turn*work%fixity(i))
+                ! Also the moments that imposed rotations and contact levels would make if they were held fast; on ground, where
+                ! nodes that nothing holds may be next to a support, levels of the supports at the ends of a stretch of links
+                turn = work%turn_size(i)
+                if (.not. levels) turn = turn + (work%level(i) + work%level(i - 1))*link%inverse
+                moment = max(abs(a%moment_right), abs(b%moment_left), turn*work%fixity(i), of_levels)
                 if (allocated(beam%ground)) then
                     ! On ground what happens at one end is not seen far beyond 1/beta
                     flexibility = beam%ground(i)%faa + beam%ground(i)%fbb

@@ -148,6 +148,20 @@ def test_moduli_that_add_up_to_a_constant(F):
     assert [zone.foundation for zone in result.steps[-1].contact] == [0, 1]
 
 
+@pytest.mark.parametrize("beside", [1e-13, 1e-11, 1e-7, 1e-5])
+@pytest.mark.parametrize("support", [{"side": "above", "gap": 0.01}, {"side": "below", "gap": 0.2}])
+def test_a_load_next_to_a_support_that_does_not_act(beside, support):
+    """As far as its gap a beam of that length would hardly be bent: that hid the sign of the reaction."""
+    made = {"beam": {"spans": [4.0, 10.0], "EI": 10000.0}, "foundation": [{"k": 100.0}],
+            "loads": [{"type": "force", "x": 4.0 - beside, "F": 50.0}]}  # fmt: skip
+    alone = gapbeam.solve(made).steps[-1]
+    step = gapbeam.solve({**made, "supports": [{"node": 1, **support}]}).steps[-1]
+    assert step.state == ("open",)
+    assert step.contact[0].resultant == alone.contact[0].resultant
+    for name, bound in alone.error_bounds.items():
+        assert step.error_bounds[name] == pytest.approx(bound, rel=10.0)
+
+
 @pytest.mark.parametrize("side", ["both", "above"])
 @pytest.mark.parametrize(("F", "status"), [(1.3, "solved"), (1.4, "no-equilibrium"), (20.0, "no-equilibrium")])
 def test_a_tie_that_yields_holds_a_beam_on_an_edge_up_to_its_force(side, F, status):
