@@ -55,11 +55,12 @@ contains
         if (present(varied)) vary = associated(varied%supports)
         moves = any(abs(settlements) > 0.0_wp) .or. allocated(base%given_settlement) .or. vary
         stat = 0
-        if (moves .or. combined%moved) then
-            if (allocated(combined%assembled)) deallocate (combined%assembled)
+        if ((moves .or. combined%moved) .and. allocated(combined%assembled)) deallocate (combined%assembled)
+        if (moves) then
             allocate (combined%assembled, stat=stat)
             if (stat == 0) call copy_given(base, combined%assembled%model, stat)
         else if (.not. allocated(combined%assembled)) then
+            ! What is made of its loads has room for all of them, also for those that are 0 in other combinations
             allocate (combined%assembled, source=base, stat=stat)
         end if
         if (failed(stat, error)) return
@@ -67,7 +68,7 @@ contains
             assembled%model%loads%value = factors*loads%value
             assembled%model%loads%value_to = factors*loads%value_to
             if (present(varied)) call take_varied(varied, assembled%model)
-            if (moves .or. combined%moved) then
+            if (moves) then
                 assembled%model%supports%settlement = assembled%model%supports%settlement + settlements
                 call assemble_model(assembled, error)
             else

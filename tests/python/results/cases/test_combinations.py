@@ -496,3 +496,24 @@ def test_what_bends_the_beam_in_one_combination_only():
     assert extremes["axial_force"]["min"].value == 0.0
     assert result.to_dict()["envelope"]
     assert result.report()
+
+
+def test_a_temperature_after_a_combination_without_it_that_follows_a_settlement():
+    """What a combination leaves out is there for the next one."""
+    made = {
+        "beam": {"spans": [3.0, 3.0], "EI": 1000.0, "EA": 1e6, "alpha": 1e-5},
+        "supports": [{"node": 0}, {"node": 1}, {"node": 2}, {"node": 2, "direction": "axial"},
+                     {"node": 0, "direction": "axial", "stiffness": 1e4}],
+        "loads": [{"type": "temperature", "dT": -20.0, "case": "cold"}, {"type": "axial_uniform", "q": 1.0, "case": "drag"}],
+    }  # fmt: skip
+    moved = {"name": "moved", "factors": {"cold": 0.5, "drag": 1.0}, "settlements": {"4": -0.003}}
+    others = [{"name": "warm", "factors": {"drag": 1.0}}, {"name": "cold", "factors": {"cold": 2.0, "drag": 1.0}}]
+    result = gapbeam.solve({**made, "combinations": [moved, *others]})
+    alone = [one.extremes["axial_force"] for one in result.combinations.values()]
+    for way, most in (("max", max), ("min", min)):
+        found = result.envelope().extremes["axial_force"][way].value
+        assert found == pytest.approx(most(one[way].value for one in alone), rel=1e-14)
+    assert alone[2]["max"].value > alone[1]["max"].value + 20.0
+    cold = gapbeam.solve({**made, "combinations": [moved, others[0], {**others[1], "factors": {"cold": 6.0, "drag": 1.0}}]})
+    source = cold.envelope().extremes["axial_force"]["max"].source
+    assert source.combination == "cold"
