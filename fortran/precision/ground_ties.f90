@@ -230,6 +230,8 @@ contains
         integer :: j
 
         if (any(abs(solution%resultant) > solution%no_force) .or. any(abs(solution%reaction) > solution%no_force)) return
+        ! Restraints make moments of an imposed curvature, without any force
+        if (any(max(abs(solution%moment_left), abs(solution%moment_right)) > solution%no_force*sum(ground%pieces%length))) return
         ! Pressures both ways under one stretch may balance each other
         if (any(ground%layers%side == both)) return
         if (any(abs(ground%beam%force(1, :) + factor*ground%beam%force(2, :)) > 0.0_qp) &

@@ -145,3 +145,17 @@ def test_refused_on_rigid_ground(changes):
     scene["supports"] = [{"node": 0, "rotation": "fixed"}]
     with pytest.raises(SceneError, match="over rigid ground; give the ground a stiffness"):
         gapbeam.solve(scene | changes)
+
+
+@pytest.mark.parametrize("to", [2.0, 3.0, 6.0])
+def test_a_curvature_between_restraints_makes_moments_also_where_it_lifts_the_beam_off_all_ground(to):
+    """The left end is free to go up: M = EI kappa by the part that is bent, and no force anywhere."""
+    made = {"beam": {"spans": [3.0, 3.0], "EI": 1e4}, "foundation": [{"k": 50.0, "side": "below"}],
+            "supports": [{"node": 0, "side": "below", "rotation": "fixed"}, {"node": 2, "rotation": "fixed"}],
+            "loads": [{"type": "curvature", "kappa": 0.001, "to": to}]}  # fmt: skip
+    result = gapbeam.solve(made)
+    assert result.status == "solved"
+    assert all(zone.resultant == 0.0 for zone in result.steps[-1].contact)
+    assert result.at([0.0, 3.0, 6.0]).moment == pytest.approx([10.0 * to / 6.0] * 3, rel=1e-14)
+    assert abs(result.steps[-1].reaction).max() < 1e-25
+    assert result.steps[-1].deflection[0] == pytest.approx(-0.001 * to / 2 * (6.0 - to), rel=1e-13, abs=1e-25)
