@@ -67,8 +67,7 @@ contains
             if (allocated(solution%push)) sizes_of(i)%rotation = sizes_of(i)%rotation &
                 + sizes_of(i)%deflection/solution%stretches(i)%length
         end do
-        ! Rounding of forces is passed on from stretch to stretch, that of what supports take at their places too; by rigid parts
-        ! that of deflections as well
+        ! Rounding is passed on from stretch to stretch, that of what supports take at their places too
         associate (s => sizes_of, n => least_of, taken => abs(solution%reaction))
             n%deflection = n%deflection + lost_digits*maxval(s%deflection)
             n%rotation = n%rotation + lost_digits*maxval(s%rotation)
