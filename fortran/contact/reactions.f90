@@ -251,8 +251,8 @@ contains
             associate (i => beam%turning(j))
                 work%shear_size(n + j) = max(work%couple_size(j), work%shear_size(i)/2 &
                                               *maxval(beam%links(max(1, i):min(i + 1, n))%length))
-                ! So the turn of a spring
-                if (work%nodes(n + j)%stiffness > 0.0_wp) work%deflection_size(n + j) = &
+                ! On ground, where more of it is passed on, so the turn of a spring
+                if (allocated(beam%ground) .and. work%nodes(n + j)%stiffness > 0.0_wp) work%deflection_size(n + j) = &
                     max(work%deflection_size(n + j), work%shear_size(n + j)/work%nodes(n + j)%stiffness)
             end associate
         end do
