@@ -65,8 +65,7 @@ module gapbeam_ground_solution
         !> How it gives way then: pieces of the beam, distances from their left ends, deflections, the largest 1
         integer, allocatable :: mode_piece(:)
         real(wp), allocatable :: mode_distance(:), mode_deflection(:)
-        !> Bounds of the errors of deflections, rotations, moments, shears along the beam, and of reactions; residuals of
-        !> compatibility, equilibrium and complementarity by the audit (gapbeam_ground_audit)
+        !> Bounds of errors of deflections, rotations, moments, shears and reactions; residuals (gapbeam_ground_audit)
         real(wp) :: bounds(5) = 0.0_wp, residuals(3) = 0.0_wp
     end type ground_solution_type
 
@@ -86,8 +85,7 @@ contains
         type(fine_ends_type) :: ends
         type(fine_stretch_load_type) :: load
         type(curved_type), allocatable :: curved
-        real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from
-        real(qp), dimension(size(closed)) :: margin, rounding
+        real(qp) :: field(2, 2), forces(size(zones%acts, 1)), from, margin(size(closed)), rounding(size(closed))
         integer :: i, k, m
 
         m = size(zones%piece)
@@ -126,13 +124,13 @@ contains
         end do
         call find_margins(grounded%beam%supports, closed, work%answers, work%deflection_size, work%reaction, work%reaction_error, &
                           margin, rounding)
+        solution%undecided(:) = .false.
         do k = 1, size(closed)
-            solution%undecided(k) = .false.
             if (.not. is_watched_in(grounded%beam%supports, closed, k)) cycle
             solution%undecided(k) = abs(margin(k)) <= sign_width*rounding(k)*(epsilon(1.0_wp)/epsilon(1.0_qp))
             ! What begins to act there has no force; a later piece of a law begins with one
-            if (abs(grounded%beam%supports(k)%force) > 0.0_qp) cycle
-            if (closed(k) .and. abs(margin(k)) <= ground_fine_width*rounding(k)) work%reaction(k) = 0.0_qp
+            if (closed(k) .and. .not. abs(grounded%beam%supports(k)%force) > 0.0_qp .and. &
+                abs(margin(k)) <= ground_fine_width*rounding(k)) work%reaction(k) = 0.0_qp
         end do
         solution%deflection(:) = real(work%answers([grounded%node, (i, i=m + 1, ubound(work%answers, 1))])%deflection, wp)
         solution%moment_left(:) = real(work%answers(grounded%node)%moment_left, wp)
