@@ -87,7 +87,7 @@ def test_a_path_goes_on_where_states_next_to_a_change_cannot_be_settled():
     assert [event.event for event in result.events] == ["zone appears"] * 2
     first, second = (event.factor for event in result.events)
     assert second == pytest.approx(first, rel=1e-8)
-    assert result.path.solves < 10000, "by halves it takes ten times as many"
+    assert result.path.solves < 3000, "by halves it takes twice as many, beside those that lead nowhere"
     right = reference(made, 0.882)
     assert 0 < 0.882 - second < 1e-3
     assert sum(len(zones) for zones in right.contact) == len(result.state(0.882).contact) == 3
