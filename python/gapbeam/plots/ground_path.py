@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 
+from ..base.errors import EngineError
 from ..engine.tolerances import LOAD_BEGIN
 from ..results.state.ground import joined
 
@@ -53,8 +54,21 @@ def states_on_ground(result: Result) -> list[list[Step]]:
         last = np.nextafter(segment.stop, 0.0) if segment.stop < end else end
         parts = max(2, round(MOST_STATES * (segment.stop - segment.start) / end))
         begin = max(segment.start, LOAD_BEGIN)
-        stretches.append([result.state(float(factor)) for factor in np.linspace(begin, last, parts)])
+        rest = [result.state(float(factor)) for factor in np.linspace(begin, last, parts)[1:]]
+        stretches.append([*_first(result, begin), *rest])
     return stretches
+
+
+def _first(result: Result, factor: float) -> list[Step]:
+    """Solve for where a stretch begins; under next to no load a loose beam may touch the ground by too little for that."""
+    state = result.state(factor)
+    try:
+        _ = state.contact  # solves for it
+    except EngineError:
+        if factor > LOAD_BEGIN:
+            raise
+        return []
+    return [state]
 
 
 def draw_zones(axes: Axes, result: Result, stretches: Sequence[Sequence[Step]]) -> None:

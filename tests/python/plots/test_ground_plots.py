@@ -221,6 +221,25 @@ def test_path_shows_where_zones_end(following, monkeypatch):
     assert note.startswith("circles: filled, the support closes")
 
 
+def test_path_of_a_beam_that_hardly_touches_begins_where_it_can_be_settled():
+    """A tube in clearances of its baffles: from no load to next to none it is loose."""
+    made = {
+        "beam": {"spans": [1.2, 1.5, 0.9], "EI": 12.5, "hinges": [2.2]},
+        "supports": [{"node": 1, "side": side, "gap": 0.0004} for side in ("below", "above")],
+        "foundation": [{"k": 8000.0, "side": "below", "gap": 0.0006}, {"k": 8000.0, "side": "above", "gap": 0.0003}],
+        "loads": [{"type": "force", "x": 0.0, "F": 0.02}],
+        "analysis": {"follow": "events"},
+    }
+    result = gapbeam.solve(made)
+    (stretch,) = ground_path.states_on_ground(result)
+    factors = [step.factor for step in stretch]
+    assert factors == sorted(factors)
+    assert factors[0] < 0.02
+    assert factors[-1] == 1.0
+    assert all(len(step.contact) == 3 for step in stretch)
+    assert path_figure(result).axes
+
+
 def test_path_by_load_steps_without_supports():
     result = gapbeam.solve(footing(3))
     upper, lower = path_figure(result).axes
