@@ -14,7 +14,7 @@ module gapbeam_limits
     public :: most_corrections, most_moves, most_refinements, most_mesh_rounds, most_node_rounds, most_line_steps, most_law_steps
     public :: most_nodes_asked, least_mesh_parts, most_first_parts, most_mesh_parts, mesh_cuts, most_zone_rounds
     public :: most_polishing, parts_of_stretch, most_root_steps, most_examined, most_flips, most_tie_solves, last_try
-    public :: most_solves_under_more
+    public :: most_solves_under_more, most_solves_followed
     public :: last_if_tied, most_edge_nodes, most_stiffer, most_motion_steps, most_at_once, short_beam_links, most_looks
     public :: looks_without_progress, most_idle_segments, most_train_changes, most_of_each, most_halves, bound_trials
     public :: cache_block, support_block, least_cases, most_lane_links, most_lane_solves, most_stiffness_power
@@ -86,6 +86,9 @@ module gapbeam_limits
     integer, parameter :: least_compressions = 8
     !> States after which they are given up. Read by precision/compressed
     integer, parameter :: most_compressions = 400
+    !> Linear solves after which they are not let grow by smaller steps; next to where a support yields none may lead on. Read by
+    !> precision/compressed
+    integer, parameter :: most_solves_followed = 2**17
     !> The same as loads grow on ground whose force falls: steps are short where the beam is soft beside that. Read by
     !> precision/falling_ground
     integer, parameter :: most_states_of_load = 10000

@@ -9,7 +9,7 @@
 !> the share for which that is so first, in stretches that are no shorter than it asks for: hopeless compression costs no more.
 module gapbeam_compressed
     use gapbeam_kinds, only: wp
-    use gapbeam_limits, only: least_compressions, most_compressions, mode_parts, most_mode_stretches
+    use gapbeam_limits, only: least_compressions, most_compressions, most_solves_followed, mode_parts, most_mode_stretches
     use gapbeam_tolerances, only: same_compression, least_share, little_compression, long_compression, no_jump
     use gapbeam_words, only: whole
     use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, &
@@ -220,7 +220,7 @@ contains
                     if (step < 1.0_wp/least_compressions) step = 2*step
                 else
                     step = min(step/2, 1.0_wp/least_compressions)
-                    if (step <= same_compression*max(share, least_share)) exit
+                    if (step <= same_compression*max(share, least_share) .or. solves > most_solves_followed) exit
                 end if
             end do
             if (reached) exit

@@ -4,6 +4,7 @@ import contextlib
 
 import gapbeam
 import pytest
+from scenes import at, force
 
 
 def pads(spans, beam, **analysis):
@@ -73,3 +74,20 @@ def test_a_path_that_goes_back_to_its_beginning():
     }  # fmt: skip
     with contextlib.suppress(gapbeam.EngineError):  # its signs cannot be told from rounding; the process went, before
         assert gapbeam.solve(made).steps[-1].reaction == pytest.approx([0.0, 8.0, -123.0, 11.8, 148.2], rel=1e-9)
+
+
+@pytest.mark.parametrize("N", [-1e-2, -1e-6])
+def test_a_path_under_next_to_no_compression_ends(N):
+    """Next to where a support yields no share of the axial force leads on; without one that is where the beam gives way."""
+    made = {
+        "beam": {"spans": [4.0, 4.0, 4.0, 0.7], "EI": 1e4},
+        "supports": [at(1, law=[[0.004, 8.0], [0.008, 8.0]]), at(2), at(3, side="below")],
+        "loads": [force(0.4, 50.0)],
+        "analysis": {"follow": "events"},
+    }
+    without = gapbeam.solve(made)
+    result = gapbeam.solve({**made, "beam": {**made["beam"], "N": N}})
+    assert (without.status, result.status) == ("limit-load", "buckles")
+    ((first, event), (second, other)) = (((one.events[0].factor, one.events[0].event)) for one in (without, result))
+    assert event == other == "yields"
+    assert 0 < first - second < -1e-4 * N
