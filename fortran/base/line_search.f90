@@ -1,9 +1,10 @@
-!> Where what rises goes through zero, as a slope of the energy that never falls along a line.
+!> Where what rises goes through zero, as a slope of the energy that never falls along a line; and where what has one peak is
+!> highest.
 module gapbeam_line_search
     use gapbeam_kinds, only: wp
     implicit none
     private
-    public :: bracket_type, place_inside, narrow
+    public :: bracket_type, place_inside, narrow, golden_sections, narrow_to_peak
 
     !> Places, the values there, and which end was replaced last
     type :: bracket_type
@@ -42,5 +43,31 @@ contains
             bracket%last = 2
         end if
     end subroutine narrow
+
+    !> The two places inside an interval at which to look for a peak: one of them is that of the next, narrower one
+    pure function golden_sections(interval) result(inner)
+        real(wp), intent(in) :: interval(2)
+        real(wp) :: inner(2)
+        real(wp), parameter :: golden = (sqrt(5.0_wp) - 1)/2
+
+        associate (low => interval(1), high => interval(2))
+            inner = [high - golden*(high - low), low + golden*(high - low)]
+        end associate
+    end function golden_sections
+
+    !> Leave of an interval the part with the peak
+    pure subroutine narrow_to_peak(interval, values)
+        real(wp), intent(inout) :: interval(2)
+        !> At its golden sections
+        real(wp), intent(in) :: values(2)
+        real(wp) :: inner(2)
+
+        inner = golden_sections(interval)
+        if (values(1) > values(2)) then
+            interval(2) = inner(2)
+        else
+            interval(1) = inner(1)
+        end if
+    end subroutine narrow_to_peak
 
 end module gapbeam_line_search

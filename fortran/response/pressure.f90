@@ -1,6 +1,7 @@
 !> Pressure of the ground on a solved beam, anywhere along it, and its extremes; also in the user's units.
 module gapbeam_pressure
     use gapbeam_kinds, only: wp
+    use gapbeam_line_search, only: golden_sections, narrow_to_peak
     use gapbeam_error, only: error_type, failed
     use gapbeam_words, only: shown
     use gapbeam_quantities, only: of_pressure, quantity_names, quantity_remedies
@@ -218,25 +219,20 @@ contains
             integer, intent(in) :: way
             real(wp) :: at
             integer, parameter :: places = 16, halvings = 60
-            real(wp), parameter :: golden = (sqrt(5.0_wp) - 1)/2
-            real(wp) :: found(0:places), low, high, inner(2)
+            real(wp) :: found(0:places), between(2), inner(2)
             integer :: n
 
             do n = 0, places
                 found(n) = way*pressure_in(assembled, solution, i, real(n, wp)/places)
             end do
             n = maxloc(found, 1) - 1
-            low = max(n - 1, 0)/real(places, wp)
-            high = min(n + 1, places)/real(places, wp)
+            between = [max(n - 1, 0), min(n + 1, places)]/real(places, wp)
             do n = 1, halvings
-                inner = [high - golden*(high - low), low + golden*(high - low)]
-                if (way*pressure_in(assembled, solution, i, inner(1)) > way*pressure_in(assembled, solution, i, inner(2))) then
-                    high = inner(2)
-                else
-                    low = inner(1)
-                end if
+                inner = golden_sections(between)
+                call narrow_to_peak(between, way*[pressure_in(assembled, solution, i, inner(1)), &
+                                                  pressure_in(assembled, solution, i, inner(2))])
             end do
-            at = low + (high - low)/2
+            at = between(1) + (between(2) - between(1))/2
         end function peak_where_it_varies
 
         !> Compare with the extremes so far

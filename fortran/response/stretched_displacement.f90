@@ -1,6 +1,7 @@
 !> Displacements along the axis of a beam that its deflections stretch: u' = (force and temperature) - w'**2/2.
 module gapbeam_stretched_displacement
     use gapbeam_kinds, only: wp
+    use gapbeam_line_search, only: golden_sections, narrow_to_peak
     use gapbeam_curved, only: curved_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_query, only: peaks_in, curved_in
@@ -14,7 +15,6 @@ module gapbeam_stretched_displacement
 
     !> Samples of a stretch along which the elongation by the axial force changes, and sections that find a place between them
     integer, parameter :: samples = 64, golden_steps = 40
-    real(wp), parameter :: golden = (sqrt(5.0_wp) - 1)/2
 
 contains
 
@@ -79,25 +79,19 @@ contains
         pure subroutine look_around(i, value, x)
             integer, intent(in) :: i
             real(wp), intent(inout) :: value(2), x(2)
-            real(wp) :: sample(0:samples), low, high, inner(2), of_inner(2)
+            real(wp) :: sample(0:samples), between(2), inner(2)
             integer :: k, sign, step
 
             sample(:) = [(at(i, real(k, wp)/samples), k=0, samples)]
             do sign = -1, 1, 2
                 do k = 1, samples - 1
                     if (sign*(sample(k) - sample(k - 1)) < 0.0_wp .or. sign*(sample(k) - sample(k + 1)) < 0.0_wp) cycle
-                    low = real(k - 1, wp)/samples
-                    high = real(k + 1, wp)/samples
+                    between = real([k - 1, k + 1], wp)/samples
                     do step = 1, golden_steps
-                        inner = [high - golden*(high - low), low + golden*(high - low)]
-                        of_inner = [at(i, inner(1)), at(i, inner(2))]
-                        if (sign*(of_inner(1) - of_inner(2)) < 0.0_wp) then
-                            low = inner(1)
-                        else
-                            high = inner(2)
-                        end if
+                        inner = golden_sections(between)
+                        call narrow_to_peak(between, sign*[at(i, inner(1)), at(i, inner(2))])
                     end do
-                    call take(i, (low + high)/2, value, x)
+                    call take(i, sum(between)/2, value, x)
                 end do
             end do
         end subroutine look_around
