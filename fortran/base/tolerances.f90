@@ -138,7 +138,7 @@ module gapbeam_tolerances
     !> tuned: shorter ones are cut into a few stretches. Read by precision/compressed
     real(wp), parameter :: long_compression = 4.0_wp
     !> Share by which more of the axial forces are tried there, and of the greatest reaction that is hardly any; tuned: the last
-    !> state is nearer. Read by precision/compressed, precision/falling_ground
+    !> state is nearer. Read by precision/compressed, precision/falling_ground, precision/unloaded_beam
     real(wp), parameter :: little_compression = 2.0_wp**(-14)
     !> Share of a value of a mode by which it is off in double precision, mostly: brackets widen where it is more; tuned. Read by
     !> contact/mode_values

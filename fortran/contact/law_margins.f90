@@ -10,7 +10,7 @@ module gapbeam_law_margins
     implicit none
     private
     public :: may_change, margin_of, margin_in_scheme, margin_rates, is_watched_in
-    public :: find_margins, find_wrong_states, find_doubtful_states
+    public :: find_margins, find_wrong_states, find_doubtful_states, let_go
 
 contains
 
@@ -105,6 +105,30 @@ contains
         watched = may_change(supports(k))
         if (supports(k)%breakpoint > 0) watched = is_watched(supports, closed, k)
     end function is_watched_in
+
+    !> Let supports go that hardly hold the beam any more, and laws on to a flatter piece that begins next to where they are
+    pure subroutine let_go(supports, deflection, reaction, share, closed)
+        type(node_support_type), intent(in) :: supports(:)
+        !> At the nodes, shape (0:n); of the supports, shape (m)
+        real(wp), intent(in) :: deflection(0:), reaction(:)
+        !> Part of the greatest reaction that is next to nothing
+        real(wp), intent(in) :: share
+        !> The scheme, shape (m)
+        logical, intent(inout) :: closed(:)
+        real(wp) :: none(size(supports)), margin, rounding
+        logical :: now(size(closed)), by_force
+        integer :: k
+
+        none(:) = 0.0_wp
+        now(:) = closed
+        do k = 1, size(supports)
+            if (.not. is_watched_in(supports, now, k)) cycle
+            ! Margins are forces along the steeper one of two pieces: nothing else can be lost
+            call margin_in_scheme(supports, now, k, deflection(supports(k)%node), 0.0_wp, reaction, none, margin, rounding, &
+                                  by_force)
+            if (by_force .and. abs(margin) <= share*maxval(abs(reaction))) closed(k) = .not. now(k)
+        end do
+    end subroutine let_go
 
     !> The margins of all supports
     pure subroutine find_margins(supports, closed, answers, deflection_size, reaction, reaction_error, margin, rounding)

@@ -2,7 +2,7 @@
 module gapbeam_ground_path
     use gapbeam_kinds, only: wp
     use gapbeam_path_tolerances, only: load_begin
-    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input
+    use gapbeam_error, only: error_type, fatal_error, gapbeam_bad_input, gapbeam_buckles
     use gapbeam_assembled_model, only: assembled_type
     use gapbeam_check_rigid_ground, only: is_on_rigid_ground
     use gapbeam_solution, only: state_type
@@ -66,6 +66,8 @@ contains
         if (.not. start%stands) then
             if (allocated(start%trouble)) error = start%trouble
             problem%path%beyond = 0.0_wp
+            ! Without any load it may be balanced
+            if (problem%state%status == gapbeam_buckles) problem%path%beyond = start%at
             return
         end if
         call add_segment(0.0_wp, start, problem%path, error)

@@ -15,6 +15,7 @@ module gapbeam_compressed
     use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_buckles, gapbeam_not_converged, &
         gapbeam_bad_input
     use gapbeam_law, only: both
+    use gapbeam_law_margins, only: let_go
     use gapbeam_piece, only: is_compressed
     use gapbeam_filled_ground, only: any_falls
     use gapbeam_uniqueness, only: is_unique, compression_lengths
@@ -23,12 +24,14 @@ module gapbeam_compressed
     use gapbeam_moved_ground, only: under_share
     use gapbeam_workspace, only: workspace_type
     use gapbeam_modes, only: by_axial_force, mode_shape_type, count_modes, find_mode_shape
+    use gapbeam_mode_values, only: find_mode_values
     use gapbeam_contact_state, only: outcome_type, is_solved
     use gapbeam_refined, only: detail_type
     use gapbeam_ground_solution, only: ground_solution_type
     use gapbeam_ground_start, only: ground_start_type, start_from
     use gapbeam_ground_solver, only: solve_on_ground
     use gapbeam_ground_mechanism, only: solve_or_refute
+    use gapbeam_unloaded_beam, only: leave_supports
     use gapbeam_falling_ground, only: solve_on_falling_ground
     implicit none
     private
@@ -181,7 +184,8 @@ contains
         type(ground_start_type), intent(in), optional :: near
         type(ground_solution_type) :: last
         type(ground_start_type) :: start
-        logical :: first(size(closed)), last_closed(size(closed)), reached
+        logical :: first(size(closed)), last_closed(size(closed)), reached, gives_way
+        real(wp), allocatable :: mode(:)
         real(wp) :: share, step
         integer :: search, number, solves
 
@@ -226,11 +230,19 @@ contains
             if (reached) exit
             ! Only where it does not give way the search for zones from anew, long where there are none, may lead on
             call start_from(last, last_closed, start)
-            if (gives_way(ground, last, start, share)) exit
+            call find_way_out(ground, last, share, start, gives_way)
+            if (gives_way) exit
         end do
         solution%solves = solves
         solution%unique = .false.
-        if (reached) return
+        if (reached) then
+            call start_from(solution, closed, start)
+            call leave_supports(ground, solution, start, share, mode, gives_way)
+            if (.not. gives_way) return
+            last = solution
+            last%deflection(:) = mode
+            last_closed(:) = start%closed
+        end if
         if (allocated(error)) deallocate (error)
         call buckle(ground, given, last, last_closed, share, solution, outcome, error)
 
@@ -251,12 +263,16 @@ contains
         !> It is stable still
         type(error_type), allocatable, intent(out) :: error
         type(ground_start_type) :: start
+        type(ground_type) :: pressed
         type(mode_shape_type) :: shape
         character(len=20) :: text
-        integer :: i
+        real(wp) :: value(1)
+        logical :: gives_way, lost
+        integer :: found, i
 
         call start_from(last, closed, start)
-        if (.not. gives_way(ground, last, start, share)) then
+        call find_way_out(ground, last, share, start, gives_way)
+        if (.not. gives_way) then
             write (text, "(es10.3e3)") given*share
             call fatal_error(error, gapbeam_not_converged, "the beam could not be followed beyond "//trim(adjustl(text))// &
                              " times its axial forces, where it is still stable: look for supports or ground far stiffer than it")
@@ -265,8 +281,12 @@ contains
         solution%axial_share = given*share
         outcome = outcome_type(status=gapbeam_buckles)
         allocate (outcome%motion(0:size(ground%pieces)))
-        call find_mode_shape(under_share(ground, share), start%zones, start%closed, last%factor, by_axial_force, 1.0_wp, &
-                             mode_parts, shape)
+        ! What has lost a support gives way under less already, or under next to nothing
+        pressed = under_share(ground, max(share, little_compression))
+        call find_mode_values(pressed, start%zones, start%closed, last%factor, by_axial_force, 1.0_wp, value, found, lost)
+        if (found == 0) value(:) = 1.0_wp
+        call find_mode_shape(pressed, start%zones, start%closed, last%factor, by_axial_force, &
+                             max(value(1), little_compression), mode_parts, shape)
         call move_alloc(shape%piece, solution%mode_piece)
         call move_alloc(shape%distance, solution%mode_distance)
         call move_alloc(shape%deflection, solution%mode_deflection)
@@ -285,28 +305,26 @@ contains
     end subroutine buckle
 
     !> Does a little more compression, or the loss of what hardly carries any more, let the beam give way
-    function gives_way(ground, last, start, share) result(it_does)
+    subroutine find_way_out(ground, last, share, start, gives_way)
         type(ground_type), intent(in) :: ground
-        !> As for buckle, with its zones
+        !> As for buckle
         type(ground_solution_type), intent(in) :: last
-        type(ground_start_type), intent(in) :: start
         real(wp), intent(in) :: share
-        logical :: it_does
+        !> Its zones and the states of its supports in; with those of what was lost out
+        type(ground_start_type), intent(inout) :: start
+        logical, intent(out) :: gives_way
         type(workspace_type) :: work
         type(grounded_type) :: grounded
-        logical :: held(size(start%closed))
         integer :: number, trial
 
-        held(:) = start%closed
         do trial = 1, 2
-            call count_modes(under_share(ground, share), start%zones, held, by_axial_force, 1 + little_compression, number, work, &
-                             grounded, factor=last%factor)
-            it_does = number /= 0
-            if (it_does) return
-            where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
-                held = .false.
+            call count_modes(under_share(ground, share), start%zones, start%closed, by_axial_force, 1 + little_compression, &
+                             number, work, grounded, factor=last%factor)
+            gives_way = number /= 0
+            if (gives_way) return
+            call let_go(ground%beam%supports, last%deflection, last%reaction, little_compression, start%closed)
         end do
-    end function gives_way
+    end subroutine find_way_out
 
     !> Are two states farther apart than one grows out of the other: by more than a part of the smaller one of them. Deflections
     !> with slopes beside them, and moments with shears: one of them alone passes zero at all places looked at

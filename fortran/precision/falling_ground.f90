@@ -11,6 +11,7 @@ module gapbeam_falling_ground
     use gapbeam_error, only: error_type, fatal_error, has_ended, gapbeam_solved, gapbeam_no_equilibrium, gapbeam_not_converged, &
         gapbeam_bad_input
     use gapbeam_piece, only: is_compressed
+    use gapbeam_law_margins, only: let_go
     use gapbeam_layers, only: pieces_of_law, has_curves
     use gapbeam_ground_laws, only: line_of_breakpoint
     use gapbeam_ground, only: ground_type, grounded_type
@@ -235,8 +236,7 @@ contains
             call count_modes(steeper, state%zones, state%closed, by_axial_force, 1.0_wp, number, work, grounded, factor=last%factor)
             it_is = number > 0
             if (it_is) return
-            where (ground%beam%supports%side /= 0 .and. abs(last%reaction) <= little_compression*maxval(abs(last%reaction))) &
-                state%closed = .false.
+            call let_go(ground%beam%supports, last%deflection, last%reaction, little_compression, state%closed)
         end do
     end function is_at_end
 

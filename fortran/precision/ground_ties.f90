@@ -18,7 +18,7 @@ module gapbeam_ground_ties
     use gapbeam_kinematics_quad, only: free_motions, motion_type
     implicit none
     private
-    public :: stands_on_edge, may_move, presses_ground, least_force, come_to_rest
+    public :: size_of_loads, stands_on_edge, may_move, presses_ground, least_force, come_to_rest
 
 contains
 
