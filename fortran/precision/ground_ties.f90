@@ -175,10 +175,11 @@ contains
             end associate
         end do
         ! The first parameter of a law that is not by points is its stiffness
-        modulus = real(maxval([ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope_a, ground%laws%slope_b, &
-                               ground%layers%parameter_a(1), ground%layers%parameter_b(1)]), wp)
-        way = kappa*length**2 + real(maxval(abs([ground%layers%contact_a, ground%layers%contact_b])), wp) &
-            + force*length*(softest(1)*length**2 + softest(2)) + force/(length*modulus)
+        modulus = real(maxval([0.0_qp, ground%layers%modulus_a, ground%layers%modulus_b, ground%laws%slope_a, &
+                               ground%laws%slope_b, ground%layers%parameter_a(1), ground%layers%parameter_b(1)]), wp)
+        way = kappa*length**2 + real(maxval(abs([0.0_qp, ground%layers%contact_a, ground%layers%contact_b])), wp) &
+            + force*length*(softest(1)*length**2 + softest(2))
+        if (modulus > 0.0_wp) way = way + force/(length*modulus)
         do j = 1, size(ground%beam%supports)
             associate (s => ground%beam%supports(j))
                 if (s%node <= size(ground%pieces) .and. abs(s%contact) <= huge(1.0_wp)) way = max(way, real(abs(s%contact), wp))

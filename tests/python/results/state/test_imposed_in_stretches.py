@@ -159,3 +159,16 @@ def test_a_curvature_between_restraints_makes_moments_also_where_it_lifts_the_be
     assert result.at([0.0, 3.0, 6.0]).moment == pytest.approx([10.0 * to / 6.0] * 3, rel=1e-14)
     assert abs(result.steps[-1].reaction).max() < 1e-25
     assert result.steps[-1].deflection[0] == pytest.approx(-0.001 * to / 2 * (6.0 - to), rel=1e-13, abs=1e-25)
+
+
+@pytest.mark.parametrize("EI", [1000.0, [1000.0, 600.0]])
+def test_a_curvature_without_loads_off_all_ground(EI):
+    """Beside the same beam without mass: its moments were taken for rounding of a beam at rest."""
+    made = {"beam": {"spans": [4.0], "EI": 1000.0}, "supports": [{"node": 0, "rotation": "fixed"}, {"node": 1}],
+            "sections": [{"from": 0.0, "to": 4.0, "EI": EI}], "hinges": [{"x": 2.0, "stiffness": 3000.0}],
+            "loads": [{"type": "curvature", "kappa": 0.001}]}  # fmt: skip
+    massive = {**made, "beam": {**made["beam"], "mass": 1.0}, "analysis": {"frequencies": 1}}
+    plain, found = gapbeam.solve(made), gapbeam.solve(massive)
+    assert abs(plain.steps[-1].reaction).max() > 0.3
+    assert found.steps[-1].reaction == pytest.approx(plain.steps[-1].reaction, rel=1e-13)
+    assert found.at([0.0, 1.3, 3.0]).moment == pytest.approx(plain.at([0.0, 1.3, 3.0]).moment, rel=1e-13)
