@@ -32,6 +32,8 @@ module gapbeam_smooth_tangents
         real(wp) :: deflection = 0.0_wp, past = 0.0_wp, reached = 0.0_wp
         !> The larger of its distance from the support and the gap, or nothing, to which digits of the displacement are relative
         real(wp) :: size = 0.0_wp
+        !> What rounding of its deflection is where the support has settled
+        real(wp) :: settled_rounding = 0.0_wp
         integer :: way = 0
         !> Does the law begin steep, and does the force tell the displacement
         logical :: steep = .false., by_force = .false.
@@ -59,6 +61,7 @@ contains
             associate (s => assembled%model%supports(numbers(j)), p => places(j))
                 p%deflection = deflection_at(assembled, line%deflection, numbers(j))
                 p%size = max(abs(p%deflection - s%settlement), abs(s%gap), least_displacement(s%law, s%parameter))
+                p%settled_rounding = 2*epsilon(1.0_wp)*abs(s%settlement)
                 call past_the_gap(s, p%deflection, p%past, p%way)
                 p%reached = p%way*reaction_at(assembled, line%reaction, numbers(j))
                 p%steep = begins_steep(s%law, s%parameter)
@@ -94,9 +97,9 @@ contains
         integer :: j
 
         if (tangents < usual_tangents) then
-            they_are = all(abs(places%past - places%before) <= settled_on_laws*places%size)
+            they_are = all(abs(places%past - places%before) <= settled_on_laws*places%size + places%settled_rounding)
         else
-            they_are = all(abs(places%past - places%before) <= rounding*maxval(places%size))
+            they_are = all(abs(places%past - places%before) <= rounding*maxval(places%size) + places%settled_rounding)
         end if
         if (they_are .or. any(places%by_force)) return
         ! The tangents have met the curves to the last digit: another round would move the displacements by rounding alone

@@ -104,6 +104,26 @@ def test_a_curve_that_is_just_touched(name):
             assert abs(step.deflection[0]) < 1e-12
 
 
+@pytest.mark.parametrize(
+    "law",
+    [{"type": "tanh", "stiffness": 500.0, "limit": 80.0}, {"type": "hyperbolic", "stiffness": 500.0, "limit": 80.0},
+     {"type": "cubic", "k1": 300.0, "k3": 1e5}],
+)  # fmt: skip
+def test_a_settled_support_that_next_to_nothing_reaches(law):
+    """R = k (d F/F0 - s) to first order, which the last digits of the deflection leave; tangents were not taken for settled."""
+    EI, L, s = 3000.0, 5.5, 0.006
+    # Of the beam without the support, in the middle of its two spans under a force at 0.4 of the first
+    softness = 2 * L**3 / (12 * EI) * 0.2 * (3 - 4 * 0.2**2)
+    stiffness = law.get("stiffness", law.get("k1"))
+    beside = 1 + stiffness * (2 * L) ** 3 / (48 * EI)
+    for share in (0.0, 1e-16, -1e-16, 3e-16, -1e-14, 1e-13, -1e-12):
+        loads = [{"type": "force", "x": 0.4 * L, "F": s / softness * (1 + share)}]
+        supports = [{"node": 0}, {"node": 1, "law": law, "settlement": s}, {"node": 2}]
+        made = {"beam": {"spans": [L, L], "EI": EI}, "supports": supports, "loads": loads}
+        reaction = gapbeam.solve(made).steps[-1].reaction[1]
+        assert reaction == pytest.approx(stiffness * s * share / beside, abs=16e-16 * stiffness * s)
+
+
 def test_a_support_that_opens_on_the_curve_only():
     """On the polyline of the law the end is still held; on the curve it would pull by 0.006, so it is open."""
     scene = {
