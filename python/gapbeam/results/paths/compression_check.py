@@ -82,7 +82,8 @@ def check_compression(result: Result) -> None:
         return
     struts, asked = struts_of(result._beam), not result.scene.analysis.first_order
     is_straight = not (result._beam.is_on_axial_ground or any(isinstance(load, AxialUniformLoad) for load in result.scene.loads))
-    if result._beam.has_links_along and is_straight:
+    # Steps of movements alone have no path
+    if result._beam.has_links_along and is_straight and result.path is not None:
         states = _along(result, struts)
     else:
         on_the_way = chain(result.steps, _begins(result))

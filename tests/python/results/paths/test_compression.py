@@ -264,3 +264,12 @@ def test_trains(ground):
     assert ratio(made) == pytest.approx(2.0)
     with pytest.raises(SceneError, match="with train train 1 the beam would buckle"):
         gapbeam.solve(made)
+
+
+def test_movements_alone_over_links_along_the_beam():
+    """Before they act a part can move freely, so their steps are solved by themselves; that ended in an AttributeError."""
+    supports = [at(0, law=[[0.004, 22.0], [0.03, 67.5]]), at(1, side="below"), at(2, side="below", law=[[0.004, 40.0]], gap=0.004),
+                {"node": 0, "direction": "axial"}, {"node": 0, "direction": "axial", "side": "left", "gap": 0.002}]  # fmt: skip
+    loads = [{"type": "movement", "support": 1, "value": 0.0018, "case": "dead"}]
+    result = gapbeam.solve(scene([2.5, 6.0], supports, loads, EI=2600.0, EA=1.8e5))
+    assert (result.status, result.path, result.compression) == ("solved", None, None)
