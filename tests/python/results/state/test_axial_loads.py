@@ -177,3 +177,19 @@ def test_the_report_says_so():
     assert "times that of first order" in words
     assert "Buckling factors: 8 times all N" in words
     assert "left out" not in words
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-4, 1e-8])
+def test_no_force_is_left_where_nothing_holds_the_beam_along_its_axis(size):
+    """Rounding of the reaction of a spring was taken for a tension of a weightless overhang, which it held up."""
+    below = [{"node": 0, "side": "below", "gap": 0.0069}, {"node": 1, "side": "below"}, {"node": 2, "side": "below"}]
+    along = [{"node": node, "direction": "axial", "stiffness": stiffness} for node, stiffness in ((1, 3366.7), (2, 43253.2))]
+    supports = [*below, {"node": 3}, *along]
+    made = {"beam": {"spans": [6.2, 6.9, 4.7], "EI": 633.0, "EA": 46463.0}, "supports": supports}
+    bends = [{"type": "uniform", "q": 1.8, "from": 5.4, "to": 12.0}, {"type": "moment", "x": 8.2, "M": 28.7}]
+    found = gapbeam.solve({**made, "loads": [*bends, {"type": "axial", "x": 12.5, "F": -10.7 * size}]})
+    tension = [float(found.at(x).axial_force) for x in (3.0, 9.0, 12.8, 15.0)]
+    assert (tension[0], tension[3]) == (0.0, 0.0)
+    sections = [{"from": a, "to": b, "N": N} for a, b, N in ((6.2, 12.5, tension[1]), (12.5, 13.1, tension[2]))]
+    given = gapbeam.solve({**made, "supports": supports[:4], "sections": sections, "loads": bends})
+    assert found.steps[-1].reaction[:4] == pytest.approx(given.steps[-1].reaction, rel=1e-12)
