@@ -62,7 +62,7 @@ contains
         type(piece_load_type) :: load
         type(field_type) :: left, right
         real(wp) :: force(size(solution%acts, 1)), terms(size(solution%acts, 1)), bent(2), pressed(2), wsize, msize, qsize, &
-            push(2), pull, soft(2)
+            imposed, push(2), pull, soft(2)
         !> What rounding of the places of its ends makes of its deflection, in roundings
         real(wp) :: displaced
         !> int V/GA over the length where GA changes
@@ -95,10 +95,10 @@ contains
                     call integrate()
                     if (abs(s%tension_change) > 0.0_wp) pull = l*pulled
                     call fits(of_bending, rotations, (right%rotation - left%rotation) - l*bent(1), &
-                              abs(right%rotation) + abs(left%rotation) + l*(f*msize + abs(load%kappa) + abs(load%rise)))
+                              abs(right%rotation) + abs(left%rotation) + l*(f*msize + imposed))
                     call fits(of_bending, deflections, (right%deflection - left%deflection) - l*(left%rotation + l*bent(2)) &
                               - merge(l*slid, g*(right%moment - left%moment), ground%pieces(j)%shear_power > 0), &
-                              wsize + l*(abs(left%rotation) + l*(f*msize + abs(load%kappa) + abs(load%rise))) &
+                              wsize + l*(abs(left%rotation) + l*(f*msize + imposed)) &
                               + g*(abs(right%moment) + abs(left%moment)))
                     call fits(of_equilibrium, forces, (push(2) - push(1)) - l*pressed(1), sum(abs(push)) + sizes%shear &
                               + l*(sum(terms(:n)) + qsize))
@@ -134,13 +134,15 @@ contains
             call note(ledger, what, kind, left_over, terms_of_all, solution%piece(i), solution%from(i))
         end subroutine fits
 
-        !> Sizes of what loads and the pressures of the layers are made of
+        !> Sizes of what loads, imposed curvatures and the pressures of the layers are made of
         subroutine take_sizes()
             integer :: k
 
             associate (j => solution%piece(i))
                 qsize = abs(ground%dead(j)%qa) + abs(ground%dead(j)%qb) + abs(factor)*(abs(ground%live(j)%qa) &
                                                                                       + abs(ground%live(j)%qb))
+                imposed = abs(ground%dead(j)%kappa) + abs(ground%dead(j)%rise) + abs(factor)*(abs(ground%live(j)%kappa) &
+                                                                                             + abs(ground%live(j)%rise))
                 terms(:) = 0.0_wp
                 do k = 1, n
                     terms(k) = pressure_terms(ground%layers(ground%first(j) + k - 1), ground%laws, solution%acts(k, i), wsize)
@@ -221,9 +223,9 @@ contains
                     y(1) = y(1) + here(2)*y(3)
                     slope = abs(left%rotation) + abs(soft(2)*left%shear)
                     call fits(of_bending, deflections, right%deflection - y(1), wsize + l*(slope &
-                              + l*(soft(1)*msize + abs(load%kappa) + abs(load%rise))))
+                              + l*(soft(1)*msize + imposed)))
                     call fits(of_bending, rotations, right%rotation - y(2), abs(right%rotation) + slope &
-                              + l*(soft(1)*msize + abs(load%kappa) + abs(load%rise)))
+                              + l*(soft(1)*msize + imposed))
                     call fits(of_equilibrium, moments, right%moment - y(3), msize + l*(abs(left%shear) + l*(sum(terms) + qsize)))
                     call fits(of_equilibrium, forces, right%shear - y(4), abs(left%shear) + abs(right%shear) &
                               + l*(sum(terms) + qsize))

@@ -176,7 +176,8 @@ contains
                 if (searching .and. any(places%steep .and. places%reached > 0.0_wp)) then
                     searching = .false.  ! the last digits come from the forces
                 else
-                    call audit_laws(assembled, numbers, places, largest_deflection(assembled, line%deflection), error)
+                    call audit_laws(assembled, numbers, places, largest_deflection(assembled, line%deflection), &
+                                    scale(maxval(abs(line%reaction)), assembled%units%force), error)
                     if (.not. allocated(error) .or. searching) then
                         if (.not. allocated(error)) call see_capacity(assembled, numbers, places, factor, state)
                         state%solves = solves
@@ -302,12 +303,12 @@ contains
     end subroutine see_capacity
 
     !> Refuse forces that are off their laws by more than rounding
-    subroutine audit_laws(assembled, numbers, places, most, error)
+    subroutine audit_laws(assembled, numbers, places, most, greatest, error)
         type(assembled_type), intent(in) :: assembled
         integer, intent(in) :: numbers(:)
         type(place_type), intent(in) :: places(:)
-        !> The largest deflection of the beam, of which the others are known to its last digit
-        real(wp), intent(in) :: most
+        !> The largest deflection and reaction of the beam, of which the others are known to its last digit
+        real(wp), intent(in) :: most, greatest
         type(error_type), allocatable, intent(out) :: error
         real(wp) :: force, slope, steep, off, least
         integer :: j
@@ -322,7 +323,7 @@ contains
             ! One that only touches may be open by rounding
             if (steep > huge(steep)) steep = 0.0_wp
             off = abs(force - places(j)%reached)
-            least = rounding*(abs(force) + slope*maxval(places%size)) + last_digit*(steep*most + maxval(abs(places%reached)))
+            least = rounding*(abs(force) + slope*maxval(places%size)) + last_digit*(steep*most + greatest)
             if (off <= audited*least) cycle
             call fatal_error(error, gapbeam_not_converged, &
                              trim(named(of_supports, numbers(j), size(assembled%model%supports)))//": law: the result does "// &

@@ -147,7 +147,7 @@ contains
                 if (p%by_force .or. overshot .or. halved) p%deflection = s%settlement + p%way*(s%gap + p%past)
                 call force_and_slope(s, p%past, force, slope)
                 ! So flat that it changes no digit of the force, or of the state
-                if (slope*p%past <= flat_slope*force .or. slope < least) slope = 0.0_wp
+                if ((slope*p%past <= flat_slope*force .and. force > 0.0_wp) .or. slope < least) slope = 0.0_wp
                 ! Where another support holds the beam a curve that begins steep carries nothing
                 if (slope > huge(slope)) slope = merge(0.0_wp, slope, is_held_beside(assembled, numbers(j), p%deflection, lines))
                 call put_line(assembled, numbers(j), p%deflection, force*p%way, slope, lines)

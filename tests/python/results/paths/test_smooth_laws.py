@@ -124,6 +124,26 @@ def test_a_settled_support_that_next_to_nothing_reaches(law):
         assert reaction == pytest.approx(stiffness * s * share / beside, abs=16e-16 * stiffness * s)
 
 
+def test_a_compressed_beam_without_loads_on_a_curve():
+    """At the origin a curve has its slope; a force of nothing was taken for a flat part, and the beam was held by nothing."""
+    law = {"type": "tanh", "stiffness": 2000.0, "limit": 180.0}
+    made = {"beam": {"spans": [7.8], "EI": 30000.0, "N": -3.4}, "supports": [{"node": 0, "law": law}, {"node": 1}], "loads": []}
+    assert gapbeam.solve(made).status == "solved"
+
+
+def test_a_force_of_next_to_nothing_beside_reactions():
+    """The force on a curve that is met in an event is known to the last digit of the other reactions."""
+    law = {"type": "tanh", "stiffness": 2925.7, "limit": 73.2}
+    supports = [{"x": 19.67}, {"x": 16.47}, {"x": 12.56, "side": "below", "law": law}, {"x": 5.02}, {"x": 0.0}]
+    loads = [{"type": "linear", "q": [-1.35, 7.67], "from": 9.8, "to": 18.45}, {"type": "force", "F": 3.52, "x": 10.17},
+             {"type": "temperature", "dT": -0.1, "gradient": 9.4, "case": "dead"}]  # fmt: skip
+    beam = {"spans": [5.02, 7.54, 3.91, 3.2], "EI": 1347.79, "alpha": 1.2e-05, "depth": 0.4}
+    result = gapbeam.solve({"beam": beam, "supports": supports, "loads": loads, "analysis": {"follow": "events"}})
+    (closes,) = result.events
+    step = result.path.step(result.segments[-1], closes.factor)
+    assert abs(step.reaction[2]) < 1e-13 * np.abs(step.reaction).max()
+
+
 def test_a_support_that_opens_on_the_curve_only():
     """On the polyline of the law the end is still held; on the curve it would pull by 0.006, so it is open."""
     scene = {

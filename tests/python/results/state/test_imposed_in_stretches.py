@@ -172,3 +172,14 @@ def test_a_curvature_without_loads_off_all_ground(EI):
     assert abs(plain.steps[-1].reaction).max() > 0.3
     assert found.steps[-1].reaction == pytest.approx(plain.steps[-1].reaction, rel=1e-13)
     assert found.at([0.0, 1.3, 3.0]).moment == pytest.approx(plain.at([0.0, 1.3, 3.0]).moment, rel=1e-13)
+
+
+def test_a_curvature_that_takes_another_one_back():
+    """On the way up to the full load the beam is straight once, but for rounding of the two."""
+    made = {"beam": {"spans": [9.0], "EI": 4500.0, "N": 1.8, "alpha": 1.2e-5, "depth": 0.4}, "supports": [{"node": 0}, {"node": 1}],
+            "loads": [{"type": "curvature", "kappa": 0.00118},
+                      {"type": "temperature", "dT": 0.0, "gradient": 0.9, "case": "dead"}]}  # fmt: skip
+    back = 1.2e-5 * 0.9 / 0.4 / 0.00118
+    for factor in (1.0, back * (1 + 1e-9), back * (1 - 3e-16), back):
+        result = gapbeam.solve({**made, "analysis": {"follow": "events"}})
+        assert abs(result.at(4.5, factor=factor).moment) < 0.03
