@@ -220,7 +220,10 @@ contains
 
             if (has_ended(error)) return
             if (is_solved(outcome, error)) then
-                if (all((acting .eqv. state%closed) .or. state%ground%undecided)) return
+                ! At the end of a piece a law is on that which is known: it has the slope for what comes next
+                associate (is_law => ground%beam%supports%breakpoint > 0)
+                    if (all((acting .eqv. state%closed) .or. (state%ground%undecided .and. .not. is_law))) return
+                end associate
             end if
             laws = ground%beam%supports
             call extend_pieces(ground%beam%supports, state%closed)

@@ -100,6 +100,28 @@ def test_modes_feel_the_segments_that_act():
     assert result.buckling == pytest.approx(linear.buckling, rel=1e-13)
 
 
+@pytest.mark.parametrize("case", ["dead", "live"])
+def test_modes_of_supports_that_stay_where_they_have_yielded(case):
+    """Under dead loads alone they stand at the end of their way, on the piece that they came on; rounding chose one."""
+    yields = {"side": "below", "unloading": "plastic"}
+    supports = [{"x": 0.0}, {"x": 7.59, **yields, "side": "both", "law": [[0.004, 11.2], [0.03, 65.8]]},
+                {"x": 14.58, **yields, "law": [[0.004, 9.6], [0.03, 68.8]]}, {"x": 20.69, "side": "below"}]  # fmt: skip
+    loads = [{"type": "linear", "q": [-1.17, 2.66], "from": 2.38, "to": 14.92, "case": case},
+             {"type": "force", "F": 32.59, "x": 8.69, "case": case}]  # fmt: skip
+    made = {"beam": {"spans": [7.59, 6.99, 6.11], "EI": 1220.15, "mass": 1.86}, "supports": supports, "loads": loads}
+    result = gapbeam.solve({**made, "analysis": {"frequencies": 2, "follow": "events"}})
+    assert result.steps[-1].state == ("bilateral", "branch 2", "branch 2", "open")
+    # As if springs with the slopes of these pieces held it
+    for support, law in zip(supports, ([1.0], [0.026, 54.6], [0.026, 59.2], [1.0]), strict=True):
+        support.pop("law", None)
+        support.pop("unloading", None)
+        support.update({"side": "both", "stiffness": law[1] / law[0]} if len(law) > 1 else {})
+    beside = {**made, "loads": [{"type": "force", "x": 8.69, "F": 1.0}, {"type": "force", "x": 20.69, "F": -50.0}]}
+    expected = gapbeam.solve({**beside, "analysis": {"frequencies": 2}})
+    assert expected.steps[-1].state[3] == "open"
+    assert result.frequencies == pytest.approx(expected.frequencies, rel=1e-10)
+
+
 def test_prepared_cases_and_combinations_are_put_on_once():
     made = moored(analysis={})
     for factor, reaction in zip((0.5, 1.0), gapbeam.prepare(made).solve([[0.5], [1.0]]).reaction, strict=True):
