@@ -50,6 +50,7 @@ contains
         !> The span, 0..n, and the distance from its left end
         integer, intent(out) :: span
         real(wp), intent(out) :: offset
+        real(wp) :: rounding
 
         ! Never the right end of the beam
         span = last_not_above(ends(:ubound(ends, 1) - 1), x)
@@ -57,9 +58,14 @@ contains
         if (ends(span + 1) - x <= position_tolerance*abs(x)) then
             span = span + 1
             offset = 0.0_wp
-        else if (offset <= position_tolerance*abs(x)) then
-            offset = 0.0_wp
+            return
         end if
+        rounding = position_tolerance*abs(x)
+        ! What is left of a distance from the right end, unless the first span is as short
+        associate (of_beam => position_tolerance*ends(ubound(ends, 1)))
+            if (span == 0 .and. ends(1) > of_beam) rounding = of_beam
+        end associate
+        if (offset <= rounding) offset = 0.0_wp
     end subroutine locate
 
     !> Points from left to right, places that differ by rounding only taken as one

@@ -12,6 +12,7 @@ from scenes import (
     foundation,
     law,
     links_along,
+    mixed,
     moving,
     plain,
     rigid_ground,
@@ -76,6 +77,7 @@ KINDS = {
     "rack": _rack,
     "pipe": lambda seed: _first_order(links_along.random_pipe(random.Random(seed))),
     "pile": lambda seed: _first_order(bedded_bar(seed)),
+    "mixed": lambda seed: _plain(mixed.mixed_scene(seed)[1]),
     "pile on ground": lambda seed: {**_first_order(bedded_bar(seed)), "foundation": [{"k": 1e4}]},
     **{family: lambda seed, family=family: _plain(law.law_scene(seed, family)) for family in law.FAMILIES},
 }
@@ -152,8 +154,9 @@ class State:
 
     def seen(self, road, found, turned, x=None, side="right"):
         """The same beam seen from behind or upside down, where some quantities have another sign."""
-        signs = (-1.0, 1.0) if "axial_displacement" in turned else (1.0, -1.0)
-        signs = np.where([one.direction == "axial" for one in found.scene.supports], *signs)
+        behind = "axial_displacement" in turned
+        changes = ("axial", "rotational") if behind else ("normal", "rotational", "hinge")
+        signs = np.where([one.direction in changes for one in found.scene.supports], -1.0, 1.0)
         self.reactions(road, signs * found.steps[-1].reaction)
         there = found.at(self.x if x is None else x, side=side).columns()
         for name in self.sizes:

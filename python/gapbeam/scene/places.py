@@ -72,6 +72,8 @@ def locate(x: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     span = np.clip(np.searchsorted(ends, x, side="right") - 1, 0, len(ends) - 2)
     tolerance = POSITION_TOLERANCE * np.abs(x)
     at_right = ends[span + 1] - x <= tolerance
+    if ends[1] > POSITION_TOLERANCE * ends[-1]:  # at the left end what is left of a distance from the right end
+        tolerance = np.where(span == 0, POSITION_TOLERANCE * ends[-1], tolerance)
     span = span + at_right
     offset = np.where(at_right, 0.0, x - ends[span])
     return span, np.where(offset <= tolerance, 0.0, offset)

@@ -54,6 +54,8 @@ def points_by_the_rule(ends, anchors, others):
         return abs(x - y) <= POSITION_TOLERANCE * max(abs(x), abs(y))
 
     points = sorted(ends)
+    # At the left end rounding is that of the whole beam
+    anchors, others = ([0.0 if x <= POSITION_TOLERANCE * ends[-1] else x for x in group] for group in (anchors, others))
     for group in (sorted(anchors), sorted(others)):
         begun = []
         for x in group:
@@ -87,7 +89,7 @@ def test_places_become_points_by_the_rule(seed):
     assert (np.diff(x) > POSITION_TOLERANCE * x[1:] * (1 - 1e-12)).all()
     for given in (*supports, *loads):
         point = x[np.abs(x - given).argmin()]
-        assert abs(given - point) <= POSITION_TOLERANCE * max(given, point)
+        assert abs(given - point) <= POSITION_TOLERANCE * (max(given, point) if point > 0.0 else ends[-1])
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -185,6 +187,16 @@ def test_what_is_at_the_same_point_is_refused_everywhere(library, supports, hing
 
 
 BEYOND = (1.0 + 9e-13, 1.0 + 3e-14, 1.0 + 2e-16, 1.0)
+
+
+@pytest.mark.parametrize("x", [1.7763568394002505e-15, -1.7763568394002505e-15, 1e-13])
+def test_what_is_left_of_a_distance_from_the_right_end_is_at_the_left_end(x):
+    """As 4.23 + 6.05 - 10.28 is: a piece as short lost all reactions in rounding."""
+    supports = [{"x": 10.28}, {"x": x, "side": "below", "gap": 0.009}]
+    loads = [{"type": "uniform", "q": 6.6, "from": x}, {"type": "force", "x": x, "F": 1.0}]
+    made = {"beam": {"spans": [4.23, 6.05], "EI": 2343.79}, "supports": supports, "loads": loads}
+    result = gapbeam.solve(made)
+    assert result.steps[-1].reaction == pytest.approx([6.6 * 10.28 / 2, 6.6 * 10.28 / 2 + 1.0], rel=1e-13)
 
 
 @pytest.mark.parametrize("x", BEYOND)
