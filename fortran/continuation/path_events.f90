@@ -37,7 +37,14 @@ contains
         integer :: k, pass, holds
 
         holds = 0
-        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) holds = findloc(after .and. .not. before, .true., 1)
+        if (any((before .neqv. after) .and. merge(was_far, is_far, after))) then
+            holds = findloc(after .and. .not. before, .true., 1)
+            if (holds == 0) then
+                ! A law that goes back to an earlier piece
+                k = findloc((before .neqv. after) .and. was_far, .true., 1)
+                if (k > 0) call add_event(path, factor, k, gapbeam_turns)
+            end if
+        end if
         do pass = 1, 2
             closes = pass == 2
             if (closes .and. holds > 0) call add_event(path, factor, holds, gapbeam_turns)
