@@ -41,7 +41,8 @@ contains
                 if (s(k)%direction == 0 .and. k < size(s) .and. s(k)%leg > 0) then
                     call go_to(path, k, at, pieces)
                     which = switching(s(k + 1), pieces)
-                    which = pack(which, .not. pieces%closed(which))
+                    ! A law that goes back to an earlier piece holds as well
+                    if (.not. all(pieces%closed(which))) which = pack(which, .not. pieces%closed(which))
                     if (size(which) > 0) call add_event(event_type(s(k)%from, assembled%normal(minval(which)), gapbeam_turns, &
                                                                    gapbeam_turns, k), events, number)
                 end if

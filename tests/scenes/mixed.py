@@ -4,7 +4,7 @@ import random
 from itertools import accumulate
 
 PARTS = ("along", "friction", "temperature", "hinge", "restraints", "taper", "ground", "N", "mass", "laws", "plastic", "curves",
-         "movement", "GA")  # fmt: skip
+         "GA")  # fmt: skip
 
 
 def mixed_scene(seed):
@@ -103,7 +103,4 @@ def _loads(rng, parts, nodes):
         loads.append({"type": "temperature", **warm, "case": rng.choice(("live", "dead"))})
     if parts & {"along", "friction"}:
         loads.append({"type": "axial", "F": round(rng.uniform(-15.0, 15.0), 2), "x": round(rng.random() * length, 2)})
-    if "movement" in parts:
-        loads.append({"type": "movement", "support": rng.randrange(len(nodes)), "value": round(rng.uniform(-0.005, 0.01), 4),
-                      "case": rng.choice(("live", "dead"))})  # fmt: skip
     return loads

@@ -27,6 +27,21 @@ def test_midspan_gap_closes():
     assert events(result) == [(pytest.approx(76.8 * 3.0 * 0.01 / 4.0**4 / 10.0, rel=1e-14), 1, "closes")]
 
 
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_a_loose_hinge_turns_either_way(way, friction):
+    """The couple grows past what the loads make at the hinge, which goes from one end of its slack to the other."""
+    beam = {"spans": [4.0], "EI": 1000.0}
+    loads = [{"type": "uniform", "q": way, "case": "dead"}, {"type": "moment", "x": 4.0, "M": 10.0 * way}]
+    made = {"beam": beam, "loads": loads, "hinges": [{"x": 2.0, "slack": 0.01}]}
+    supports = [{"node": 0}, {"node": 1, "friction": friction}, {"node": 0, "direction": "axial"}]
+    result = solve({**made, "supports": supports})
+    # q L^2/8 = lambda M/2
+    assert [(event.event, event.factor) for event in result.events] == [
+        (name, pytest.approx(0.4, rel=1e-12)) for name in ("turns", "opens", "closes")
+    ]
+
+
 def test_a_beam_that_turns_opens_first_and_closes_last():
     """A seesaw with 10 on its left arm tips as 20 on the right one reach half: onto the support 0.1 below."""
     supports = [at(1), at(0, side="below"), at(2, side="below", gap=0.1)]
