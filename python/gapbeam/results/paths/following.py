@@ -7,6 +7,7 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
+import msgspec
 import numpy as np
 
 from ...base.errors import WITHOUT_ANSWER, EngineError, SceneError, Status
@@ -120,6 +121,8 @@ def _moves_settled(result: Result) -> bool:
     scene = result.scene
     if scene.analysis.has_history:
         return False
+    if result._beam.has_links_along:  # of first order, as where the movement is followed
+        scene = msgspec.structs.replace(scene, analysis=msgspec.structs.replace(scene.analysis, first_order=True))
     settled = settle_movements(scene)
     beam = result._beam if settled is scene else beam_of(settled)
     if beam.depends_on_path:

@@ -219,6 +219,17 @@ def test_where_no_path_begins_every_step_is_that_with_settlements(steps):
     assert pickle.loads(pickle.dumps(result)).steps[0].reaction == pytest.approx(result.steps[0].reaction)
 
 
+def test_axial_supports_move_where_no_path_begins():
+    """Of first order, as where such a path begins; what is pressed is looked at step by step."""
+    supports = [at(0), at(1), at(3, side="below"), at(0, direction="axial"), at(3, direction="axial")]
+    made = scene([3.0, 2.0, 2.0], supports, [force(5.0, 5.0), movement(4, 0.0004)], EA=1e5, hinges=[1.0])
+    result = gapbeam.solve(made)
+    assert result.steps[-1].reaction == pytest.approx([0.0, 2.5, 2.5, -40.0 / 7, 40.0 / 7], rel=1e-14)
+    made["loads"][1]["value"] = -0.5
+    with pytest.raises(gapbeam.SceneError, match="the beam would buckle"):
+        gapbeam.solve(made)
+
+
 def test_a_path_that_does_not_begin_is_refused_by_events():
     with pytest.raises(gapbeam.EngineError, match=r"can move freely.*take steps"):
         gapbeam.solve(free_at_first(**EVENTS))
