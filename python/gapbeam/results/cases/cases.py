@@ -147,8 +147,9 @@ class Prepared(Pickled):
         if start is not None:
             closed = self._solver.starting(scheme(start, len(self.supports), "support across the beam"))
         varied = self._vary(extra_settlement, given, many)
-        names = wanted_names(want) if out is None else self._fitting(out, want, count)
-        return self._solver.solve(many, closed, varied, names, single=count is None, out=out)
+        solver = self._solver.along(varied)
+        names = wanted_names(want) if out is None else self._fitting(solver.beam, out, want, count)
+        return solver.solve(many, closed, varied, names, single=count is None, out=out)
 
     def _solve_one(
         self, one: OneCase, factors: ArrayLike | None, settlement: Given, gap: Given, stiffness: Given, out: Cases | None
@@ -168,11 +169,11 @@ class Prepared(Pickled):
         block = np.empty(one.size) if out is None else out._block
         return case_in_block(one, block, supports, out) if one.solve(factors, supports, block) else None
 
-    def _fitting(self, out: Cases, want: str | Collection[str] | None, count: int | None) -> tuple[str, ...]:
+    def _fitting(self, beam: Beam, out: Cases, want: str | Collection[str] | None, count: int | None) -> tuple[str, ...]:
         """Refuse cases that cannot be filled again with what is wanted; give what that is."""
         if not isinstance(out, Cases):
             raise ValueError(f"out: expected Cases, of this beam, got {type(out).__name__}")
-        if out._beam is not self._solver.beam:
+        if out._beam is not beam:
             raise ValueError("out: these cases are of another prepared beam; give cases of this one")
         if want is not None and out._names != wanted_names(want):
             wanted = ", ".join(out._names) or "nothing else"
@@ -270,8 +271,10 @@ class Prepared(Pickled):
         given = {"settlement": settlement, "gap": gap, "stiffness": stiffness, "EI": EI, "GA": GA, "k": k}
         if factors.ndim != 1 or cases_in({**given, "extra_settlement": extra_settlement}) is not None:
             raise ValueError(f"{'factors' if factors.ndim != 1 else 'numbers by case'}: expected one case")
-        result = self._solver.result(factors, self._vary(extra_settlement, given, factors[None, :]))
-        if self._solver.may_buckle and result.compression is not None and result.compression.is_refused:
+        varied = self._vary(extra_settlement, given, factors[None, :])
+        solver = self._solver.along(varied)
+        result = solver.result(factors, varied)
+        if solver.may_buckle and result.compression is not None and result.compression.is_refused:
             raise result.compression.refusal()
         return result
 

@@ -16,7 +16,8 @@ from ...engine.calls import FEW_NODES
 from ...engine.cases import OneCase, solve_cases, split_loads
 from ...engine.combinations import Varied, all_combinations
 from ...scene.held import hold
-from ...scene.movements import Movements
+from ...scene.movements import Movements, replace_settlements
+from ...scene.reading import prepared_beam
 from ...scene.structs import Scene
 from ..paths.compression_check import pieces_in_sections, refused_cases
 from ..result import Result
@@ -64,6 +65,7 @@ class CaseSolver(Pickled):
         # What its effect on bending is, is left out: cases whose compression is beyond the Euler load are refused
         axial = len(beam.bends) - int(beam.bends.sum())
         self.may_buckle = (beam.bars >= 0 or axial > 1) and not scene.analysis.first_order and not beam.feels_axial_loads
+        self._may_be_pushed = beam.bars < 0 and axial > 1
         self.one = self._condense()
 
     def __getstate__(self) -> dict[str, Any]:
@@ -80,7 +82,8 @@ class CaseSolver(Pickled):
         """Condense the loads, and make the short call."""
         split_loads(self.beam)
         short = len(self.scene.loads) > 0 and self.beam.links + 1 < FEW_NODES and self.movements is None
-        return OneCase(self.beam, self.rule, self.scene) if short and self._carries is None and not self.may_buckle else None
+        short = short and self._carries is None and not (self.may_buckle or self._may_be_pushed)
+        return OneCase(self.beam, self.rule, self.scene) if short else None
 
     def moved(self, factors: np.ndarray, varied: Varied) -> Varied:
         """Move supports by the loads that do so.
@@ -114,6 +117,25 @@ class CaseSolver(Pickled):
         supports = supports.copy()
         supports[:, :-1, 0] += moves
         return replace(varied, supports=supports)
+
+    def along(self, varied: Varied) -> CaseSolver:
+        """Give the solver of cases in which supports move along the axis, of whose forces the beam knows nothing so far.
+
+        Parameters
+        ----------
+        varied : Varied
+            Numbers that differ from those of the beam.
+        """
+        if not self._may_be_pushed or varied.supports is None:
+            return self
+        moved = varied.supports[:, :-1, 0] != self.columns.support[3, :-1]
+        return self._along if moved[:, ~self.beam.bends].any() else self
+
+    @cached_property
+    def _along(self) -> CaseSolver:
+        """Of the same beam with forces along it: its axial supports have moved by a share of its length, and every case its own."""
+        moves = np.where(self.beam.bends, 0.0, self.beam.places.end / 1024)
+        return solver_of(self.scene, prepared_beam(replace_settlements(self.scene, moves)), self.rule, self.movements, self.columns)
 
     def starting(self, closed: np.ndarray) -> np.ndarray:
         """Give the start of a search.

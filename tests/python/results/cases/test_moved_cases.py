@@ -110,3 +110,25 @@ def test_a_dead_movement_that_parts_two_rigid_supports():
     right = gapbeam.solve(made).steps[-1].reaction
     assert prepared.solve(settlement={2: [0.001]}).reaction[0] == pytest.approx(right, rel=1e-13)
     assert pickle.loads(pickle.dumps(prepared)).result().steps[-1].reaction == pytest.approx(prepared.solve().reaction, rel=1e-13)
+
+
+@pytest.mark.parametrize("first_order", [False, True])
+def test_axial_supports_that_move_where_nothing_else_pushes(first_order):
+    """They were not felt: the beam of the scene has no axial forces."""
+    along = [at(0, direction="axial"), at(2, direction="axial", name="jack")]
+    made = scene([3.0, 4.0], [at(0), at(1, side="below"), at(2), *along], [uniform(5.0)], EI=1e3, EA=1e5)
+    made["analysis"] = {"first_order": first_order}
+    prepared = pickle.loads(pickle.dumps(gapbeam.prepare(made)))
+    moved = prepared.solve([[1.0], [1.0]], extra_settlement={"jack": [0.006, -0.006]})
+    for k, value in enumerate((0.006, -0.006)):
+        made["supports"][4]["settlement"] = value
+        right, one = gapbeam.solve(made), prepared.solve([1.0], settlement={4: value})
+        assert moved.reaction[k] == pytest.approx(right.steps[-1].reaction[:3], rel=1e-14)
+        assert moved.at([1.0]).axial_force[k] == pytest.approx(right.extremes["axial_force"]["max"].value, rel=1e-14)
+        assert one.at([1.0]).moment == pytest.approx(right.at([1.0]).moment, rel=1e-14)
+        assert prepared.result(settlement={"jack": value}).at(1.0).moment == pytest.approx(right.at(1.0).moment, rel=1e-14)
+        assert prepared.solve([1.0], settlement={4: value}, out=one) is one
+    del made["supports"][4]["settlement"]
+    made["loads"].append(movement(4, 0.006))
+    cases = gapbeam.prepare(made).solve([1.0, 0.5])
+    assert cases.at(1.0).axial_force == pytest.approx(0.5 * 0.006 * 1e5 / 7, rel=1e-14)
