@@ -56,9 +56,9 @@ contains
         held = ground
         call leave_out_falling(held%beam%supports)
         if (.not. is_unique(held)) then
-            call fatal_error(error, gapbeam_bad_input, "a history is followed only where the compressed beam (N below 0) is "// &
-                             "stable with all supports that yield or act one way open; press less, or give it more supports "// &
-                             "that hold it both ways")
+            call fatal_error(error, gapbeam_bad_input, "a history, or supports that yield or that loads move, are "// &
+                             "followed only where the compressed beam (N below 0) is stable with all supports that yield or "// &
+                             "act one way open; press less, or give it more supports that hold it both ways")
             return
         end if
         call refine_ground(ground, fine)
