@@ -82,9 +82,10 @@ contains
         ! Back: N right of the last point is zero
         pull = 0.0_wp
         do i = n, 1, -1
-            if (rigid(i)) then
+            if (rigid(i) .or. .not. (k(i) > 0.0_wp .or. fixed(i))) then
+                ! Without support on its left it is known by statics, and what is not loaded there has no rounding of the supports
                 left = k(i)*displacement(i) + n0(i)
-                reaction(i) = left - pull - force(i)
+                if (stiffness(i) > 0.0_wp) reaction(i) = left - pull - force(i)
             else
                 reaction(i) = -stiffness(i)*(displacement(i) - settlement(i))
                 left = pull + force(i) + reaction(i)

@@ -294,7 +294,7 @@ contains
     !> Bars in a row
     subroutine along_the_axis()
         real(wp) :: u(0:2), reaction(0:2), tension(2)
-        integer :: state, place
+        integer :: state, place, i
 
         call solve_axial([0.5_wp, 0.25_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 4.0_wp], [infinite(), 0.0_wp, 0.0_wp], &
                          spread(0.0_wp, 1, 3), u, &
@@ -311,6 +311,11 @@ contains
                          [0.0_wp, 0.0_wp, 1.0_wp], u, tension, reaction, state, place)
         call check_close(u, [0.0_wp, 0.5_wp, 0.5_wp], "a spring that settles pulls a rigid bar")
         call check_close(reaction, [-1.0_wp, 0.0_wp, 1.0_wp], "with the same force at both ends")
+        do i = 1, 100
+            call solve_axial([0.3_wp, 0.7_wp], [0.0_wp, 0.0_wp], [0.0_wp, i/7.0_wp, 0.0_wp], [0.0_wp, 3.0_wp, 0.0_wp], &
+                             spread(0.0_wp, 1, 3), u, tension, reaction, state, place)
+            call check_close(tension, [0.0_wp, 0.0_wp], "a spring takes all that stands there", absolute=0.0_wp)
+        end do
     end subroutine along_the_axis
 
     !> Nothing holds, or statics cannot tell

@@ -164,6 +164,20 @@ def test_one_support_along_the_axis_lets_temperature_pass():
     assert not gapbeam.solve(scene)._beam.in_stretches
 
 
+def test_what_a_spring_takes_where_it_stands_leaves_no_force_beside_it():
+    """A rounding of it held an overhang like a string: it was taken for stiff, and zones of the ground could not be settled."""
+    scene = {
+        "beam": {"spans": [4.0, 2.0], "EI": 2000.0, "EA": 2e5}, "sections": [{"from": 5.0, "EA": [6e4, 2e5]}],
+        "supports": [{"node": 2}, {"node": 1}, {"node": 1, "direction": "axial", "stiffness": 1e5}],
+        "foundation": [{"k": 5000.0, "side": "below"}],
+        "loads": [{"type": "linear", "q": [-9.0, 6.0]}, {"type": "axial", "node": 1, "F": 90.0},
+                  {"type": "curvature", "from": 5.0, "to": 5.5, "kappa": 0.003}],
+    }  # fmt: skip
+    result = gapbeam.solve(scene)
+    scene["loads"][1]["F"] = 0.0
+    assert result.steps[-1].reaction == pytest.approx([*gapbeam.solve(scene).steps[-1].reaction[:2], -90.0], rel=1e-13)
+
+
 def test_compression_beyond_the_shear_stiffness_is_refused():
     scene = column(0.5)
     scene["beam"]["GA"] = 4.0
