@@ -38,7 +38,7 @@ module gapbeam_tolerances
     !> square, 1e-12. Read by cases/lane_reactions, precision/extended_precision
     real(wp), parameter :: worst_correction = 1e-6_wp
     !> Roundings of a row of the system, or of a term of a field's polynomial, at most: four operations each. Read by
-    !> cases/lane_certificate, cases/lane_row_errors, continuation/affine_response, precision/certificate
+    !> cases/lane_certificate, cases/lane_row_errors, continuation/affine_response, precision/certificate, response/solution
     real(wp), parameter :: rounding_unit = 4*epsilon(1.0_wp)
     !> Share of a field by which a bound of it is widened before a piece is left out of the search for extremes: far more than
     !> rounding, and too little to cost pieces. Read by beam/fields, cases/lane_roots

@@ -4,6 +4,7 @@ module gapbeam_solution
     use gapbeam_error, only: error_type, fatal_error, failed, gapbeam_indeterminate
     use gapbeam_element, only: field_type
     use gapbeam_polyline, only: node_support_type, last_breakpoint
+    use gapbeam_tolerances, only: rounding_unit
     use gapbeam_words, only: shown
     use gapbeam_input_error, only: refuse_range, named, of_supports
     use gapbeam_ground_solver, only: ground_solution_type
@@ -316,13 +317,18 @@ contains
         type(assembled_type), intent(in) :: assembled
         type(state_type), intent(in) :: state
         type(node_support_type) :: laws(size(assembled%beam%supports))
+        real(wp) :: moved(size(laws))
 
         if (allocated(state%laws)) then
             laws(:) = state%laws
         else
             laws(:) = assembled%beam%supports
         end if
-        if (allocated(assembled%growth)) laws%contact = laws%contact + state%factor*growth_of(assembled)
+        if (.not. allocated(assembled%growth)) return
+        moved(:) = state%factor*growth_of(assembled)
+        laws%contact = laws%contact + moved
+        ! At the event at which one comes to a beam that nothing bends, the rounding of the load factor is all that is left
+        where (abs(laws%contact) <= rounding_unit*abs(moved)) laws%contact = 0.0_wp
     end function laws_in
 
     !> The law of a link along the beam, its contacts where they have gone and are in a state

@@ -88,6 +88,18 @@ def test_a_plastic_support_keeps_a_set():
     assert result.state(0.0).deflection[1] == pytest.approx(0.04, rel=1e-13)
 
 
+def test_a_movement_that_comes_back_leaves_a_beam_without_load():
+    """Where the support that moved lets go all deflections are 0, and rounding of the load factor is all there is."""
+    yields = {"law": [[0.004, 8.0], [0.008, 12.0], [0.016, 14.4]], "unloading": "plastic"}
+    comes = at(2, side="above", law=[[0.02, 10.0], [0.06, 10.0]], gap=0.002)
+    made = scene([5.0, 4.0], [at(1), comes, {"x": 2.5, **yields}], [movement(1, 0.01)], EI=5e3)
+    result = gapbeam.solve({**made, "analysis": {**EVENTS, "history": [1.0, 0.0, 1.5, -0.5]}})
+    assert [event.event for event in result.events] == ["closes", "opens"] * 2
+    assert result.loop(2).energy == pytest.approx(0.0, abs=1e-12)
+    for segment in result.segments[2::2]:
+        assert np.abs(result.path.along(segment)[-1].reaction).max() < 1e-12
+
+
 def test_dead_movements_are_settlements():
     made = scene([4.0, 5.0], [at(0), at(1), at(2)], [uniform(3.0), movement(1, 0.01, case="dead")], EI=500.0)
     other = scene([4.0, 5.0], [at(0), at(1, settlement=0.01), at(2)], [uniform(3.0)], EI=500.0)
